@@ -1,0 +1,41 @@
+# Every target makes .venv from requirements.lock when it is missing or older than the lock.
+PYTHON ?= python3
+BIN := .venv/bin
+export OMP_NUM_THREADS ?= 1
+export OPENBLAS_NUM_THREADS ?= 1
+
+.PHONY: run test test-all lint bench mutate ui lock clean
+
+run: .venv/ready
+	$(BIN)/surfexp run
+
+test: .venv/ready
+	$(BIN)/pytest -n 2 --dist loadgroup -m "not slow"
+
+test-all: .venv/ready
+	$(BIN)/pytest -n 2 --dist loadgroup
+
+lint: .venv/ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	@echo "framework (surfexp/workflow): $$(cat surfexp/workflow/*.py surfexp/workflow/*.smk | grep -c '[^[:space:]]') lines of at most 1000, blank ones not counted"
+	@test $$(cat surfexp/workflow/*.py surfexp/workflow/*.smk | grep -c '[^[:space:]]') -le 1000
+
+ui: .venv/ready
+	$(BIN)/surfexp ui
+
+.venv/ready: requirements.lock pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(0 if (3, 11) <= sys.version_info < (3, 14) else "surfexp needs Python 3.11, 3.12 or 3.13; set PYTHON=")'
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation -e .
+	touch .venv/ready
+
+lock: # needs uv; writes no index address
+	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
+		pyproject.toml --extra dev -o requirements.lock
+
+clean:
+	rm -rf results/[!R]* .snakemake

@@ -1,0 +1,22 @@
+"""Convex two-phase segmentation (2.19)."""
+
+from pydantic import Field
+
+from surfexp.variational.convex_chan_vese_model import ConvexChanVese
+from surfexp.variational.model import Model
+from surfexp.workflow.registry import Options, register
+
+
+class ConvexChanVeseOptions(Options):
+    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
+    mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
+    updates: int = Field(20, ge=1, le=1000, description="largest number of updates of the two means")
+    divide_by_area: bool = Field(True, description="false: the printed means, integrals not divided by the area")
+
+
+@register("model", "convex_chan_vese")
+def convex_chan_vese_model(options: ConvexChanVeseOptions) -> Model:
+    """min over 0 <= phi <= 1 of TV(phi) + mu int phi r, with c1, c2 updated to the means of the two regions (2.19)."""
+    return ConvexChanVese(
+        length=options.length, mu=options.mu, updates=options.updates, divide_by_area=options.divide_by_area
+    )

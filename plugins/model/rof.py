@@ -1,0 +1,18 @@
+"""Total variation denoising (2.6)."""
+
+from pydantic import Field
+
+from surfexp.variational.model import Model
+from surfexp.variational.rof_model import ROF
+from surfexp.workflow.registry import Options, register
+
+
+class RofOptions(Options):
+    w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
+    mu: float | None = Field(None, gt=0, description="the printed weight in place of w")
+
+
+@register("model", "rof")
+def rof_model(options: RofOptions) -> Model:
+    """min TV(phi) + mu/2 |phi - I|^2, the model of Rudin, Osher and Fatemi (2.6)."""
+    return ROF(w=options.w, mu=options.mu)

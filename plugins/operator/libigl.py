@@ -1,0 +1,16 @@
+"""Operators assembled by libigl."""
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.libigl_operator import libigl_operator
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.workflow.registry import Options, register
+
+
+class Libigl(Options):
+    pass
+
+
+@register("operator", "libigl")
+def libigl_backend(options: Libigl, *, surface: Surface) -> SurfaceOperator:
+    """Gradient, cotangent weights and mass from libigl; agrees with fem to rounding."""
+    return libigl_operator(surface.mesh)

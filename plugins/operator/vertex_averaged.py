@@ -1,0 +1,18 @@
+"""The printed gradient (1.26)."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.operators.vertex_averaged import vertex_averaged
+from surfexp.workflow.registry import Options, register
+
+
+class VertexAveraged(Options):
+    tangent: bool = Field(False, description="project fields to the tangent plane of each vertex")
+
+
+@register("operator", "vertex_averaged")
+def vertex_averaged_operator(options: VertexAveraged, *, surface: Surface) -> SurfaceOperator:
+    """The printed gradient and divergence, averaged over the first ring (1.26); not adjoint, so no energy is minimised."""
+    return vertex_averaged(surface.mesh, tangent=options.tangent)

@@ -1,0 +1,32 @@
+"""Segmentation by a threshold alone: the baseline without regularisation."""
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.accuracy import segmentation_metrics
+from surfexp.variational.image import Image
+from surfexp.variational.level_sets import perimeters
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class Threshold(Options):
+    rule: Literal["sign", "otsu"] = Field("sign", description="zero, or Otsu's threshold between two classes")
+
+
+@register("solver", "threshold")
+def threshold_solver(options: Threshold, *, image: Image, operator: SurfaceOperator) -> Solution:
+    """The region where the image exceeds zero, or Otsu's threshold; no energy, no certificate."""
+    from skimage.filters import threshold_otsu
+
+    level = 0.0 if options.rule == "sign" else float(threshold_otsu(image.values))
+    region = image.values > level
+    length = float(perimeters(operator, image.values, np.array([level]))[0])
+    metrics = segmentation_metrics(image, operator, region) | {"perimeter": length, "threshold": level}
+    return Solution(
+        region.astype(float), energy=length, segmentation=region.astype(float), reason="no iteration",
+        model="threshold", solver=options.rule, metrics=metrics,
+    )  # fmt: skip

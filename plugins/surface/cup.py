@@ -1,0 +1,17 @@
+"""The one-handled cup of figure 2.2."""
+
+from pydantic import Field
+
+from surfexp.mesh.cup import cup
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class Cup(Options):
+    vertices: int = Field(25075, ge=2000, le=400000, description="number of vertices")
+
+
+@register("surface", "cup")
+def cup_surface(options: Cup) -> Surface:
+    """A cup with one handle, closed, genus 1."""
+    return cup(options.vertices)

@@ -1,0 +1,20 @@
+"""The average human cortex, with FreeSurfer's maps."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class Fsaverage5(Options):
+    hemisphere: Literal["left", "right"] = Field("left", description="hemisphere of the brain")
+    sheet: Literal["pial", "white", "inflated", "sphere"] = Field("white", description="which of the four nested surfaces")
+
+
+@register("surface", "fsaverage5")
+def fsaverage5_surface(options: Fsaverage5) -> Surface:
+    """One hemisphere of the fsaverage5 cortex: 10,242 vertices, closed, genus 0, in mm."""
+    return fsaverage5(options.hemisphere, options.sheet)

@@ -1,0 +1,1 @@
+"""Intrinsic surface processing on triangle meshes: numerics, and a workflow that compares methods."""

@@ -1,0 +1,86 @@
+"""`surfexp run` and `surfexp plan`: the arguments are Hydra's."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from surfexp.workflow.errors import StageFailure, UserError, unknown
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.launch import launch, run, unfinished
+from surfexp.workflow.plan import Plan
+
+
+def command(name: str, arguments: list[str]) -> int:
+    """Run (or only plan) what the configuration asks for."""
+    from hydra.errors import HydraException
+    from omegaconf.errors import OmegaConfBaseException
+
+    try:
+        launch(arguments, _show if name == "plan" else _run)
+    except (HydraException, OmegaConfBaseException) as error:
+        raise _explained(error, arguments) from error
+    return 0
+
+
+def _run(plan: Plan) -> None:
+    results = Path(plan.settings.results)
+    missing = unfinished(plan, results)
+    console = Console(highlight=False)
+    state = f"{len(missing)} to compute" if missing else "nothing to compute"
+    console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
+    failure = None
+    try:
+        run(plan)
+    except StageFailure as error:
+        failure = error
+    from surfexp.commands.views import print_tables
+
+    print_tables(plan, results, console)
+    console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
+    folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"
+    console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
+    if failure is not None:
+        raise failure
+
+
+def _show(plan: Plan) -> None:
+    results = Path(plan.settings.results)
+    missing = Counter(node.kind for node in unfinished(plan, results))
+    unique = Counter(node.kind for node in plan.stored)
+    table = Table("stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left")
+    for kind in unique:
+        table.add_row(kind, str(unique[kind]), str(unique[kind] - missing[kind]), str(missing[kind]))
+    console = Console(highlight=False)
+    console.print(table)
+    total = sum(unique.values())
+    console.print(f"{len(plan.leaves)} configurations: {plan.requested} stages without sharing, {total} with sharing,")
+    console.print(f"{sum(missing.values())} to compute, {total - sum(missing.values())} done")
+
+
+def _explained(error: Any, arguments: list[str]) -> UserError:
+    """Turn an error of Hydra or OmegaConf into one line with the nearest valid choice."""
+    from surfexp.commands.catalogue import experiments
+    from surfexp.workflow.configuration import Settings
+    from surfexp.workflow.registry import BROKEN, PLUGINS
+
+    for argument in arguments:
+        key, _, value = argument.partition("=")
+        for name in value.split(",") if key.lstrip("+") in (*KINDS, "experiment") else []:
+            choices = experiments() if key == "experiment" else [n for kind, n in PLUGINS if kind == key]
+            if name not in choices and "(" not in value:
+                broken = next((f" ({message})" for file, message in BROKEN.items() if file.stem == name), "")
+                return UserError(f"{unknown(key, name, choices)}{broken}")
+    for argument in arguments:
+        key = argument.partition("=")[0].lstrip("+~")
+        head, _, option = key.partition(".")
+        if head not in (*KINDS, *Settings.model_fields, "experiment", "hydra", "hydra/sweeper"):
+            return unknown("configuration key", head, [*KINDS, *Settings.model_fields])
+        if head in KINDS and option and f"{key}" in str(error).replace("'", ""):
+            names = {o for (kind, _), method in PLUGINS.items() if kind == head for o in method.options.model_fields}
+            return unknown(f"option of {head}", option, names)
+    return UserError(" ".join(str(error).split()))

@@ -1,0 +1,75 @@
+"""`surfexp table`, `surfexp report` and `surfexp ui`: finished results again."""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from surfexp.report.page import write_report
+from surfexp.report.table import comparisons, format_number, rows_of, short_name
+from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.plan import Plan, read_plan
+from surfexp.workflow.tracking import tracking_uri
+
+
+def command(name: str, arguments: list[str]) -> int:
+    """Print tables, write the report again, or start the dashboard."""
+    parser = argparse.ArgumentParser(f"surfexp {name}")
+    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
+    if name == "ui":
+        parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")
+        return _dashboard(parser.parse_args(arguments))
+    parser.add_argument("experiment", nargs="?", default="quickstart")
+    given = parser.parse_args(arguments)
+    plan = latest_plan(given.results, given.experiment)
+    if name == "table":
+        print_tables(plan, given.results, Console(highlight=False))
+    else:
+        print(write_report(plan, given.results.resolve()) / "report.html")
+    return 0
+
+
+def latest_plan(results: Path, experiment: str) -> Plan:
+    """The plan of an experiment that was written last."""
+    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
+    mine = [file for file, name in found.items() if name == experiment]
+    if not mine:
+        raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
+    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
+
+
+def print_tables(plan: Plan, results: Path, console: Console) -> None:
+    """One table a comparison; a row that reached its iteration limit is red."""
+    for group in comparisons(rows_of(plan, results.resolve())):
+        table = Table(title=group.title, title_justify="left", header_style="bold")
+        for name in group.varying:
+            table.add_column(short_name(name))
+        for name in group.metric_names:
+            table.add_column(name.replace("_", " "), justify="right")
+        for row in group.rows:
+            values = [str(row.parameters.get(name, "–")) for name in group.varying]
+            if row.failure:
+                table.add_row(*values, f"failed: {row.failure}", style="red")
+                continue
+            numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
+            table.add_row(*values, *numbers, style="red" if row.metrics.get("converged", 1.0) == 0.0 else None)
+        console.print(table)
+
+
+def _dashboard(given: argparse.Namespace) -> int:
+    database = given.results / "mlflow.db"
+    if not database.exists():
+        raise UserError(f"no runs are recorded in {given.results}; start with: surfexp run")
+    from mlflow.tracking import MlflowClient
+
+    found = MlflowClient(tracking_uri(given.results)).search_experiments(order_by=["last_update_time DESC"])
+    shown = next((item.experiment_id for item in found if item.name != "Default"), "0")
+    address = f"http://127.0.0.1:{given.port}/?workflowType=machine_learning#/experiments/{shown}/runs"
+    print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
+    server = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(given.port)]
+    return subprocess.call([*server, "--backend-store-uri", tracking_uri(given.results), "--workers", "1"])

@@ -1,0 +1,99 @@
+"""Colour scales: from values to colours, with limits that are stated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+import matplotlib
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Floats
+
+# matplotlib's diverging maps: their middle means zero
+DIVERGING = frozenset(
+    ["PiYG", "PRGn", "BrBG", "PuOr", "RdGy", "RdBu", "RdYlBu", "RdYlGn", "Spectral", "coolwarm", "bwr", "seismic"]
+    + ["berlin", "managua", "vanimo"]
+)
+MISSING = (0.62, 0.62, 0.62)
+
+
+@dataclass(frozen=True)
+class ColorScale:
+    """What a colour bar says: a quantity, its unit, its colours and its limits.
+
+    Parameters
+    ----------
+    label, unit : str
+        "mean curvature", "1/mm".
+    colormap : str
+        Name of a map of matplotlib.
+    limits : (float, float), optional
+        Values at the two ends. None: found from the values by `fitted`.
+    percentiles : (float, float)
+        The robust limits that `fitted` takes; (0, 100) is the whole range.
+
+    Raises
+    ------
+    ValueError
+        If the map is unknown, the limits are not increasing, or the percentiles not in 0..100.
+    """
+
+    label: str = ""
+    unit: str = ""
+    colormap: str = "viridis"
+    limits: tuple[float, float] | None = None
+    percentiles: tuple[float, float] = (1.0, 99.0)
+
+    def __post_init__(self) -> None:
+        if self.colormap not in matplotlib.colormaps:
+            nearest = get_close_matches(self.colormap, list(matplotlib.colormaps), 1, 0.0)[0]
+            raise ValueError(f"colour map {self.colormap!r} is unknown to matplotlib, the nearest name is {nearest!r}")
+        if self.limits is not None and not self.limits[0] < self.limits[1]:
+            raise ValueError(f"colour limits are {self.limits}, the first must be less than the second")
+        if not 0.0 <= self.percentiles[0] < self.percentiles[1] <= 100.0:
+            raise ValueError(f"percentiles are {self.percentiles}, choose two increasing numbers in 0..100")
+
+    @property
+    def diverging(self) -> bool:
+        """Whether the middle colour means zero."""
+        return self.colormap.removesuffix("_r") in DIVERGING
+
+    @property
+    def title(self) -> str:
+        """Label with the unit in brackets."""
+        return f"{self.label} ({self.unit})".strip() if self.unit else self.label
+
+    def fitted(self, values: Floats) -> ColorScale:
+        """The same scale with limits: its own, or the percentiles of the finite values, symmetric if diverging.
+
+        Values that are all the same, or none at all, get limits 0.5 to either side.
+        """
+        if self.limits is not None:
+            return self
+        finite = values[np.isfinite(values)]
+        low, high = np.percentile(finite, self.percentiles) if finite.size else (0.0, 0.0)
+        if self.diverging:
+            high = max(abs(low), abs(high))
+            low = -high
+        if not low < high:
+            low, high = low - 0.5, high + 0.5
+        return replace(self, limits=(float(low), float(high)))
+
+    def rgb(self, values: Floats) -> Floats:
+        """(..., 3) colours in 0..1 of a scale with limits; the end colours beyond them, grey where values are NaN."""
+        low, high = self._known_limits()
+        colormap = matplotlib.colormaps[self.colormap].with_extremes(bad=MISSING)
+        share = (np.asarray(values, dtype=float) - low) / (high - low)
+        return np.asarray(colormap(share))[..., :3]
+
+    def share_beyond(self, values: Floats) -> tuple[float, float]:
+        """Shares of the finite values below and above the limits."""
+        low, high = self._known_limits()
+        finite = values[np.isfinite(values)]
+        return (float((finite < low).mean()), float((finite > high).mean())) if finite.size else (0.0, 0.0)
+
+    def _known_limits(self) -> tuple[float, float]:
+        if self.limits is None:
+            raise ValueError(f"colour scale {self.label!r} has no limits yet, call fitted(values) first")
+        return self.limits

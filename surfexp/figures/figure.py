@@ -1,0 +1,29 @@
+"""A finished picture and its caption."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """A still picture.
+
+    Parameters
+    ----------
+    pixels : (height, width, 3) uint8
+    caption : str
+        One or two sentences: what is seen, its unit, and the figure of the dissertation that it answers.
+    title : str
+    metrics, notes
+        As in `Surface`.
+    """
+
+    pixels: NDArray[np.uint8]
+    caption: str = ""
+    title: str = ""
+    metrics: dict[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()

@@ -1,0 +1,156 @@
+"""Still pictures of surfaces without OpenGL: the same bytes for the same arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+
+from surfexp.figures.ambient_occlusion import ambient_occlusion
+from surfexp.figures.camera import Camera, View, fit_camera
+from surfexp.figures.colormap import MISSING, ColorScale
+from surfexp.figures.contours import RED, Contours, contour_coverage
+from surfexp.figures.rasterizer import Raster, rasterize
+from surfexp.figures.sampling import Blocks
+from surfexp.figures.shading import CLAY, facing_normals, shade, to_display, to_linear
+from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+
+Pixels = NDArray[np.uint8]
+
+# colours that mean values are shaded less than clay, so that they can be read against their bar
+CLAY_SHADING, VALUE_SHADING = 1.0, 0.8
+CLAY_OCCLUSION, VALUE_OCCLUSION = 1.3, 0.9
+# reach of the occlusion as a share of the longer side of the picture
+OCCLUSION_REACH = 0.06
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceView:
+    """A surface, its colours and the lines on it, seen from a direction.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    values : (n,) or (n, 3) float64, optional
+        A function, drawn with `scale`, or red, green and blue in 0..1. Clay when None. NaN is drawn grey.
+    view : str or (float, float)
+        A name of `camera.VIEWS`, "lateral", "medial", or azimuth and elevation in degrees.
+    scale : ColorScale
+    contours : tuple of Contours
+    title : str
+
+    Raises
+    ------
+    ValueError
+        If values do not fit the mesh.
+    """
+
+    mesh: TriangleMesh
+    values: Floats | None = None
+    view: View = "oblique"
+    scale: ColorScale = ColorScale()
+    contours: tuple[Contours, ...] = ()
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        n = len(self.mesh.vertices)
+        if self.values is not None and np.shape(self.values) not in ((n,), (n, 3)):
+            raise ValueError(f"values have shape {np.shape(self.values)}, expected ({n},) or ({n}, 3) on this mesh")
+
+    @property
+    def is_scalar(self) -> bool:
+        """Whether the colours stand for numbers and need a bar."""
+        return self.values is not None and np.ndim(self.values) == 1
+
+    @property
+    def missing(self) -> int:
+        """Number of vertices without a finite value, drawn grey."""
+        if self.values is None:
+            return 0
+        return int((~np.isfinite(self.values.reshape(len(self.values), -1)).all(axis=1)).sum())
+
+
+def render(
+    mesh: TriangleMesh,
+    values: Floats | None = None,
+    *,
+    view: View = "oblique",
+    colormap: str = "viridis",
+    limits: tuple[float, float] | None = None,
+    contour_field: Floats | None = None,
+    contour_levels: tuple[float, ...] = (0.0,),
+    contour_color: str = RED,
+    contour_width: float = 2.0,
+    size: tuple[int, int] = (800, 600),
+    field_of_view: float = 0.0,
+    supersampling: int = 2,
+) -> Pixels:
+    """Picture of one surface, without text: (height, width, 3) uint8.
+
+    Parameters are those of `SurfaceView`, `ColorScale`, `Contours` and `fit_camera`.
+    """
+    contours = () if contour_field is None else (Contours(contour_field, contour_levels, contour_color, contour_width),)
+    scene = SurfaceView(mesh, values, view, ColorScale(colormap=colormap, limits=limits), contours)
+    return draw(scene, fit_camera(mesh, view, size, field_of_view), supersampling)
+
+
+def draw(scene: SurfaceView, camera: Camera, supersampling: int = 2) -> Pixels:
+    """Picture of a scene under a given camera, on white.
+
+    Parameters
+    ----------
+    supersampling : int
+        Samples per pixel in each direction, 1 to 4.
+
+    Raises
+    ------
+    ValueError
+        If supersampling is not in 1..4.
+    """
+    if not 1 <= supersampling <= 4:
+        raise ValueError(f"supersampling is {supersampling}, choose 1 to 4 samples per pixel in each direction")
+    mesh, fine = scene.mesh, camera.supersampled(supersampling)
+    raster = rasterize(mesh, fine)
+    back = _seen_from_behind(mesh, camera)[raster.face[raster.covered]]
+    normals = facing_normals(raster.interpolate(mesh, mesh.vertex_normals @ camera.axes.T), back)
+    light = shade(_base_colors(scene, raster), normals, back, CLAY_SHADING if scene.values is None else VALUE_SHADING)
+
+    blocks = Blocks(raster.covered, supersampling)
+    picture = blocks.mean(light) * _visible_sky(scene, blocks.least(raster.depth), blocks.mean(normals), camera)
+    picture += 1.0 - blocks.mean(np.ones((len(light), 1)))
+    for contours in scene.contours:
+        wide = replace(contours, width=supersampling * contours.width)
+        share = blocks.mean(contour_coverage(mesh, wide, fine, raster)[raster.covered][:, None])
+        picture += share * (to_linear(np.array(to_rgb(contours.color))) - picture)
+    return to_display(picture)
+
+
+def _seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
+    """(m,) whether the eye is on the inner side of each face."""
+    toward = camera.axes[2]
+    if np.isinf(camera.distance):
+        return mesh.face_normals @ toward < 0.0
+    to_eye = camera.center + camera.distance * toward - mesh.vertices[mesh.faces[:, 0]]
+    return (mesh.face_normals * to_eye).sum(axis=1) < 0.0
+
+
+def _base_colors(scene: SurfaceView, raster: Raster) -> Floats:
+    """(p, 3) linear colours of the covered pixels, before light falls on them."""
+    if scene.values is None:
+        return np.broadcast_to(to_linear(np.array(CLAY)), (int(raster.covered.sum()), 3))
+    values = raster.interpolate(scene.mesh, scene.values)
+    if scene.is_scalar:
+        return to_linear(scene.scale.fitted(scene.values).rgb(values))
+    grey = np.array(MISSING)
+    return to_linear(np.where(np.isfinite(values).all(axis=1, keepdims=True), values, grey))
+
+
+def _visible_sky(scene: SurfaceView, depth: Floats, normals: Floats, camera: Camera) -> Floats:
+    """(height, width, 1) factor that darkens folds, from the depth and the mean normals of the picture's pixels."""
+    lengths = np.linalg.norm(normals, axis=2, keepdims=True)
+    unit = normals / np.where(lengths > 0.0, lengths, 1.0)
+    hidden = ambient_occlusion(depth * camera.scale, unit, OCCLUSION_REACH * max(camera.size))
+    strength = CLAY_OCCLUSION if scene.values is None else VALUE_OCCLUSION
+    return np.maximum(1.0 - strength * hidden, 0.15)[..., None]

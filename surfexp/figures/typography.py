@@ -1,0 +1,60 @@
+"""Text and axes by matplotlib without a display: one style, whatever the user's settings are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib.style
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure as MatplotlibFigure
+from numpy.typing import NDArray
+
+DOTS_PER_INCH = 100
+INK = "#222222"
+QUIET = "#777777"
+
+STYLE = {
+    # bundled with matplotlib, therefore the same everywhere
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "dejavusans",
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": QUIET,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 1.0,
+    "xtick.color": QUIET,
+    "ytick.color": QUIET,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "lines.linewidth": 2.0,
+    "lines.markersize": 6.0,
+}
+
+
+def points(pixels: float) -> float:
+    """A length in typographic points, as matplotlib counts fonts and lines."""
+    return 72.0 * pixels / DOTS_PER_INCH
+
+
+@contextmanager
+def canvas(width: int, height: int) -> Iterator[Any]:
+    """A matplotlib figure of so many pixels, in the style of all pictures; draw it inside the context."""
+    with matplotlib.style.context(["default", STYLE]):
+        figure = MatplotlibFigure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=DOTS_PER_INCH)
+        FigureCanvasAgg(figure)
+        yield figure
+
+
+def drawn(figure: Any) -> NDArray[np.uint8]:
+    """(height, width, 3) pixels of a matplotlib figure."""
+    figure.canvas.draw()
+    return np.array(figure.canvas.buffer_rgba())[..., :3]

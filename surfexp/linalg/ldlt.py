@@ -1,0 +1,108 @@
+"""Sparse LDL^T of symmetric matrices, definite or not: many right-hand sides, cheap refactoring, inertia."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array, sparray
+
+from surfexp.linalg.ldlt_numeric import eliminate
+from surfexp.linalg.ldlt_solve import LANES, solve_lanes
+from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
+from surfexp.mesh.triangle_mesh import Floats
+
+SMALLEST_PIVOT = 1e-14
+
+
+class LDLT:
+    """Factors P A P^T = L D L^T with diagonal D, without pivoting.
+
+    Without pivoting the factors of an indefinite matrix can lose digits; `residual` says how many before anybody relies
+    on them. The numbers of negative and positive pivots are those of the eigenvalues (Sylvester's law of inertia).
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse array
+        Symmetric; both triangles present.
+    symbolic : SymbolicFactor, optional
+        The analysis of a matrix of the same pattern, which saves repeating it.
+
+    Attributes
+    ----------
+    symbolic : SymbolicFactor
+    matrix : (n, n) csr_array
+        In elimination order.
+    replaced_pivots : int
+        Pivots under 1e-14 of the largest diagonal entry, replaced by that bound.
+    residual : float
+        |A x - b| / |b| of a first solve with a fixed right-hand side.
+
+    Raises
+    ------
+    ValueError
+        If the matrix is not square, has entries that are not finite, or another size than the analysis.
+    """
+
+    def __init__(self, matrix: sparray, symbolic: SymbolicFactor | None = None) -> None:
+        self.symbolic = analyse(matrix) if symbolic is None else symbolic
+        if matrix.shape[0] != self.symbolic.size:
+            raise ValueError(f"matrix has {matrix.shape[0]} rows, the analysis is of one with {self.symbolic.size}")
+        self._factor = np.empty(self.symbolic.entries)
+        self._pivots = np.empty(self.symbolic.size)
+        self.refactor(permuted(csr_array(matrix, dtype=np.float64), self.symbolic.permutation))
+
+    def refactor(self, matrix: csr_array) -> None:
+        """Replace the factors by those of a matrix of the same pattern that is in elimination order already.
+
+        Parameters
+        ----------
+        matrix : (n, n) csr_array
+            P A P^T, with P of `symbolic.permutation`.
+        """
+        if not np.isfinite(matrix.data).all():
+            raise ValueError(f"matrix has {int((~np.isfinite(matrix.data)).sum())} entries that are not finite")
+        self.matrix = matrix
+        s = self.symbolic
+        scale = float(np.abs(matrix.diagonal()).max()) or 1.0
+        self.replaced_pivots = int(
+            eliminate(
+                *(matrix.indptr, matrix.indices, matrix.data),
+                *(s.columns, s.row_starts, s.rows, s.parents, s.panels),
+                *(SMALLEST_PIVOT * scale, self._factor, self._pivots),
+            )
+        )
+        probe = np.cos(np.outer(np.arange(s.size), np.arange(1.0, LANES + 1)))
+        solution = probe.copy()
+        self.solve_in_order(solution)
+        self.residual = float(np.linalg.norm(matrix @ solution - probe) / np.linalg.norm(probe))
+
+    @property
+    def inertia(self) -> tuple[int, int]:
+        """Numbers of negative and of positive eigenvalues."""
+        negative = int((self._pivots < 0).sum())
+        return negative, self.symbolic.size - negative
+
+    def solve_in_order(self, right_hand_sides: Floats) -> None:
+        """Overwrite an (n, 8) C-ordered block of right-hand sides, in elimination order, by its solutions."""
+        s = self.symbolic
+        solve_lanes(s.columns, s.row_starts, s.rows, s.panels, self._factor, self._pivots, right_hand_sides)
+
+    def solve(self, right_hand_side: Floats) -> Floats:
+        """Return x with A x = b for an (n,) or (n, c) right-hand side.
+
+        Raises
+        ------
+        ValueError
+            If the lengths differ.
+        """
+        if len(right_hand_side) != self.symbolic.size:
+            raise ValueError(f"right-hand side has {len(right_hand_side)} rows, the matrix has {self.symbolic.size}")
+        order = self.symbolic.permutation
+        given = np.asarray(right_hand_side, dtype=np.float64).reshape(len(order), -1)
+        solution = np.empty_like(given)
+        for first in range(0, given.shape[1], LANES):
+            some = slice(first, min(first + LANES, given.shape[1]))
+            block = np.zeros((len(order), LANES))
+            block[:, : some.stop - some.start] = given[order, some]
+            self.solve_in_order(block)
+            solution[order, some] = block[:, : some.stop - some.start]
+        return solution.reshape(np.shape(right_hand_side))

@@ -1,0 +1,101 @@
+"""Nested dissection: an elimination order that keeps the factors of a sparse symmetric matrix small."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from surfexp.linalg.ldlt_leaf import order_leaf
+from surfexp.linalg.ldlt_separator import bisect, refine
+from surfexp.mesh.triangle_mesh import Integers
+
+LEAF_SIZE = 48
+LARGE_PIECE = 600
+
+
+def nested_dissection(indptr: Integers, indices: Integers) -> Integers:
+    """Order the vertices of a graph by nested dissection (George 1973).
+
+    A graph is cut by a small vertex separator that is eliminated last; both sides are ordered in the same way. The cut
+    begins at the bisector of two far-apart vertices, where their graph distances are equal (on a triangulated surface a
+    nearly straight line), and is shortened by Fiduccia-Mattheyses moves (1982). Pieces of at most 48 vertices are ordered
+    by minimum degree, with the separators around them in view.
+
+    Parameters
+    ----------
+    indptr, indices : int64 arrays
+        Compressed rows of the graph; symmetric pattern, entries on the diagonal are ignored.
+
+    Returns
+    -------
+    (n,) int64
+        The vertex that is eliminated first, second, ...; the same at every call.
+    """
+    return _dissect(np.ascontiguousarray(indptr, np.int64), np.ascontiguousarray(indices, np.int64), LEAF_SIZE)
+
+
+@njit(cache=True, nogil=True)
+def _dissect(indptr: Integers, indices: Integers, leaf_size: int) -> Integers:
+    n = len(indptr) - 1
+    order = np.arange(n)
+    piece = np.zeros(
+        n, np.int64
+    )  # which piece a vertex belongs to now; separators and finished leaves leave all pieces
+    local = np.full(n, -1, np.int64)
+    level = np.full((n, 2), -1, np.int64)
+    side = np.zeros(n, np.int8)
+    ties = np.zeros((n, 2), np.int64)
+    locked = np.zeros(n, np.bool_)
+    pending = [(0, n, 0)]
+    pieces = 1
+    while len(pending) > 0:
+        low, high, label = pending.pop()
+        if high - low <= leaf_size:
+            order_leaf(indptr, indices, order[low:high], local)
+            for at in range(low, high):
+                piece[order[at]] = -1
+            continue
+        members = order[low:high].copy()
+        _separate(indptr, indices, members, piece, label, level, side, ties, locked)
+        counts = np.zeros(3, np.int64)
+        for v in members:
+            counts[side[v]] += 1
+        starts = np.array([low, low + counts[0], low + counts[0] + counts[1]])
+        labels = (pieces, pieces + 1, -1)
+        for v in members:
+            order[starts[side[v]]] = v
+            starts[side[v]] += 1
+            piece[v] = labels[side[v]]
+        pending.append((low, low + counts[0], pieces))
+        pending.append((low + counts[0], low + counts[0] + counts[1], pieces + 1))
+        pieces += 2
+    return order
+
+
+@njit(cache=True, nogil=True)
+def _separate(
+    indptr: Integers,
+    indices: Integers,
+    members: Integers,
+    piece: Integers,
+    label: int,
+    level: Integers,
+    side: Integers,
+    ties: Integers,
+    locked: Integers,
+) -> None:
+    """Write the shortest separator of a few attempts to `side`."""
+    shortest = len(members) + 1
+    best = np.empty(len(members), np.int8)
+    for attempt in range(3 if len(members) >= LARGE_PIECE else 1):
+        cut = bisect(indptr, indices, members, piece, label, level, side, attempt)
+        if cut > 0:
+            cut = refine(indptr, indices, members, piece, label, side, ties, locked)
+        if cut < shortest:
+            shortest = cut
+            for a in range(len(members)):
+                best[a] = side[members[a]]
+        if cut == 0:
+            break
+    for a in range(len(members)):
+        side[members[a]] = best[a]

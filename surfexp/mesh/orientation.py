@@ -1,0 +1,83 @@
+"""Orientation of triangles and fans of triangles around vertices, on meshes that may not be manifold."""
+
+from __future__ import annotations
+
+import igl
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
+
+Mask = NDArray[np.bool_]
+
+
+def edge_pairs(mesh: TriangleMesh) -> tuple[Integers, Integers]:
+    """Half-edges (3 face + side) that lie on the same edge, as consecutive pairs (k, 2), and the edge of each pair."""
+    edge_of = mesh.face_edges.ravel()
+    order = np.argsort(edge_of, kind="stable")
+    same = edge_of[order[1:]] == edge_of[order[:-1]]
+    pairs = np.stack([order[:-1], order[1:]], axis=1)[same]
+    return pairs, edge_of[pairs[:, 0]]
+
+
+def inconsistent_edges(mesh: TriangleMesh) -> Mask:
+    """(e,) the edges with two faces that both run through them in the same direction."""
+    forward = mesh.faces < mesh.faces[:, [1, 2, 0]]
+    runs = np.bincount(mesh.face_edges.ravel(), forward.ravel(), len(mesh.edges))
+    return (mesh.edge_face_counts == 2) & (runs != 1)
+
+
+def flipped_faces(mesh: TriangleMesh) -> Mask:
+    """(m,) the smaller part of each edge-connected patch that has to be turned over to orient the patch.
+
+    Patches end at non-manifold edges. On a patch that cannot be oriented some inconsistent edges remain afterwards.
+    """
+    oriented, patch = igl.bfs_orient(np.array(mesh.faces))
+    turned = (oriented != mesh.faces).any(axis=1)
+    share = np.bincount(patch, turned) / np.bincount(patch)
+    return np.asarray(turned != (share > 0.5)[patch])
+
+
+def turn_over(faces: Integers, chosen: Mask) -> Integers:
+    """The faces, those chosen with the opposite orientation."""
+    return np.where(chosen[:, None], faces[:, [0, 2, 1]], faces)
+
+
+def corner_fans(mesh: TriangleMesh, crossable: Mask) -> Integers:
+    """(m, 3) number of the fan of faces to which each corner belongs, from 0.
+
+    Two corners at one vertex are in one fan when the faces between them are joined by `crossable` edges (e,).
+    """
+    pairs, edge = edge_pairs(mesh)
+    first, second = pairs[crossable[edge]].T
+    links = []
+    for end in (0, 1):
+        # corners at both ends of the edge; a half-edge of the other face may run the other way
+        left = 3 * (first // 3) + (first % 3 + end) % 3
+        same = mesh.faces.ravel()[left] == mesh.faces.ravel()[second]
+        right = np.where(same, second, 3 * (second // 3) + (second % 3 + 1) % 3)
+        links.append((left, right))
+    rows, columns = (np.concatenate(side) for side in zip(*links, strict=True))
+    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(mesh.faces.size, mesh.faces.size))
+    return connected_components(graph, directed=False)[1].reshape(-1, 3).astype(np.int64)
+
+
+def fans_per_vertex(mesh: TriangleMesh, fans: Integers) -> Integers:
+    """(n,) number of fans at each vertex: 1 where the surface is a manifold or has a boundary, 0 where no face is."""
+    owner = np.empty(fans.max(initial=-1) + 1, dtype=np.int64)
+    owner[fans.ravel()] = mesh.faces.ravel()
+    return np.bincount(owner, minlength=len(mesh.vertices))
+
+
+def inside_out_components(mesh: TriangleMesh) -> Mask:
+    """(m,) faces of closed, consistently oriented components whose enclosed volume is negative."""
+    label = mesh.component_labels[mesh.faces[:, 0]]
+    count = mesh.component_labels.max(initial=-1) + 1
+    defects = (mesh.edge_face_counts != 2) | inconsistent_edges(mesh)
+    open_faces = defects[mesh.face_edges].any(axis=1)
+    centred = mesh.vertices - mesh.vertices.mean(axis=0)
+    volumes = (centred[mesh.faces[:, 0]] * mesh.face_cross_products).sum(axis=1)
+    inward = (np.bincount(label, volumes, count) < 0) & (np.bincount(label, open_faces, count) == 0)
+    return np.asarray(inward[label])

@@ -1,0 +1,170 @@
+"""The triangle mesh: immutable arrays and the geometry and topology derived from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class TriangleMesh:
+    """A triangulated surface in space.
+
+    The constructor copies nothing that already has the right type, makes both arrays read-only and checks shapes and
+    index range only; `surfexp.mesh.validate` finds every other defect.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Positions, in the unit of the surface.
+    faces : (m, 3) int64
+        Vertex indices from 0, counter-clockwise seen from outside.
+
+    Raises
+    ------
+    ValueError
+        If a shape is not (n, 3), or an index lies outside 0..n-1.
+    """
+
+    vertices: Floats
+    faces: Integers
+
+    def __post_init__(self) -> None:
+        vertices = np.ascontiguousarray(self.vertices, dtype=np.float64).view()
+        faces = np.ascontiguousarray(self.faces, dtype=np.int64).view()
+        for name, array in (("vertices", vertices), ("faces", faces)):
+            if array.ndim != 2 or array.shape[1] != 3:
+                raise ValueError(f"{name} has shape {array.shape}, expected (count, 3)")
+        if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
+            bad = int(faces.min()) if faces.min() < 0 else int(faces.max())
+            raise ValueError(f"faces name vertex {bad}, but the vertices are 0..{len(vertices) - 1}")
+        for name, array in (("vertices", vertices), ("faces", faces)):
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+
+    @cached_property
+    def face_cross_products(self) -> Floats:
+        """(m, 3) edge cross products: normal direction, length twice the area."""
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        return np.cross(b - a, c - a)
+
+    @cached_property
+    def areas(self) -> Floats:
+        """(m,) face areas."""
+        return 0.5 * np.linalg.norm(self.face_cross_products, axis=1)
+
+    @cached_property
+    def area(self) -> float:
+        """Total area."""
+        return float(self.areas.sum())
+
+    @cached_property
+    def face_normals(self) -> Floats:
+        """(m, 3) unit normals; zero on faces without area."""
+        lengths = 2.0 * self.areas[:, None]
+        return np.divide(self.face_cross_products, lengths, out=np.zeros((len(self.faces), 3)), where=lengths > 0)
+
+    @cached_property
+    def vertex_normals(self) -> Floats:
+        """(n, 3) unit normals, the area-weighted mean over the first ring."""
+        normals = np.zeros_like(self.vertices)
+        for k in range(3):
+            np.add.at(normals, self.faces[:, k], self.face_cross_products)
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+
+    @cached_property
+    def vertex_areas(self) -> Floats:
+        """(n,) a third of the area of the first ring (the lumped mass)."""
+        return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), len(self.vertices))
+
+    @cached_property
+    def edge_length(self) -> float:
+        """h = sqrt(4 mean(area) / sqrt 3), the side of the equilateral triangle of mean area."""
+        return float(np.sqrt(self.areas.mean() * 4.0 / np.sqrt(3.0)))
+
+    @cached_property
+    def _edge_table(self) -> tuple[Integers, Integers, Integers]:
+        directed = self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        edges, inverse, counts = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
+        return edges, inverse.reshape(-1, 3), counts
+
+    @cached_property
+    def edges(self) -> Integers:
+        """(e, 2) undirected edges, smaller index first, sorted."""
+        return self._edge_table[0]
+
+    @cached_property
+    def face_edges(self) -> Integers:
+        """(m, 3) index into `edges` of the sides (0,1), (1,2), (2,0) of each face."""
+        return self._edge_table[1]
+
+    @cached_property
+    def edge_face_counts(self) -> Integers:
+        """(e,) number of faces at each edge: 1 on a boundary, 2 inside, more where the mesh is not a manifold."""
+        return self._edge_table[2]
+
+    @cached_property
+    def is_closed(self) -> bool:
+        """Whether every edge has exactly two faces."""
+        return bool(len(self.faces)) and bool((self.edge_face_counts == 2).all())
+
+    @cached_property
+    def boundary_loops(self) -> list[Integers]:
+        """Vertex cycles of the boundary, in the direction of the faces, longest first."""
+        directed = self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        boundary = directed[self.edge_face_counts[self.face_edges.ravel()] == 1]
+        following: dict[int, list[int]] = {}
+        for a, b in boundary.tolist():
+            following.setdefault(a, []).append(b)
+        loops = []
+        while following:
+            start = next(iter(following))
+            loop, here = [], start
+            while here in following:
+                loop.append(here)
+                there = following[here].pop()
+                if not following[here]:
+                    del following[here]
+                here = there
+            loops.append(np.array(loop, dtype=np.int64))
+        return sorted(loops, key=len, reverse=True)
+
+    @cached_property
+    def component_labels(self) -> Integers:
+        """(n,) number of the connected component of each vertex, from 0; an unreferenced vertex is one of its own."""
+        n = len(self.vertices)
+        adjacency = coo_array((np.ones(len(self.edges)), (self.edges[:, 0], self.edges[:, 1])), shape=(n, n))
+        return connected_components(adjacency, directed=False)[1].astype(np.int64)
+
+    @cached_property
+    def component_count(self) -> int:
+        """Number of connected components that have a face."""
+        return len(np.unique(self.component_labels[self.faces[:, 0]]))
+
+    @cached_property
+    def euler_characteristic(self) -> int:
+        """chi = V - E + F over the referenced vertices."""
+        return len(np.unique(self.faces)) - len(self.edges) + len(self.faces)
+
+    @cached_property
+    def genus(self) -> int:
+        """Sum of the genera of the components, from chi = 2 c - 2 g - b; meaningful for oriented manifolds."""
+        return (2 * self.component_count - len(self.boundary_loops) - self.euler_characteristic) // 2
+
+    @cached_property
+    def minimum_angle(self) -> float:
+        """Smallest angle of any face, in degrees."""
+        corners = self.vertices[self.faces]
+        sides = np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=2)
+        products = sides[:, [1, 2, 0]] * sides[:, [2, 0, 1]]
+        cosine = (sides[:, [1, 2, 0]] ** 2 + sides[:, [2, 0, 1]] ** 2 - sides**2) / np.maximum(2.0 * products, 1e-300)
+        return float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)).min()))

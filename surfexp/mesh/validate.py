@@ -1,0 +1,207 @@
+"""Every defect that a triangle mesh can have, found and named."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surfexp.mesh.orientation import (
+    corner_fans,
+    fans_per_vertex,
+    flipped_faces,
+    inconsistent_edges,
+    inside_out_components,
+)
+from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+
+Severity = Literal["refuse", "repairable", "note"]
+ZERO_AREA = 1e-9
+SLIVER_DEGREES = 5.0
+
+
+@dataclass(frozen=True)
+class Defect:
+    """One kind of defect.
+
+    Parameters
+    ----------
+    kind : str
+        What was counted, in the plural: "flipped faces".
+    count : int
+    severity : "refuse", "repairable" or "note"
+        Nothing mends it; `repair` mends it; worth knowing only.
+    examples : tuple of str
+        The first three: "face 17", "edge 3-8", ...
+    """
+
+    kind: str
+    count: int
+    severity: Severity
+    examples: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        examples = f" ({', '.join(self.examples)}{', ...' if self.count > len(self.examples) else ''})"
+        return f"{self.count} {self.kind}{examples if self.examples else ''}"
+
+
+@dataclass(frozen=True)
+class Report:
+    """All defects found, one entry a kind, in the order in which they were looked for."""
+
+    defects: tuple[Defect, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every method may use the mesh: nothing but notes."""
+        return all(defect.severity == "note" for defect in self.defects)
+
+    def count(self, kind: str) -> int:
+        """Number of defects of a kind, 0 when there is none."""
+        return sum(defect.count for defect in self.defects if defect.kind == kind)
+
+    def lines(self) -> list[str]:
+        """One line for each defect, with its severity."""
+        return [f"{defect.severity}: {defect}" for defect in self.defects] or ["no defect"]
+
+
+def validate(vertices: ArrayLike, faces: ArrayLike) -> Report:
+    """Look for every defect of a mesh given as arrays.
+
+    Wrong shapes, no faces, values that are not finite and indices out of range end the search, because nothing else
+    means anything on such arrays.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    """
+    points, corners = np.asarray(vertices), np.asarray(faces)
+    refused = tuple(_array_defects(points, corners))
+    if refused:
+        return Report(refused)
+    mesh = TriangleMesh(points, corners)
+    return Report((*_face_defects(mesh), *_vertex_defects(mesh), *_manifold_defects(mesh), *_notes(mesh)))
+
+
+def require_valid(
+    mesh: TriangleMesh, name: str = "FILE", allow: tuple[str, ...] = (), one_component: bool = False
+) -> None:
+    """Refuse a mesh with defects, in one line that says what mends it.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    name : str
+        The file, as the user named it.
+    allow : tuple of str
+        Kinds of repairable defects that do no harm to the caller.
+    one_component : bool
+        Whether several components are refused too.
+
+    Raises
+    ------
+    ValueError
+        If there is a defect.
+    """
+    report = validate(mesh.vertices, mesh.faces)
+    fatal = [defect for defect in report.defects if defect.severity == "refuse"]
+    if fatal:
+        raise ValueError(f"mesh {name} has {'; '.join(map(str, fatal))}; no repair is possible")
+    found = [defect for defect in report.defects if defect.severity == "repairable" and defect.kind not in allow]
+    if found:
+        raise ValueError(f"mesh {name} has {'; '.join(map(str, found))}; none allowed: surfexp mesh repair {name}")
+    if one_component and mesh.component_count > 1:
+        raise ValueError(
+            f"mesh {name} has {mesh.component_count} components, 1 is allowed here: "
+            f"surfexp mesh repair --largest-component {name}"
+        )
+
+
+def zero_area_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:
+    """(m,) faces whose area is at most 1e-9 of the square of their longest side."""
+    corners = mesh.vertices[mesh.faces]
+    longest = ((corners - corners[:, [1, 2, 0]]) ** 2).sum(axis=2).max(axis=1, initial=0.0)
+    return np.asarray(mesh.areas <= ZERO_AREA * longest)
+
+
+def repeated_index_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:
+    """(m,) faces that name a vertex twice."""
+    return np.asarray((mesh.faces == mesh.faces[:, [1, 2, 0]]).any(axis=1))
+
+
+def later_copies(rows: NDArray[Any]) -> NDArray[np.bool_]:
+    """(k,) rows that equal an earlier row."""
+    copies = np.ones(len(rows), dtype=bool)
+    copies[np.unique(rows, axis=0, return_index=True)[1]] = False
+    return copies
+
+
+def _entry(kind: str, severity: Severity, where: NDArray[Any], label: str, rows: NDArray[Any] | None = None) -> Iterator[Defect]:
+    found = np.flatnonzero(where)
+    if len(found):
+        shown = found[:3].tolist() if rows is None else ["-".join(map(str, row)) for row in rows[found[:3]].tolist()]
+        yield Defect(kind, len(found), severity, tuple(f"{label} {item}" for item in shown))
+
+
+def _array_defects(vertices: NDArray[Any], faces: NDArray[Any]) -> Iterator[Defect]:
+    for name, array, kinds in (("vertices", vertices, "iuf"), ("faces", faces, "iu")):
+        empty = array.size == 0
+        if (array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in kinds) and not empty:
+            yield Defect(f"{name} array of the wrong shape or type", 1, "refuse", (f"{array.shape} {array.dtype}",))
+            return
+    if faces.size == 0 or vertices.size == 0:
+        yield Defect("missing faces or vertices", 1, "refuse", (f"{len(vertices)} vertices, {len(faces)} faces",))
+        return
+    yield from _entry("vertices that are not finite", "refuse", ~np.isfinite(vertices).all(axis=1), "vertex")
+    outside = ((faces < 0) | (faces >= len(vertices))).any(axis=1)
+    yield from _entry("faces with an index out of range", "refuse", outside, "face")
+
+
+def _face_defects(mesh: TriangleMesh) -> Iterator[Defect]:
+    repeated = repeated_index_faces(mesh)
+    yield from _entry("faces with a repeated index", "repairable", repeated, "face")
+    yield from _entry("zero-area faces", "repairable", zero_area_faces(mesh) & ~repeated, "face")
+    yield from _entry("duplicate faces", "repairable", later_copies(np.sort(mesh.faces, axis=1)), "face")
+
+
+def _vertex_defects(mesh: TriangleMesh) -> Iterator[Defect]:
+    yield from _entry("duplicate vertices", "repairable", later_copies(mesh.vertices + 0.0), "vertex")
+    unreferenced = np.ones(len(mesh.vertices), dtype=bool)
+    unreferenced[mesh.faces] = False
+    yield from _entry("unreferenced vertices", "repairable", unreferenced, "vertex")
+
+
+def _manifold_defects(mesh: TriangleMesh) -> Iterator[Defect]:
+    repeated = repeated_index_faces(mesh)
+    if repeated.any():
+        mesh = TriangleMesh(mesh.vertices, mesh.faces[~repeated])
+    if not len(mesh.faces):
+        return
+    yield from _entry("non-manifold edges", "repairable", mesh.edge_face_counts > 2, "edge", mesh.edges)
+    fans = fans_per_vertex(mesh, corner_fans(mesh, np.ones(len(mesh.edges), dtype=bool)))
+    yield from _entry("non-manifold vertices", "repairable", fans > 1, "vertex")
+    if inconsistent_edges(mesh).any():
+        flipped = flipped_faces(mesh)
+        yield from _entry("flipped faces", "repairable", flipped, "face")
+        turned = TriangleMesh(mesh.vertices, np.where(flipped[:, None], mesh.faces[:, ::-1], mesh.faces))
+        rest = inconsistent_edges(turned)
+        yield from _entry("edges where no orientation is possible", "repairable", rest, "edge", mesh.edges)
+    yield from _entry("faces of inside-out closed components", "repairable", inside_out_components(mesh), "face")
+
+
+def _notes(mesh: TriangleMesh) -> Iterator[Defect]:
+    if mesh.component_count > 1:
+        yield Defect("components", mesh.component_count, "note")
+    if mesh.boundary_loops:
+        yield Defect("boundary loops", len(mesh.boundary_loops), "note")
+    corners = mesh.vertices[mesh.faces]
+    sides = corners[:, [1, 2, 0]] - corners
+    lengths = np.linalg.norm(sides, axis=2)
+    products = np.maximum(lengths * lengths[:, [2, 0, 1]], 1e-300)
+    sines = np.linalg.norm(np.cross(sides, sides[:, [2, 0, 1]]), axis=2) / products
+    slivers = sines.min(axis=1) < np.sin(np.radians(SLIVER_DEGREES))
+    yield from _entry(f"faces with an angle under {SLIVER_DEGREES:g} degrees", "note", slivers, "face")

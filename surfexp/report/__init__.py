@@ -1,0 +1,1 @@
+"""Views of finished results: tables, figures, one page an experiment."""

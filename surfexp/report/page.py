@@ -1,0 +1,81 @@
+"""The report page of an experiment: one table a comparison, its figures below, nothing loaded from elsewhere."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, select_autoescape
+
+from surfexp.figures.encode import encode_png
+from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
+from surfexp.workflow import store
+from surfexp.workflow.plan import Plan
+
+
+def write_report(plan: Plan, results: Path) -> Path:
+    """Write `report.html`, `metrics.csv` and `figures/` of a plan below `results/<experiment>/`; return that folder."""
+    folder = results / plan.settings.experiment
+    rows = rows_of(plan, results)
+    groups = comparisons(rows)
+    figures = _write_figures(plan, results, folder / "figures")
+    store.write_text(folder / "metrics.csv", to_csv(rows))
+    environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=select_autoescape())
+    environment.filters.update(number=format_number, heading=short_name)
+    page = environment.get_template("report.html.j2").render(
+        settings=plan.settings,
+        groups=[(group, _figures_of(group, figures)) for group in groups],
+        failures=[row for row in rows if row.failure],
+        best=_best,
+        stages=len(plan.stored),
+        requested=plan.requested,
+    )
+    store.write_text(folder / "report.html", page)
+    return folder
+
+
+def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:
+    """Encode every finished figure of a plan; names tell what they show, files of other plans are removed."""
+    wanted: dict[str, dict[str, Any]] = {}
+    folder.mkdir(parents=True, exist_ok=True)
+    for leaf in plan.leaves:
+        for key in leaf.figures:
+            if key in wanted or not store.is_done(results, "figure", key):
+                continue
+            figure = store.load(results, "figure", key)
+            name = f"{plan.nodes[key].plugin}-{key[:8]}.png"
+            if not (folder / name).exists():
+                temporary = folder / f".{name}"
+                temporary.write_bytes(encode_png(figure.pixels))
+                temporary.rename(folder / name)
+            height, width = figure.pixels.shape[:2]
+            wanted[key] = {"file": name, "figure": figure, "width": width, "height": height}
+    for file in folder.glob("*.png"):
+        if file.name not in {item["file"] for item in wanted.values()}:
+            file.unlink()
+    return wanted
+
+
+def _figures_of(group: Comparison, figures: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    keys = dict.fromkeys(key for row in group.rows for key in row.leaf.figures)
+    return [figures[key] for key in keys if key in figures]
+
+
+LOWER_IS_BETTER = ("rmse", "relative_gap", "error_bound", "energy", "iterations", "perimeter", "energy_excess")
+HIGHER_IS_BETTER = ("dice", "accuracy", "psnr")
+
+
+def _best(group: Comparison, name: str, row: Row) -> bool:
+    """Whether a row holds the best value of a metric whose good direction is known."""
+    values = [other.metrics[name] for other in group.rows if name in other.metrics]
+    if name not in row.metrics or len(set(values)) < 2:
+        return False
+    if name.startswith(HIGHER_IS_BETTER):
+        return row.metrics[name] == max(values)
+    return name.startswith(LOWER_IS_BETTER) and row.metrics[name] == min(values)
+
+
+def remove_report(results: Path, experiment: str) -> None:
+    """Remove the views of an experiment; its stored results stay."""
+    shutil.rmtree(results / experiment, ignore_errors=True)

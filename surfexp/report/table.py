@@ -1,0 +1,116 @@
+"""Tidy tables of a plan: a row a leaf, a column a parameter or metric, grouped into comparisons."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from surfexp.workflow.plan import Leaf, Plan
+from surfexp.workflow.stage import read_event
+
+
+@dataclass
+class Row:
+    """One leaf: its parameters, metrics, notes and whether its certificate was reached."""
+
+    leaf: Leaf
+    parameters: dict[str, Any]
+    metrics: dict[str, float]
+    seconds: float
+    notes: list[str] = field(default_factory=list)
+    failure: str = ""
+
+
+@dataclass
+class Comparison:
+    """The rows of one table: the columns are the parameters that differ and the metrics that were asked for."""
+
+    title: str
+    caption: str
+    rows: list[Row]
+    columns: list[str]
+
+    @property
+    def varying(self) -> list[str]:
+        """The plugin names and options that tell rows apart; an option counts only between rows of one plugin."""
+        names = dict.fromkeys(name for row in self.rows for name in row.parameters)
+        if len(self.rows) == 1:
+            return [name for name in names if name.endswith(".name")]
+        shown = [name for name in names if self._differs(name)]
+        return sorted(shown, key=lambda name: (not name.endswith(".name"), list(names).index(name)))
+
+    def _differs(self, name: str) -> bool:
+        stage = name.rpartition(".")[0]
+        found: dict[str, set[str]] = {}
+        for row in self.rows:
+            method = "" if name.endswith(".name") else str(row.parameters.get(f"{stage}.name"))
+            if name in row.parameters or not method:
+                found.setdefault(method, set()).add(str(row.parameters.get(name, "–")))
+        return any(len(values) > 1 for values in found.values())
+
+    @property
+    def metric_names(self) -> list[str]:
+        """Metrics shown: those asked for that exist, or all."""
+        names = dict.fromkeys(name for row in self.rows for name in row.metrics)
+        return [name for name in self.columns if name in names] if self.columns else list(names)
+
+
+def rows_of(plan: Plan, results: Path) -> list[Row]:
+    """Read the event record of every leaf."""
+    rows = []
+    for leaf in plan.leaves:
+        node = plan.nodes[leaf.key]
+        event = read_event(results, node.kind, leaf.key)
+        failure = event.get("failure", "") if event else "not computed"
+        parameters = {key: value for key, value in leaf.parameters.items() if value is not None}
+        notes = list(event.get("notes", []))
+        rows.append(Row(leaf, parameters, event.get("metrics", {}), event.get("seconds", 0.0), notes, failure))
+    return rows
+
+
+def comparisons(rows: list[Row]) -> list[Comparison]:
+    """Group rows by the comparison that their variant names, in order of appearance."""
+    groups: dict[str, Comparison] = {}
+    for row in rows:
+        settings = row.leaf.settings
+        title = settings["comparison"] or settings["title"] or settings["experiment"]
+        group = groups.setdefault(title, Comparison(title, settings["caption"], [], []))
+        group.rows.append(row)
+        group.columns += [name for name in settings["columns"] if name not in group.columns]
+    return list(groups.values())
+
+
+def to_csv(rows: list[Row]) -> str:
+    """The tidy table as text: comparison, parameters, metrics, failure."""
+    parameters = list(dict.fromkeys(name for row in rows for name in row.parameters))
+    metrics = list(dict.fromkeys(name for row in rows for name in row.metrics))
+    sink = io.StringIO()
+    writer = csv.writer(sink, lineterminator="\n")
+    writer.writerow(["comparison", "leaf", *parameters, *metrics, "seconds", "failure"])
+    for row in rows:
+        values = [row.parameters.get(name, "") for name in parameters]
+        numbers = [repr(row.metrics[name]) if name in row.metrics else "" for name in metrics]
+        comparison = row.leaf.settings["comparison"]
+        writer.writerow([comparison, row.leaf.key, *values, *numbers, f"{row.seconds:.3f}", row.failure])
+    return sink.getvalue()
+
+
+def format_number(value: float | None) -> str:
+    """Four significant digits, powers of ten only where they help, a dash for nothing."""
+    if value is None or value != value:
+        return "–"
+    if value == int(value) and abs(value) < 1e7:
+        return f"{int(value):,}".replace(",", "\u202f")
+    if 1e-3 <= abs(value) < 1e6:
+        return f"{value:.4g}" if abs(value) < 1e4 else f"{value:,.0f}".replace(",", "\u202f")
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def short_name(parameter: str) -> str:
+    """Heading of a parameter's column: the stage for a plugin's name, the option otherwise."""
+    stage, _, option = parameter.rpartition(".")
+    return stage if option == "name" else parameter if "[" in parameter else f"{stage.split('.')[-1]} {option}".replace("_", " ")

@@ -1,0 +1,138 @@
+"""Energy, lower bound and gap of a field and a dual field, and the protocol by which every solver runs to a gap."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.operators.calculus import adjoint_gradient, total_variation
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.solution import Solution
+
+
+@dataclass(frozen=True, eq=False)
+class Iterate:
+    """What a solver hands over when its gap is due.
+
+    Parameters
+    ----------
+    iteration : int
+    values : (n,) or (n, c) float64
+        In the domain of the fidelity.
+    dual : (m, 2) or (m, c, 2) float64
+        |p| <= 1 on every face.
+    load : like `values`
+        G^T A p.
+    """
+
+    iteration: int
+    values: Floats
+    dual: Floats
+    load: Floats
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Energy >= minimum >= lower_bound."""
+
+    energy: float
+    lower_bound: float
+    relative_gap: float
+    error_bound: float | None
+
+
+def certify(fidelity: Fidelity, operator: SurfaceOperator, values: Floats, load: Floats) -> Certificate:
+    """Return the certificate of `values` by the dual field whose load is given."""
+    energy = total_variation(operator, values) + fidelity.value(values)
+    lower_bound = fidelity.dual_value(load)
+    gap = energy - lower_bound
+    mu = fidelity.strong_convexity
+    error_bound = float(np.sqrt(2.0 * max(gap, 0.0) / mu)) if mu > 0 else None
+    return Certificate(energy, lower_bound, gap / fidelity.gap_scale(energy), error_bound)
+
+
+def run_to_gap(
+    iterates: Iterable[Iterate],
+    fidelity: Fidelity,
+    operator: SurfaceOperator,
+    solver: str,
+    tolerance: float,
+    progress: Progress | None = None,
+) -> Solution:
+    """Take iterates until the relative gap is at most `tolerance`, and certify the one that is returned.
+
+    Where the fidelity gives a primal field for a dual one, the better of that and the iterate's own is returned.
+
+    Parameters
+    ----------
+    iterates : iterable of Iterate
+        Ends by itself at the iteration limit.
+    fidelity, operator
+        The problem; gradients are those of the faces whatever the solver used.
+    solver : str
+        Name for captions.
+    tolerance : float
+        Bound of the relative gap.
+    progress : callable, optional
+        Called with the iteration and the relative gap.
+    """
+    rows: list[tuple[float, float, float]] = []
+    converged = False
+    for iterate in iterates:
+        values = iterate.values
+        certificate = certify(fidelity, operator, values, iterate.load)
+        other = fidelity.primal_from_dual(iterate.load)
+        if other is not None:
+            rival = certify(fidelity, operator, other, iterate.load)
+            if rival.energy < certificate.energy:
+                values, certificate = other, rival
+        rows.append((iterate.iteration, certificate.energy, certificate.relative_gap))
+        if progress is not None:
+            progress(iterate.iteration, certificate.relative_gap)
+        if certificate.relative_gap <= tolerance:
+            converged = True
+            break
+    iterations, energies, gaps = (np.array(column) for column in zip(*rows, strict=True))
+    solution = Solution(
+        values=values.copy(),
+        energy=certificate.energy,
+        dual=iterate.dual.copy(),
+        iterations=int(iterations[-1]),
+        converged=converged,
+        reason="gap below tolerance" if converged else "iteration limit",
+        history={"iteration": iterations, "energy": energies, "gap": gaps},
+        model=fidelity.name,
+        solver=solver,
+    )
+    return with_certificate(solution, certificate)
+
+
+def recertify(solution: Solution, fidelity: Fidelity, operator: SurfaceOperator) -> Solution:
+    """Return `solution` with its certificate computed afresh from its values and its dual field."""
+    if solution.dual is None:
+        raise ValueError(f"the solution of {solution.solver!r} has no dual field, a certificate needs one")
+    return with_certificate(
+        solution, certify(fidelity, operator, solution.values, adjoint_gradient(operator, solution.dual))
+    )
+
+
+def with_certificate(solution: Solution, certificate: Certificate) -> Solution:
+    """Return `solution` with the numbers of `certificate` in its fields and metrics."""
+    bounded = bool(np.isfinite(certificate.lower_bound))
+    metrics = {"energy": certificate.energy, "iterations": float(solution.iterations)}
+    if bounded:
+        metrics |= {"lower_bound": certificate.lower_bound, "relative_gap": certificate.relative_gap}
+    if bounded and certificate.error_bound is not None:
+        metrics["error_bound"] = certificate.error_bound
+    return replace(
+        solution,
+        energy=certificate.energy,
+        lower_bound=certificate.lower_bound if bounded else None,
+        relative_gap=certificate.relative_gap if bounded else None,
+        error_bound=certificate.error_bound if bounded else None,
+        metrics=solution.metrics | metrics,
+    )

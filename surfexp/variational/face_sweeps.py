@@ -1,0 +1,108 @@
+"""One pass over the faces for each kind of iteration: gradient, pointwise step and adjoint fused, nothing allocated.
+
+Fields have shapes (n, c) and (m, c, 2). Each sweep leaves the load d = G^T A p of the field that it produced. The dual ball
+is |p_T|_F <= 1 over the channels of a face together.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from surfexp.mesh.triangle_mesh import Floats, Integers
+
+
+@njit(cache=True, nogil=True)
+def dual_ascent(
+    faces: Integers, hats: Floats, areas: Floats, steps: Floats, step: float, values: Floats, dual: Floats, load: Floats
+) -> None:
+    """Set p <- P(p + step s_T G phi), with P the projection to the unit ball of each face."""
+    load[:] = 0.0
+    for f in range(len(faces)):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        ascent = step * steps[f]
+        square = 0.0
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = dual[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0])
+            y = dual[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1])
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            square += x * x + y * y
+        shrink = 1.0 / np.sqrt(max(square, 1.0))
+        for c in range(values.shape[1]):
+            x, y = shrink * dual[f, c, 0], shrink * dual[f, c, 1]
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
+            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
+            load[j, c] += b
+            load[k, c] += e
+            load[i, c] -= b + e
+
+
+@njit(cache=True, nogil=True)
+def bregman_update(
+    faces: Integers,
+    hats: Floats,
+    areas: Floats,
+    penalty: float,
+    relaxation: float,
+    values: Floats,
+    field: Floats,
+    multiplier: Floats,
+    load: Floats,
+    pull: Floats,
+) -> None:
+    """Shrink V as in (2.17) and update b as in (2.14), over-relaxed.
+
+    Leaves `load` = G^T A (penalty b), whose field is dual feasible, and `pull` = G^T A (V - b) for the next solve.
+    """
+    load[:] = 0.0
+    pull[:] = 0.0
+    radius = 1.0 / penalty
+    for f in range(len(faces)):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        square = 0.0
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
+            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            x = relaxation * x + (1.0 - relaxation) * field[f, c, 0] + multiplier[f, c, 0]
+            y = relaxation * y + (1.0 - relaxation) * field[f, c, 1] + multiplier[f, c, 1]
+            field[f, c, 0], field[f, c, 1] = x, y
+            square += x * x + y * y
+        inside = radius / max(np.sqrt(square), radius)
+        for c in range(values.shape[1]):
+            x, y = field[f, c, 0], field[f, c, 1]
+            px, py = inside * x, inside * y
+            multiplier[f, c, 0], multiplier[f, c, 1] = px, py
+            field[f, c, 0], field[f, c, 1] = x - px, y - py
+            b = areas[f] * (px * hats[f, 1, 0] + py * hats[f, 1, 1])
+            e = areas[f] * (px * hats[f, 2, 0] + py * hats[f, 2, 1])
+            load[j, c] += penalty * b
+            load[k, c] += penalty * e
+            load[i, c] -= penalty * (b + e)
+            b = areas[f] * ((x - 2.0 * px) * hats[f, 1, 0] + (y - 2.0 * py) * hats[f, 1, 1])
+            e = areas[f] * ((x - 2.0 * px) * hats[f, 2, 0] + (y - 2.0 * py) * hats[f, 2, 1])
+            pull[j, c] += b
+            pull[k, c] += e
+            pull[i, c] -= b + e
+
+
+def face_steps(hats: Floats) -> Floats:
+    """Return s_T = 1 / (3 c_T), c_T the largest eigenvalue of sum_k g_k g_k^T.
+
+    With dual steps sigma s_T and primal steps tau / m_i, sigma tau <= 1 suffices for convergence, for then
+    sum_T A_T s_T |G f|^2 <= sum_T A_T / 3 sum_k f_k^2 = |f|_m^2.
+
+    Parameters
+    ----------
+    hats : (m, 3, 2) float64
+
+    Returns
+    -------
+    (m,) float64
+    """
+    gram = np.einsum("fka,fkb->fab", hats, hats)
+    trace = gram[:, 0, 0] + gram[:, 1, 1]
+    spread = np.hypot(gram[:, 0, 0] - gram[:, 1, 1], 2.0 * gram[:, 0, 1])
+    return 2.0 / (3.0 * (trace + spread))

@@ -1,0 +1,57 @@
+"""What a solver returns: the field, its dual, its history and its certificate."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from surfexp.mesh.triangle_mesh import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The result of a variational solver.
+
+    Parameters
+    ----------
+    values : (n,) or (n, c) float64
+        The minimiser that was found; the certificate belongs to exactly this array.
+    dual : (m, 2) or (m, c, 2) float64, optional
+        A feasible dual field, |p| <= 1 on every face, that proves the gap.
+    energy : float
+        Primal energy of `values` under the consistent discretisation.
+    lower_bound : float, optional
+        Dual energy of `dual`: no field has less energy.
+    relative_gap : float, optional
+        (energy - lower_bound) / scale, the quantity that the tolerance bounds; the model states its scale.
+    error_bound : float, optional
+        sqrt(2 gap / mu), the largest possible mass-norm distance to the exact minimiser; None unless the fidelity is
+        strongly convex.
+    iterations : int
+    converged : bool
+    reason : str
+        Why it stopped: "gap below tolerance", "iteration limit", ...
+    history : dict of str to (k,) float64
+        "iteration", "energy", "gap", one entry each time they were evaluated.
+    model, solver : str
+        Names for captions.
+    segmentation : (n,) bool-like float64, optional
+        The labelling that a segmentation model derives from `values`.
+    metrics, notes
+        As in `Surface`.
+    """
+
+    values: Floats
+    energy: float
+    dual: Floats | None = None
+    lower_bound: float | None = None
+    relative_gap: float | None = None
+    error_bound: float | None = None
+    iterations: int = 0
+    converged: bool = True
+    reason: str = ""
+    history: dict[str, Floats] = field(default_factory=dict)
+    model: str = ""
+    solver: str = ""
+    segmentation: Floats | None = None
+    metrics: dict[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()

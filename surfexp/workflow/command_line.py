@@ -1,0 +1,75 @@
+"""The `surfexp` command: takes its subcommand off and hands the rest to Hydra, or to a small function of its own."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from importlib import import_module
+
+from surfexp.workflow.errors import StageFailure, UserError, unknown
+
+COMMANDS: dict[str, tuple[str, str]] = {
+    "run": ("run", "run an experiment or a sweep, e.g. surfexp run experiment=quickstart solver=primal_dual,split_bregman"),
+    "plan": ("run", "what a run would do: stages, what is shared, what is done (same arguments as run)"),
+    "list": ("catalogue", "the plugins of a kind, or the experiments: surfexp list [KIND | experiment]"),
+    "info": ("catalogue", "options of a plugin with bounds, choices and meaning: surfexp info KIND/NAME"),
+    "table": ("views", "print the tables of an experiment again: surfexp table [EXPERIMENT]"),
+    "report": ("views", "where the report page of an experiment is: surfexp report [EXPERIMENT]"),
+    "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
+    "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
+    "new": ("new", "write a plugin file with its test: surfexp new KIND NAME"),
+    "view": ("view", "turn a surface in a window (needs open3d): surfexp view FILE"),
+    "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
+    "doctor": ("doctor", "versions, system libraries, disk; how to mend what is missing"),
+}
+
+
+def usage() -> str:
+    """The help text of `surfexp --help`."""
+    lines = [f"  {name:8} {text}" for name, (_, text) in COMMANDS.items()]
+    return "\n".join(
+        [
+            "usage: surfexp COMMAND [ARGUMENTS]   (surfexp COMMAND --help explains one)",
+            "",
+            "Experiments in intrinsic surface processing, planned once, computed once, compared fairly.",
+            "",
+            *lines,
+            "",
+            "--debug shows the traceback of an error. Exit codes: 2 a mistake in the request, 1 a failed stage, 130 interrupted.",
+        ]
+    )
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Entry point; returns the exit code."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if "--debug" in given:
+        given.remove("--debug")
+        os.environ["SURFEXP_DEBUG"] = "1"
+    if not given or given[0] in ("--help", "-h", "help"):
+        print(usage())
+        return 0
+    try:
+        if given[0] not in COMMANDS:
+            raise unknown("command", given[0], COMMANDS)
+        module = import_module(f"surfexp.commands.{COMMANDS[given[0]][0]}")
+        command: Callable[[str, list[str]], int | None] = module.command
+        return command(given[0], given[1:]) or 0
+    except KeyboardInterrupt:
+        print("interrupted; finished stages are kept, run the same command to continue", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return 0
+    except (UserError, StageFailure, OSError) as error:
+        if os.environ.get("SURFEXP_DEBUG"):
+            traceback.print_exc()
+        for line in str(error).splitlines():
+            print(f"surfexp: {line}", file=sys.stderr)
+        return 1 if isinstance(error, StageFailure) else 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,123 @@
+"""The composed configuration: its schema, how variants and grids expand it, how partial configurations merge."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.kinds import KINDS
+
+Context = dict[str, Any]
+
+
+class Settings(BaseModel):
+    """Everything at the top level of a configuration that is not a stage."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    experiment: str = Field("unnamed", description="name of the experiment: its folder in results and in the dashboard")
+    title: str = Field("", description="heading of the report page")
+    description: str = Field("", description="paragraph below the heading")
+    results: str = Field("results", description="folder of all output")
+    cores: int | None = Field(None, ge=1, description="processors for Snakemake; default: all")
+    profile: str | None = Field(None, description="Snakemake profile, e.g. profiles/slurm")
+    timing: bool = Field(False, description="clocks matter: one job at a time, leaves computed anew each time")
+    target: str = Field("solver", description="stage kind at the end of each chain")
+    comparison: str = Field("", description="heading of the table that a variant belongs to")
+    caption: str = Field("", description="sentence below that table")
+    columns: list[str] = Field([], description="metrics of the table, in order; empty: all")
+    figures: list[Any] = Field([], description="figure plugins drawn for each variant: a name, or name and options")
+    objective: str | None = Field(None, description="metric that an optimising sweeper minimises")
+    axes: dict[str, Any] = Field({}, description="named collections: axis, then label, then a partial configuration")
+    variants: list[Any] = Field([], description="partial configurations, each with its own grid; their union is run")
+    grid: dict[str, list[Any]] = Field({}, description="dotted option to list of values; every combination is run")
+
+
+def settings_of(configuration: Mapping[str, Any]) -> Settings:
+    """Check the top level of a configuration; UserError naming the nearest valid key."""
+    keys = [*Settings.model_fields, *KINDS]
+    for key in configuration:
+        if key not in keys:
+            raise unknown("configuration key", str(key), keys)
+    try:
+        return Settings(**{key: value for key, value in configuration.items() if key in Settings.model_fields})
+    except ValidationError as error:
+        raise UserError(one_line("configuration", error)) from None
+
+
+def one_line(where: str, error: ValidationError) -> str:
+    """The first complaint of pydantic with the thing, its value and the bound, in one line."""
+    first = error.errors()[0]
+    path = ".".join([where, *(str(part) for part in first["loc"])])
+    return f"{path} = {first.get('input')!r}: {first['msg']}"
+
+
+def stage(value: Any) -> Context:
+    """Normal form of a stage's configuration: a bare name becomes a mapping."""
+    if isinstance(value, str):
+        return {"name": value}
+    if isinstance(value, Mapping):
+        return dict(value)
+    raise UserError(f"stage configuration {value!r}: expected a plugin name or a mapping with 'name'")
+
+
+def merge(base: Mapping[str, Any], partial: Mapping[str, Any]) -> Context:
+    """Lay a partial configuration over another; naming another plugin for a stage drops the old one's options."""
+    merged = dict(base)
+    for key, value in partial.items():
+        if key in KINDS and value is not None:
+            old, new = stage(merged.get(key) or {}), stage(value)
+            keep = "name" not in new or new["name"] == old.get("name")
+            merged[key] = {**old, **new} if keep else new
+        else:
+            merged[key] = value
+    return merged
+
+
+def assign(configuration: Context, dotted: str, value: Any) -> Context:
+    """A copy with one dotted option set."""
+    head, *rest = dotted.split(".")
+    if not rest:
+        return merge(configuration, {head: value})
+    result = dict(configuration)
+    inner = stage(result.get(head) or {}) if head in KINDS else dict(result.get(head) or {})
+    for part in rest[:-1]:
+        raise UserError(f"grid key {dotted!r}: options are not nested below {part!r}; give the whole value")
+    result[head] = {**inner, rest[-1]: value}
+    return result
+
+
+def expand(configuration: Context, forced: Iterable[str] = ()) -> Iterator[Context]:
+    """All leaf configurations of one composed configuration: the union over variants of their grids.
+
+    `forced` names what the command line set: it wins over variants and grids wherever it applies.
+    """
+    base = {key: value for key, value in configuration.items() if key not in ("variants", "grid")}
+    forced = [key.lstrip("+~") for key in forced]
+    for variant in configuration.get("variants") or [{}]:
+        if not isinstance(variant, Mapping):
+            raise UserError(f"variants: {variant!r} is not a partial configuration")
+        partial = {key: value for key, value in variant.items() if key != "grid"}
+        grid = {**(configuration.get("grid") or {}), **(variant.get("grid") or {})}
+        for values in itertools.product(*grid.values()):
+            leaf = merge(base, partial)
+            for dotted, value in zip(grid, values, strict=True):
+                leaf = assign(leaf, dotted, value)
+            yield _force(copy.deepcopy(leaf), base, forced)
+
+
+def _force(leaf: Context, base: Context, forced: Iterable[str]) -> Context:
+    for key in sorted(forced):
+        head, _, option = key.partition(".")
+        if head not in KINDS:
+            continue
+        if not option:
+            leaf[head] = base.get(head)
+        elif stage(base.get(head) or {}).get("name") == stage(leaf.get(head) or {}).get("name"):
+            leaf = assign(leaf, key, base[head][option])
+    return leaf

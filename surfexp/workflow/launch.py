@@ -1,0 +1,221 @@
+"""From a composed batch to finished results: one plan, one Snakemake run, one report."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from hydra.core.config_search_path import ConfigSearchPath
+from hydra.core.config_store import ConfigStore
+from hydra.core.utils import JobReturn, JobStatus
+from hydra.plugins.launcher import Launcher
+from hydra.plugins.search_path_plugin import SearchPathPlugin
+from omegaconf import DictConfig, OmegaConf
+
+from surfexp.workflow import registry, store
+from surfexp.workflow.configuration import expand
+from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.plan import Node, Plan, make_plan, read_plan
+from surfexp.workflow.progress import follow
+from surfexp.workflow.stage import event_path, read_event
+
+HELD = "SURFEXP_HOLDS_RESULTS"
+_locks: list[int] = []
+
+
+class PlanLauncher(Launcher):
+    """Hydra launcher that takes the whole batch of a sweep and makes one plan of it."""
+
+    action: Callable[[Plan], Any] = staticmethod(lambda plan: None)
+
+    def setup(self, *, hydra_context: Any, task_function: Any, config: DictConfig) -> None:
+        """Keep Hydra's loader and the composed configuration."""
+        self.loader, self.config = hydra_context.config_loader, config
+
+    def launch(self, job_overrides: Sequence[Sequence[str]], initial_job_idx: int) -> list[JobReturn]:
+        """Expand every job's variants, plan them together, act, and hand the objective back to the sweeper."""
+        batch, counts = [], []
+        for overrides in job_overrides:
+            composed = self.loader.load_sweep_config(self.config, list(overrides))
+            leaves = list(expand(_plain(composed), [text.split("=")[0] for text in overrides]))
+            batch += leaves
+            counts.append(make_plan(leaves))
+        plan = make_plan(batch)
+        type(self).action(plan)
+        results = Path(plan.settings.results)
+        return [
+            JobReturn(overrides, status=JobStatus.COMPLETED, _return_value=_objective(part, results))
+            for overrides, part in zip(job_overrides, counts, strict=True)
+        ]
+
+
+class ConfigurationFolders(SearchPathPlugin):
+    """Adds `conf/` of the working folder and of installed plugin packages to Hydra's search path."""
+
+    def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
+        """See Hydra."""
+        if Path("conf").is_dir() and Path("conf").resolve() != registry.package_folder("surfexp.conf"):
+            search_path.append("working folder", f"file://{Path('conf').resolve()}")
+        for point in entry_points(group="surfexp.plugins"):
+            search_path.append(point.name, f"pkg://{point.module.split('.')[0]}.conf")
+
+
+def prepare_hydra() -> None:
+    """Load all plugins and publish them and their defaults to Hydra; register the launcher and the search path."""
+    from hydra.core.plugins import Plugins
+
+    registry.load_all(Path.cwd())
+    configurations = ConfigStore.instance()
+    for (kind, name), method in registry.PLUGINS.items():
+        fields = method.options.model_fields
+        defaults = {key: "???" if item.is_required() else item.get_default(call_default_factory=True) for key, item in fields.items()}
+        plain = {key: value if isinstance(value, bool | int | float | str | list | dict | None) else str(value) for key, value in defaults.items()}
+        configurations.store(group=kind, name=name, node={"name": name, **plain}, provider="surfexp")
+    sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.
+    for extension in (PlanLauncher, ConfigurationFolders):
+        extension.__module__ = "hydra_plugins.surfexp"
+        Plugins.instance().register(extension)
+    target = {"_target_": "hydra_plugins.surfexp.PlanLauncher"}
+    configurations.store(group="hydra/launcher", name="surfexp", node=target, provider="surfexp")
+
+
+def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
+    """Hand the command line to Hydra; its sweeper sends one batch (or several) to `action` as plans."""
+    import hydra
+
+    prepare_hydra()
+    PlanLauncher.action = staticmethod(action)
+    os.environ["HYDRA_FULL_ERROR"] = "1"
+    flags = [] if {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments) else ["--multirun"]
+    sys.argv = ["surfexp run", *flags, *arguments]
+    folder = str(registry.package_folder("surfexp.conf"))
+    hydra.main(version_base="1.3", config_path=folder, config_name="config")(lambda configuration: None)()
+
+
+def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
+    """The plan of a Snakemake run: the file named by `plan=`, or the one composed from `--config experiment=NAME ...`."""
+    if "plan" in config:
+        registry.load_all(Path.cwd())
+        path = Path(str(config["plan"])).resolve()
+        return path, read_plan(path)
+    from hydra import compose, initialize_config_dir
+
+    prepare_hydra()
+    with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
+        composed = compose("config", overrides=[f"{key}={value}" for key, value in config.items()])
+    plan = make_plan(expand(_plain(composed), config))
+    path = plan.write(Path(plan.settings.results).resolve())
+    return path, read_plan(path)
+
+
+def run(plan: Plan, cores: int | None = None) -> None:
+    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed."""
+    results = Path(plan.settings.results).resolve()
+    hold_results(results, wait=True)
+    path = plan.write(results)
+    missing = unfinished(plan, results)
+    leaves = {leaf.key for leaf in plan.leaves}
+    forced = sorted(leaves) if plan.settings.timing else []
+    if missing or forced:
+        for node in missing:
+            event_path(results, node.kind, node.key).unlink(missing_ok=True)
+        _snakemake(plan, path, results, missing, forced)
+    finish(path)
+    failures = [read_event(results, node.kind, node.key).get("failure") for node in plan.stored]
+    left = unfinished(plan, results)
+    if any(failures) or left:
+        failed = [text for text in dict.fromkeys(failures) if text]
+        raise StageFailure("\n".join(failed) or f"{len(left)} stages did not run; see {results / 'logs'}")
+
+
+def unfinished(plan: Plan, results: Path) -> list[Node]:
+    """Stages of a plan without a stored result."""
+    return [node for node in plan.stored if not store.is_done(results, node.kind, node.key)]
+
+
+def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: list[str]) -> None:
+    rules = Path(__file__).with_name("rules.smk")
+    profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
+    cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command += ["--cores", str(cores), "--config", f"plan={path}"]
+    if forced:
+        command += ["--forcerun", plan.settings.target]
+    log = results / "logs" / f"{path.stem}.snakemake.log"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("w") as sink:
+        environment = {**os.environ, HELD: "1"}
+        process = subprocess.Popen(command, stdout=sink, stderr=sink, env=environment, pass_fds=_locks)
+        try:
+            follow(process, missing or plan.stored, results)
+        except BaseException:
+            process.terminate()
+            process.wait()
+            raise
+    if process.returncode and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
+        tail = [line for line in log.read_text().splitlines() if line.strip()]
+        raise StageFailure(f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}")
+
+
+def hold_results(results: Path, wait: bool = False) -> None:
+    """Take the results folder for this process; a second run waits for it, or is refused when `wait` is false."""
+    if os.environ.get(HELD) or _locks:
+        return
+    try:
+        results.mkdir(parents=True, exist_ok=True)
+        descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
+    except OSError as error:
+        raise UserError(f"results folder {results}: {error.strerror}; choose another with results=FOLDER") from None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        if not wait:
+            raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
+        print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
+        while True:
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                break
+            except BlockingIOError:
+                time.sleep(0.2)
+    _locks.append(descriptor)
+
+
+def after_snakemake(path: Path) -> None:
+    """What plain Snakemake does at its end; nothing when `surfexp run` drives it and does so itself."""
+    if not os.environ.get(HELD):
+        finish(path)
+
+
+def finish(path: Path) -> None:
+    """Record a plan's events in MLflow and write its views: report, table, figures."""
+    from surfexp.report.page import write_report
+    from surfexp.workflow.tracking import record
+
+    plan, results = read_plan(path), path.parent.parent
+    folder = write_report(plan, results)
+    record(plan, results, folder)
+
+
+def _plain(composed: DictConfig) -> dict[str, Any]:
+    configuration = OmegaConf.to_container(composed, resolve=True, throw_on_missing=False)
+    assert isinstance(configuration, dict)
+    configuration.pop("hydra", None)
+    return {str(key): value for key, value in configuration.items()}
+
+
+def _objective(plan: Plan, results: Path) -> float | None:
+    name = plan.settings.objective
+    if name is None:
+        return None
+    values = [read_event(results, plan.nodes[leaf.key].kind, leaf.key).get("metrics", {}).get(name) for leaf in plan.leaves]
+    if any(value is None for value in values):
+        raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")
+    return float(sum(values) / len(values))

@@ -1,0 +1,227 @@
+"""The plan: the smallest set of stages that a batch of configurations takes, each with its content-addressed key."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from surfexp.workflow.configuration import Context, Settings, merge, one_line, settings_of, stage
+from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.fingerprint import code_digest, digest, file_digest
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.registry import Plugin, plugin
+
+Keys = str | list[str] | dict[str, str]
+
+
+@dataclass(frozen=True)
+class Node:
+    """One stage of a plan: a plugin, its checked options and the keys of its inputs by role."""
+
+    key: str
+    kind: str
+    plugin: str
+    file: str
+    code: str
+    options: dict[str, Any]
+    inputs: dict[str, Keys]
+
+
+@dataclass
+class Leaf:
+    """What one configuration asks for: the stage at the end of its chain, its figures, and how to show it."""
+
+    key: str
+    configuration: str
+    settings: dict[str, Any]
+    parameters: dict[str, Any]
+    figures: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Plan:
+    """All stages of a batch, shared where their keys agree, and the leaves in the order in which they were asked for."""
+
+    settings: Settings
+    nodes: dict[str, Node] = field(default_factory=dict)
+    leaves: list[Leaf] = field(default_factory=list)
+    requested: int = 0
+
+    @property
+    def stored(self) -> list[Node]:
+        """The stages that Snakemake runs: those whose results are kept."""
+        return [node for node in self.nodes.values() if KINDS[node.kind].stored]
+
+    @property
+    def identity(self) -> str:
+        """Digest of the set of leaves and figures."""
+        return digest(sorted({key for leaf in self.leaves for key in (leaf.key, *leaf.figures)}))
+
+    def write(self, results: Path) -> Path:
+        """Write the plan below the results folder; the same plan always gives the same file."""
+        folder = results / "plans"
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / f"{self.settings.experiment}-{self.identity}.json"
+        temporary = path.with_suffix(".tmp")
+        temporary.write_text(json.dumps(asdict(self) | {"settings": self.settings.model_dump()}, indent=1))
+        temporary.rename(path)
+        return path
+
+
+def read_plan(path: Path) -> Plan:
+    """Read a plan back from its file."""
+    tree = json.loads(path.read_text())
+    nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
+    return Plan(Settings(**tree["settings"]), nodes, [Leaf(**leaf) for leaf in tree["leaves"]], tree["requested"])
+
+
+def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:
+    """Keys of the stored results that a stage reads, through the unstored stages (models) it makes itself."""
+    found: dict[str, None] = {}
+    for value in nodes[key].inputs.values():
+        for child in [value] if isinstance(value, str) else value if isinstance(value, list) else value.values():
+            found.update(dict.fromkeys([child] if KINDS[nodes[child].kind].stored else stored_inputs(nodes, child)))
+    return list(found)
+
+
+def make_plan(configurations: Iterable[Context]) -> Plan:
+    """Resolve leaf configurations into one plan; equal stages and equal leaves merge by key."""
+    plan: Plan | None = None
+    seen: dict[str, Leaf] = {}
+    for configuration in configurations:
+        settings = settings_of(configuration)
+        plan = plan or Plan(settings)
+        context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
+        resolver = _Resolver(plan, settings.axes)
+        key = resolver.node(settings.target, context, ())
+        leaf = Leaf(key, digest(_flat(plan, key, code=False)), settings.model_dump(), _flat(plan, key))
+        for figure in settings.figures:
+            leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
+        plan.requested += resolver.visits
+        if key in seen:
+            seen[key].figures += [figure for figure in leaf.figures if figure not in seen[key].figures]
+        else:
+            seen[key] = leaf
+            plan.leaves.append(leaf)
+    if plan is None:
+        raise UserError("nothing to plan: the sweep is empty")
+    return plan
+
+
+@dataclass
+class _Resolver:
+    plan: Plan
+    axes: Mapping[str, Any]
+    visits: int = 0
+
+    def node(self, kind: str, context: Context, path: tuple[str, ...]) -> str:
+        """Resolve the stage of one kind in a context, its inputs first; return its key."""
+        if context.get(kind) is None:
+            wanted = f", wanted by {path[-1].split(' ')[0]}" if path else ""
+            names = ", ".join(sorted(name for of, name in _names() if of == kind)) or "none registered"
+            raise UserError(f"no {kind} is configured{wanted}; choose {kind}= one of: {names}")
+        configured = stage(context[kind])
+        method = plugin(kind, str(configured.pop("name", None) or _missing(kind)))
+        overrides = configured.pop("inputs", None) or {}
+        here = f"{kind}/{method.name} {digest([kind, context])}"
+        if here in path:
+            raise UserError(f"cycle: {' -> '.join(step.split(' ')[0] for step in (*path[path.index(here) :], here))}")
+        options = _checked_options(method, configured)
+        for role in overrides:
+            if role not in method.inputs:
+                raise unknown(f"input of {kind}/{method.name}", role, method.inputs)
+        inputs = {
+            role: self._input(method, role, context, dict(overrides.get(role) or {}), (*path, here))
+            for role in method.inputs
+        }
+        return self._add(method, options, inputs)
+
+    def _input(self, method: Plugin, role: str, context: Context, override: Context, path: tuple[str, ...]) -> Keys:
+        wanted = method.inputs[role]
+        axis = override.pop("over", None)
+        for key in override:
+            if key not in KINDS:
+                raise unknown(f"stage kind below inputs.{role} of {method.kind}/{method.name}", str(key), KINDS)
+        context = merge(context, override)
+        if wanted.shape == "one":
+            key = self.node(wanted.kind, context, path)
+            allowed = method.accepts.get(wanted.kind)
+            if allowed is not None and self.plan.nodes[key].plugin not in allowed:
+                name = self.plan.nodes[key].plugin
+                raise UserError(
+                    f"{method.kind}/{method.name} takes no {wanted.kind} {name!r}; it takes: {', '.join(allowed)}"
+                )
+            return key
+        if axis not in self.axes:
+            raise unknown(
+                f"axis for list input {role!r} of {method.kind}/{method.name} (set 'over')", str(axis), self.axes
+            )
+        members = self.axes[axis]
+        labelled = dict(members) if isinstance(members, Mapping) else {str(i): part for i, part in enumerate(members)}
+        keys = {label: self.node(wanted.kind, merge(context, part), path) for label, part in labelled.items()}
+        return keys if wanted.shape == "dict" else list(keys.values())
+
+    def _add(self, method: Plugin, options: dict[str, Any], inputs: dict[str, Keys]) -> str:
+        self.visits += KINDS[method.kind].stored
+        code = code_digest(method.file)
+        content = {name: _content(value, method.options.model_fields[name]) for name, value in options.items()}
+        key = digest([method.kind, method.name, content, inputs, code])
+        self.plan.nodes[key] = Node(key, method.kind, method.name, str(method.file), code, options, inputs)
+        return key
+
+
+def _names() -> Iterable[tuple[str, str]]:
+    from surfexp.workflow.registry import PLUGINS
+
+    return PLUGINS
+
+
+def _missing(kind: str) -> str:
+    raise UserError(f"{kind}: the plugin's name is missing; set {kind}=NAME")
+
+
+def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
+    where = f"{method.kind}/{method.name}"
+    for name in configured:
+        if name not in method.options.model_fields:
+            raise unknown(f"option of {where}", str(name), method.options.model_fields)
+    given = {name: value for name, value in configured.items() if value != "???"}
+    try:
+        return method.options(**given).model_dump(mode="json")
+    except ValidationError as error:
+        raise UserError(one_line(where, error)) from None
+
+
+def _content(value: Any, option: Any) -> Any:
+    if value is None or "Path" not in str(option.annotation):
+        return value
+    if not Path(value).exists():
+        raise UserError(f"file {value!r} does not exist")
+    return file_digest(Path(value).resolve())
+
+
+def _flat(plan: Plan, key: str, code: bool = True) -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    owners: dict[str, str] = {}
+
+    def visit(key: str, prefix: str, parent: str) -> None:
+        node = plan.nodes[key]
+        if owners.get(prefix, key) != key:
+            prefix = f"{parent}.{prefix}"
+        if owners.setdefault(prefix, key) == key and f"{prefix}.name" not in flat:
+            flat[f"{prefix}.name"] = node.plugin
+            flat.update({f"{prefix}.{name}": value for name, value in node.options.items()})
+        for role, value in node.inputs.items():
+            children = (
+                value if isinstance(value, dict) else {"": value} if isinstance(value, str) else dict(enumerate(value))
+            )
+            for label, child in children.items():
+                visit(child, f"{role}[{label}]" if label != "" else role, prefix)
+
+    visit(key, plan.nodes[key].kind, "")
+    return flat

@@ -1,0 +1,165 @@
+"""The plugin registry: every method by kind and name, found in the package, in installed packages and in `plugins/`."""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel, ConfigDict
+
+from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.fingerprint import digest
+from surfexp.workflow.kinds import KINDS, kind_of
+
+
+class Options(BaseModel):
+    """Base class of plugin options: unknown names are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input of a plugin: the kind it asks for, and whether it takes one result, a list or a labelled dict of them."""
+
+    kind: str
+    shape: str
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """A registered method."""
+
+    kind: str
+    name: str
+    function: Callable[..., Any]
+    options: type[BaseModel]
+    inputs: Mapping[str, Input]
+    file: Path
+    accepts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    @property
+    def summary(self) -> str:
+        """First line of the function's docstring."""
+        return (inspect.getdoc(self.function) or "").split("\n", 1)[0]
+
+
+PLUGINS: dict[tuple[str, str], Plugin] = {}
+BROKEN: dict[Path, str] = {}
+_loaded: set[str] = set()
+
+
+def register(
+    kind: str, name: str, *, accepts: Mapping[str, Iterable[str]] | None = None
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Register a function as plugin `name` of stage `kind`.
+
+    Its first argument is annotated with a pydantic model of options; each keyword-only argument is an input, named by
+    its role and annotated with the result type of a kind (or a list, or a dict by label, of it). `accepts` restricts,
+    for a kind, which plugins may feed this one; it is checked before anything runs.
+    """
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        file = Path(inspect.getfile(function)).resolve()
+        known = PLUGINS.get((kind, name))
+        if known is not None and known.file != file and known.file.read_bytes() != file.read_bytes():
+            raise UserError(f"plugin {kind}/{name} is defined twice: {known.file} and {file}")
+        if known is None:
+            restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
+            PLUGINS[kind, name] = Plugin(kind, name, function, *_signature(kind, name, function), file, restrictions)
+        return function
+
+    return decorate
+
+
+def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type[BaseModel], dict[str, Input]]:
+    where = f"plugin {kind}/{name}"
+    if kind not in KINDS:
+        raise unknown("stage kind", kind, KINDS)
+    hints = get_type_hints(function)
+    parameters = list(inspect.signature(function).parameters.values())
+    options = hints.get(parameters[0].name) if parameters else None
+    if not (isinstance(options, type) and issubclass(options, BaseModel)):
+        raise UserError(f"{where}: its first argument must be annotated with a pydantic model of options")
+    clash = set(options.model_fields) & (set(KINDS) | {"name", "inputs"})
+    if clash:
+        raise UserError(f"{where}: option {min(clash)!r} has the name of a stage kind or of a setting")
+    inputs = {}
+    for parameter in parameters[1:]:
+        hint = hints[parameter.name]
+        shape = {list: "list", dict: "dict"}.get(get_origin(hint) or hint, "one")
+        try:
+            inputs[parameter.name] = Input(kind_of(get_args(hint)[-1] if shape != "one" else hint), shape)
+        except KeyError:
+            raise UserError(f"{where}: input {parameter.name!r} is annotated {hint}, which is no stage kind") from None
+    return options, inputs
+
+
+def plugin(kind: str, name: str) -> Plugin:
+    """Look a plugin up; UserError with the nearest name, or with the file that failed to load."""
+    if (kind, name) not in PLUGINS:
+        names = [known for of, known in PLUGINS if of == kind]
+        error = unknown(f"{kind} plugin", name, names) if kind in KINDS else unknown("stage kind", kind, KINDS)
+        broken = next((message for file, message in BROKEN.items() if file.stem == name), "")
+        raise UserError(f"{error}{f' ({broken})' if broken else ''}")
+    return PLUGINS[kind, name]
+
+
+def load_file(file: Path) -> None:
+    """Execute one plugin file, once; UserError naming file and line if it fails."""
+    file = file.resolve()
+    module_name = f"surfexp_plugin_{digest(str(file))}_{file.stem}"
+    if str(file) in _loaded:
+        return
+    _loaded.add(str(file))
+    specification = importlib.util.spec_from_file_location(module_name, file)
+    assert specification is not None and specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[module_name] = module
+    try:
+        specification.loader.exec_module(module)
+    except UserError:
+        raise
+    except SyntaxError as error:
+        raise UserError(f"plugin file {file}, line {error.lineno}: {error.msg}") from error
+    except Exception as error:
+        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
+        raise UserError(f"plugin file {file}, line {lines[-1] if lines else '?'}: {error}") from error
+
+
+def package_folder(name: str) -> Path:
+    """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
+    specification = importlib.util.find_spec(name)
+    assert specification is not None and specification.submodule_search_locations
+    return Path(next(iter(specification.submodule_search_locations))).resolve()
+
+
+def load_all(working_folder: Path) -> None:
+    """Load every plugin: the package's own, installed packages' (entry-point group `surfexp.plugins`), `plugins/` here.
+
+    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused.
+    """
+    for folder in dict.fromkeys((package_folder("surfexp.plugins"), (working_folder / "plugins").resolve())):
+        for file in sorted(folder.glob("*/*.py")):
+            if file.name != "__init__.py":
+                _guarded(file, lambda file=file: load_file(file))  # type: ignore[misc]
+    for point in entry_points(group="surfexp.plugins"):
+        _guarded(Path(point.value), point.load)
+
+
+def _guarded(file: Path, load: Callable[[], Any]) -> None:
+    try:
+        load()
+    except UserError as error:
+        if "defined twice" in str(error):
+            raise
+        BROKEN[file] = str(error)
+    except Exception as error:
+        BROKEN[file] = f"{file}: {error}"

@@ -1,0 +1,57 @@
+# One named rule for each stage kind; the plan says which results exist and what each is made from.
+import shlex
+import sys
+
+from surfexp.workflow import launch
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.plan import stored_inputs
+
+plan_path, plan = launch.plan_for_snakemake(config)
+results = plan_path.parent.parent
+record = f"{results}/store/{{kind}}/{{key}}/record.json"
+
+
+def records(keys):
+    return [record.format(kind=plan.nodes[key].kind, key=key) for key in keys]
+
+
+wildcard_constraints:
+    key="[0-9a-f]+",
+
+
+rule all:
+    input:
+        records(dict.fromkeys(key for leaf in plan.leaves for key in (leaf.key, *leaf.figures))),
+    default_target: True
+
+
+for kind in [kind.name for kind in KINDS.values() if kind.stored]:
+
+    rule:
+        name:
+            kind
+        input:
+            lambda wildcards: [ancient(path) for path in records(stored_inputs(plan.nodes, wildcards.key))],
+        output:
+            record.format(kind=kind, key="{key}"),
+        log:
+            f"{results}/logs/{kind}/{{key}}.log",
+        benchmark:
+            f"{results}/logs/{kind}/{{key}}.benchmark.tsv"
+        threads: 1
+        params:
+            command=shlex.join([sys.executable, "-m", "surfexp.workflow.stage", str(plan_path)]),
+        shell:
+            "{params.command} {wildcards.key} > {log} 2>&1"
+
+
+onstart:
+    launch.hold_results(results)
+
+
+onsuccess:
+    launch.after_snakemake(plan_path)
+
+
+onerror:
+    launch.after_snakemake(plan_path)

@@ -1,0 +1,111 @@
+"""The stage runner: one process makes one result from a plan and leaves an event record of what it took."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import sys
+import time
+import traceback
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")
+
+from surfexp.workflow import registry, store  # noqa: E402
+from surfexp.workflow.fingerprint import numba_state  # noqa: E402
+from surfexp.workflow.kinds import KINDS  # noqa: E402
+from surfexp.workflow.plan import Keys, Node, read_plan  # noqa: E402
+
+_progress: dict[str, Any] = {}
+
+
+def report_progress(iteration: int, gap: float) -> None:
+    """Progress callback for long loops: shows iteration and gap in the driver's live view, at most five times a second."""
+    now = time.monotonic()
+    if _progress and now - _progress["last"] > 0.2:
+        _progress["last"] = now
+        store.write_text(_progress["path"], f"iteration {iteration:,}, gap {gap:.1e}")
+
+
+def event_path(results: Path, kind: str, key: str) -> Path:
+    """Where the event record of a stage lies."""
+    return results / "events" / kind / f"{key}.json"
+
+
+def read_event(results: Path, kind: str, key: str) -> dict[str, Any]:
+    """Event record of a stage, empty before it ran."""
+    path = event_path(results, kind, key)
+    return json.loads(path.read_text()) if path.exists() else {}
+
+
+def run_stage(plan_path: Path, key: str) -> int:
+    """Make one result; return 0, or 1 after recording the failure."""
+    plan = read_plan(plan_path)
+    results, node = plan_path.resolve().parent.parent, plan.nodes[key]
+    # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
+    os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / numba_state(Path(node.file), node.code))
+    progress_path = results / "events" / node.kind / f"{key}.progress"
+    _progress.update(path=progress_path, last=0.0)
+    started, failure = time.perf_counter(), ""
+    metrics: dict[str, float] = {}
+    notes: tuple[str, ...] = ()
+    history: dict[str, list[float]] = {}
+    store.write_text(progress_path, "started")
+    try:
+        result = make(plan.nodes, key, results)
+        store.save(results, node.kind, key, result)
+        metrics, notes = dict(getattr(result, "metrics", {})), tuple(getattr(result, "notes", ()))
+        history = {name: [float(x) for x in values] for name, values in getattr(result, "history", {}).items()}
+    except Exception as error:
+        failure = f"{node.kind}/{node.plugin}: {' '.join(str(error).split()) or type(error).__name__}"
+        if os.environ.get("SURFEXP_DEBUG"):
+            traceback.print_exc()
+        print(failure, file=sys.stderr)
+    finally:
+        progress_path.unlink(missing_ok=True)
+    event = {
+        "kind": node.kind,
+        "plugin": node.plugin,
+        "seconds": time.perf_counter() - started,
+        "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+        "metrics": {name: float(value) for name, value in metrics.items()},
+        "notes": notes,
+        "history": history,
+        "failure": failure,
+    }
+    store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
+    return 1 if failure else 0
+
+
+def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
+    """Call a node's plugin on its inputs: stored ones are read, the others are made here."""
+    node = nodes[key]
+    registry.load_file(Path(node.file))
+    method = registry.plugin(node.kind, node.plugin)
+
+    def one(child: str) -> Any:
+        kind = nodes[child].kind
+        registry.load_file(Path(nodes[child].file))
+        return store.load(results, kind, child) if KINDS[kind].stored else make(nodes, child, results)
+
+    def some(value: Keys) -> Any:
+        if isinstance(value, str):
+            return one(value)
+        return [one(child) for child in value] if isinstance(value, list) else {k: one(v) for k, v in value.items()}
+
+    result = method.function(method.options(**node.options), **{role: some(v) for role, v in node.inputs.items()})
+    expected = KINDS[node.kind].result
+    if not isinstance(result, expected):
+        raise TypeError(f"returned {type(result).__name__}, a {node.kind} plugin returns {expected.__name__}")
+    return result
+
+
+if __name__ == "__main__":
+    # `python -m` runs this file as __main__; plugins import it by name and must find the same callback state.
+    from surfexp.workflow import stage
+
+    sys.exit(stage.run_stage(Path(sys.argv[1]), sys.argv[2]))

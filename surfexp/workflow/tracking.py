@@ -1,0 +1,112 @@
+"""MLflow: one idempotent function turns a plan's event records into runs. Only the driver calls it."""
+
+from __future__ import annotations
+
+import logging
+import os
+import subprocess
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from surfexp.workflow.fingerprint import digest
+from surfexp.workflow.plan import Leaf, Plan
+from surfexp.workflow.stage import read_event
+
+PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
+
+
+def tracking_uri(results: Path) -> str:
+    """Address of the MLflow database of a results folder."""
+    return f"sqlite:///{results.resolve() / 'mlflow.db'}"
+
+
+def record(plan: Plan, results: Path, views: Path) -> None:
+    """Create or update one run a leaf, below one parent run for the experiment; a second call changes nothing.
+
+    A run belongs to (experiment, leaf key). A leaf whose earlier run failed takes that run over; a run of the same
+    configuration under older code keeps a tag `current=false`.
+    """
+    os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
+    os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
+    logging.getLogger("alembic").setLevel(logging.WARNING)
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(tracking_uri(results))
+    name = plan.settings.experiment
+    experiment = client.get_experiment_by_name(name)
+    location = (results / "mlflow-artifacts").resolve().as_uri()
+    identity = experiment.experiment_id if experiment else client.create_experiment(name, artifact_location=location)
+    runs = client.search_runs([identity], max_results=50000)
+    by_leaf = {run.data.tags.get("leaf"): run for run in runs}
+    parent = by_leaf.get("plan") or client.create_run(identity, run_name=name, tags={"leaf": "plan"})
+    events = {key: read_event(results, node.kind, node.key) for key, node in plan.nodes.items()}
+    failed = False
+    for leaf in plan.leaves:
+        upstream = [events[key] for key in _upstream(plan, leaf.key) if events[key]]
+        state = digest([upstream, leaf.parameters])
+        failed |= any(event["failure"] for event in upstream)
+        same = [run for run in runs if run.data.tags.get("configuration") == leaf.configuration]
+        run = by_leaf.get(leaf.key) or next((run for run in same if run.info.status == "FAILED"), None)
+        if run is not None and run.data.tags.get("state") == state:
+            continue
+        tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "mlflow.parentRunId": parent.info.run_id}
+        run = run or client.create_run(identity, run_name=_label(leaf), tags=tags)
+        _fill(client, run.info.run_id, leaf, upstream, events[leaf.key], {**tags, **_versions(), "state": state})
+        for old in same:
+            if old.info.run_id != run.info.run_id:
+                client.set_tag(old.info.run_id, "current", "false")
+    state = digest([sorted(leaf.key for leaf in plan.leaves), failed, (views / "metrics.csv").read_text()])
+    if parent.data.tags.get("state") != state:
+        for tag, value in {"plan": plan.identity, "state": state, **_versions()}.items():
+            client.set_tag(parent.info.run_id, tag, value)
+        client.log_artifacts(parent.info.run_id, str(views))
+        client.set_terminated(parent.info.run_id, "FAILED" if failed else "FINISHED")
+
+
+def _fill(client: Any, run_id: str, leaf: Leaf, upstream: list[Any], event: Any, tags: dict[str, str]) -> None:
+    from mlflow.entities import Metric, Param, RunTag
+
+    known = client.get_run(run_id).data.params
+    parameters = [Param(key, str(value)[:6000]) for key, value in leaf.parameters.items() if key not in known]
+    metrics = {**(event or {}).get("metrics", {})}
+    for item in upstream:
+        metrics[f"seconds.{item['kind']}"] = metrics.get(f"seconds.{item['kind']}", 0.0) + item["seconds"]
+        metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item["peak_memory_mb"])
+    series = [Metric(_safe(key), value, 0, 0) for key, value in metrics.items()]
+    history = (event or {}).get("history", {})
+    steps = history.get("iteration", [])
+    series += [
+        Metric(f"history.{_safe(key)}", value, 0, int(step))
+        for key, values in history.items()
+        if key != "iteration"
+        for step, value in zip(steps, values, strict=False)
+    ]
+    failures = [item["failure"] for item in upstream if item["failure"]]
+    tags = {**tags, "failure": "; ".join(failures)} if failures else {**tags, "failure": ""}
+    for start in range(0, max(len(series), 1), 900):
+        client.log_batch(run_id, series[start : start + 900], parameters if start == 0 else [], [])
+    client.log_batch(run_id, [], [], [RunTag(key, value) for key, value in tags.items()])
+    client.set_terminated(run_id, "FAILED" if failures or not event else "FINISHED")
+
+
+def _upstream(plan: Plan, key: str) -> list[str]:
+    found: dict[str, None] = {}
+    for value in plan.nodes[key].inputs.values():
+        for child in [value] if isinstance(value, str) else value if isinstance(value, list) else value.values():
+            found.update(dict.fromkeys(_upstream(plan, child)))
+    return [*found, key]
+
+
+def _label(leaf: Leaf) -> str:
+    return " ".join(str(value) for key, value in leaf.parameters.items() if key.endswith(".name"))[:250]
+
+
+def _safe(name: str) -> str:
+    return "".join(c if c.isalnum() or c in "_-./ " else "_" for c in name)
+
+
+def _versions() -> dict[str, str]:
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
+    versions = {f"version.{name}": version(name) for name in PACKAGES}
+    return {**versions, "git_commit": commit.stdout.strip() or "not a checkout"}

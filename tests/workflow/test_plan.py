@@ -1,0 +1,146 @@
+"""The stage contract: recurring kinds, two inputs of one kind, lists over axes, keys, cycles, mistakes."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from surfexp.workflow import registry, stage, store
+from surfexp.workflow.configuration import expand
+from surfexp.workflow.errors import UserError
+from surfexp.workflow.plan import make_plan, read_plan, stored_inputs
+
+TOYS = Path(__file__).with_name("toy_plugins.py")
+CHAIN = {
+    "feature": "toy_eigenfunction",
+    "weighted": {"name": "toy_flux", "inputs": {"weight": {"feature": {"name": "toy_boundary", "shift": 1.0}}}},
+}
+DISTANCE = {
+    "target": "pairing",
+    "surface": {"name": "toy_triangle", "size": 2.0},
+    "pairing": {
+        "name": "toy_distance",
+        "inputs": {
+            "source": CHAIN,
+            "target": {"surface": {"name": "toy_triangle", "size": 3.0}, "feature": "toy_boundary"},
+        },
+    },
+}
+
+
+@pytest.fixture(autouse=True)
+def toys() -> None:
+    registry.load_file(TOYS)
+
+
+def run(configuration: dict, results: Path):
+    plan = make_plan(expand(configuration))
+    path = plan.write(results)
+    for key, node in plan.nodes.items():
+        if node.kind != "model":
+            assert stage.run_stage(path, key) == 0
+    return plan, store.load(results, configuration["target"], plan.leaves[0].key)
+
+
+def test_chain_in_which_a_kind_recurs_and_two_inputs_of_one_kind(tmp_path: Path) -> None:
+    plan, pairing = run(DISTANCE, tmp_path)
+    assert pairing.trace == "eigen(flux(boundary))~boundary"
+    assert pairing.value == 7.0
+    parameters = plan.leaves[0].parameters
+    assert parameters["source.weighted.weight.shift" if "source.weighted.weight.shift" in parameters else "weight.shift"] == 1.0
+    assert len(plan.stored) == 7 and plan.requested == 8
+
+
+def test_every_output_is_of_its_own_kind(tmp_path: Path) -> None:
+    plan, _ = run(DISTANCE, tmp_path)
+    for key, node in plan.nodes.items():
+        assert isinstance(store.load(tmp_path, node.kind, key), registry.KINDS[node.kind].result)
+
+
+def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
+    members = {name: {"surface": {"name": "toy_triangle", "size": size}} for name, size in (("small", 1.0), ("large", 4.0))}
+    configuration = {
+        "target": "pairing",
+        "axes": {"subject": members},
+        "feature": "toy_boundary",
+        "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "subject"}, "named": {"over": "subject"}}},
+    }
+    plan, pairing = run(configuration, tmp_path)
+    assert pairing.value == 3.0 and pairing.trace == "small,large"
+    assert sum(node.kind == "feature" for node in plan.nodes.values()) == 2
+    with pytest.raises(UserError, match=r"'sujet'.*did you mean 'subject'"):
+        make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "sujet"}}}}])
+
+
+def test_cycles_are_named() -> None:
+    circular = {"target": "feature", "surface": "toy_triangle", "feature": "toy_eigenfunction", "weighted": "toy_flux"}
+    with pytest.raises(UserError, match="cycle: feature/toy_eigenfunction -> weighted/toy_flux -> feature/toy_eigen"):
+        make_plan([circular])
+
+
+def test_unused_options_do_not_change_a_key_and_used_ones_do() -> None:
+    base = {"target": "feature", "surface": "toy_triangle", "feature": "toy_boundary"}
+    key = make_plan([base]).leaves[0].key
+    assert make_plan([{**base, "weighted": "toy_flux", "title": "another"}]).leaves[0].key == key
+    assert make_plan([{**base, "feature": {"name": "toy_boundary", "shift": 0.0}}]).leaves[0].key == key
+    assert make_plan([{**base, "feature": {"name": "toy_boundary", "shift": 0.5}}]).leaves[0].key != key
+    assert make_plan([{**base, "surface": {"name": "toy_triangle", "size": 2}}]).leaves[0].key != key
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"feature": "toy_boundry"}, r"feature plugin 'toy_boundry'; did you mean 'toy_boundary'"),
+        ({"feature": {"name": "toy_boundary", "shfit": 1}}, r"option of feature/toy_boundary 'shfit'; did you mean 'shift'"),
+        ({"surface": {"name": "toy_triangle", "size": -1.0}}, r"surface/toy_triangle.size = -1.0: .*greater than 0"),
+        ({"surface": None}, r"no surface is configured, wanted by feature/toy_boundary; choose surface="),
+        ({"expriment": "x"}, r"configuration key 'expriment'; did you mean 'experiment'"),
+        ({"cores": 0}, r"configuration.cores = 0: .*greater than or equal to 1"),
+        ({"feature": {"name": "toy_boundary", "inputs": {"surfce": {}}}}, r"input of feature/toy_boundary 'surfce'"),
+    ],
+)
+def test_mistakes_are_refused_with_the_nearest_choice(change: dict, message: str) -> None:
+    base = {"target": "feature", "surface": "toy_triangle", "feature": "toy_boundary"}
+    with pytest.raises(UserError, match=message):
+        make_plan(expand({**base, **change}))
+
+
+def test_variants_and_grids_are_a_union_of_products_and_the_command_line_wins() -> None:
+    configuration = {
+        "surface": {"name": "toy_triangle", "size": 1.0},
+        "feature": {"name": "toy_boundary", "shift": 0.0},
+        "variants": [
+            {"feature": {"shift": 5.0}, "grid": {"surface.size": [1.0, 2.0]}},
+            {"feature": "toy_eigenfunction", "grid": {"weighted": ["toy_flux"]}},
+        ],
+    }
+    leaves = list(expand(configuration))
+    assert [leaf["surface"].get("size") for leaf in leaves] == [1.0, 2.0, 1.0]
+    assert leaves[0]["feature"] == {"name": "toy_boundary", "shift": 5.0}
+    assert leaves[2]["feature"] == {"name": "toy_eigenfunction"} and leaves[2]["weighted"] == {"name": "toy_flux"}
+    forced = list(expand(configuration, ["surface.size", "feature.shift"]))
+    assert [leaf["surface"]["size"] for leaf in forced] == [1.0, 1.0, 1.0]
+    assert forced[0]["feature"]["shift"] == 0.0 and forced[2]["feature"] == {"name": "toy_eigenfunction"}
+
+
+def test_plans_read_back_and_results_are_the_same_bytes(tmp_path: Path) -> None:
+    plan, _ = run(DISTANCE, tmp_path / "a")
+    again = read_plan(plan.write(tmp_path / "a"))
+    assert again.nodes == plan.nodes and again.leaves == plan.leaves
+    assert stored_inputs(plan.nodes, plan.leaves[0].key)
+    run(DISTANCE, tmp_path / "b")
+    for file in (tmp_path / "a" / "store").rglob("*.*"):
+        assert file.read_bytes() == (tmp_path / "b" / "store" / file.relative_to(tmp_path / "a" / "store")).read_bytes()
+    shutil.rmtree(tmp_path / "b")
+
+
+def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None:
+    plan = make_plan([{"target": "pairing", "surface": "toy_triangle", "pairing": "toy_failure"}])
+    path = plan.write(tmp_path)
+    codes = [stage.run_stage(path, key) for key in plan.nodes]
+    assert codes == [0, 1]
+    key = plan.leaves[0].key
+    assert not store.is_done(tmp_path, "pairing", key)
+    assert stage.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")

@@ -1,0 +1,95 @@
+"""Toy plugins for the stage contract: a kind that recurs along a chain, two inputs of one kind, a list over an axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.workflow.kinds import stage_kind
+from surfexp.workflow.registry import Options, register
+
+
+@dataclass(frozen=True, eq=False)
+class Feature:
+    values: np.ndarray
+    trace: str = ""
+    metrics: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Weighted:
+    values: np.ndarray
+    trace: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    value: float
+    trace: str = ""
+    metrics: dict[str, float] = field(default_factory=dict)
+
+
+stage_kind("feature", Feature)
+stage_kind("weighted", Weighted)
+stage_kind("pairing", Pairing)
+
+
+class Triangle(Options):
+    size: float = Field(1.0, gt=0, description="side length")
+
+
+@register("surface", "toy_triangle")
+def toy_triangle(options: Triangle) -> Surface:
+    """One right triangle."""
+    vertices = options.size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    return Surface(TriangleMesh(vertices, np.array([[0, 1, 2]])), metrics={"area": 0.5 * options.size**2})
+
+
+class Boundary(Options):
+    shift: float = Field(0.0, description="added to every value")
+
+
+@register("feature", "toy_boundary")
+def toy_boundary(options: Boundary, *, surface: Surface) -> Feature:
+    """A feature of the surface alone."""
+    return Feature(surface.mesh.vertices[:, 0] + options.shift, "boundary")
+
+
+class Nothing(Options):
+    pass
+
+
+@register("weighted", "toy_flux")
+def toy_flux(options: Nothing, *, surface: Surface, weight: Feature) -> Weighted:
+    """An operator that needs a feature."""
+    return Weighted(weight.values + surface.mesh.area, f"flux({weight.trace})")
+
+
+@register("feature", "toy_eigenfunction")
+def toy_eigenfunction(options: Nothing, *, weighted: Weighted) -> Feature:
+    """A feature made from an operator that was made from a feature."""
+    return Feature(2.0 * weighted.values, f"eigen({weighted.trace})")
+
+
+@register("pairing", "toy_distance")
+def toy_distance(options: Nothing, *, source: Feature, target: Feature) -> Pairing:
+    """Two inputs of one kind."""
+    value = float(np.abs(source.values - target.values).max())
+    return Pairing(value, f"{source.trace}~{target.trace}", metrics={"distance": value})
+
+
+@register("pairing", "toy_spread")
+def toy_spread(options: Nothing, *, features: list[Feature], named: dict[str, Feature]) -> Pairing:
+    """Lists that fan in over an axis."""
+    value = float(np.ptp([item.values.sum() for item in features]))
+    return Pairing(value, ",".join(named), metrics={"spread": value})
+
+
+@register("pairing", "toy_failure")
+def toy_failure(options: Nothing, *, surface: Surface) -> Pairing:
+    """A stage that fails."""
+    raise ValueError(f"surface has area {surface.mesh.area}, at least 1e9 is needed")
