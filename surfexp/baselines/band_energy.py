@@ -55,9 +55,7 @@ class BandEnergy:
         """Set `load` to the derivative of sum w sqrt(|P D u|^2 + eps^2), P = 1 - n n^T; return that sum."""
         band = self.band
         load[:] = 0.0
-        return float(
-            _projected_load(band.forward, band.normals, self.cells, band.step, regularisation, values, load)
-        )
+        return float(_projected_load(band.forward, band.normals, self.cells, band.step, regularisation, values, load))
 
     def dual_ascent(self, step: float, values: Floats, dual: Floats, load: Floats) -> None:
         """Set p <- P(p + step D u) with |p| <= 1, in place, and `load` to D^T w p."""

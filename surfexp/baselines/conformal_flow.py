@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from surfexp.baselines.moebius import centred
 from surfexp.baselines.spherical_map import check_sphere
@@ -26,9 +27,9 @@ def conformal_flow(
 ) -> Floats:
     """Let a surface flow to the round sphere with the stiffness of the start and the mass of the moment.
 
-    (M_t + s Q) x_{t+1} = M_t x_t, s = time_step * area / (4 pi), rescaled and centred after each step (Kazhdan, Solomon and Ben-Chen 2012). It
-    ends when the surface is round and its conformality defect, Dirichlet energy / area - 1, changes by less than
-    `tolerance` times itself in a step; a Moebius transformation then centres the areas.
+    (M_t + s Q) x_{t+1} = M_t x_t, centred and rescaled to the area of the unit sphere after each step (Kazhdan, Solomon and
+    Ben-Chen 2012). It ends when the surface is round and its conformality defect, Dirichlet energy / area - 1, changes by
+    less than `tolerance` times itself in a step; a Moebius transformation then centres the areas.
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ def conformal_flow(
     positions : (n, 3) float64, optional
         Where the flow starts: the mesh itself, or a map that `spherical_map` has made and the flow improves.
     time_step : float
-        For a surface scaled to the area of the unit sphere.
+        s, where the moving surface has the area of the unit sphere.
     tolerance : float
     step_limit : int
     progress : callable, optional
@@ -56,11 +57,11 @@ def conformal_flow(
     check_sphere(mesh)
     matrix = stiffness(fem(mesh))
     points = _rescaled(mesh, mesh.vertices if positions is None else positions)
-    defect = conformality_defect(mesh, points)
+    defect = _defect(matrix, mesh, points)
     for step in range(1, step_limit + 1):
         mass = mass_matrix(fem(TriangleMesh(points, mesh.faces)))
         points = _rescaled(mesh, factorise(mass + time_step * matrix).solve(mass @ points))
-        before, defect = defect, conformality_defect(mesh, points)
+        before, defect = defect, _defect(matrix, mesh, points)
         if progress is not None:
             progress(step, defect)
         radii = np.linalg.norm(points, axis=1)
@@ -74,7 +75,11 @@ def conformality_defect(mesh: TriangleMesh, positions: Floats) -> float:
 
     0 for a conformal map, positive for any other.
     """
-    energy = 0.5 * float(np.einsum("nd,nd->", positions, stiffness(fem(mesh)) @ positions))
+    return _defect(stiffness(fem(mesh)), mesh, positions)
+
+
+def _defect(matrix: csr_array, mesh: TriangleMesh, positions: Floats) -> float:
+    energy = 0.5 * float(np.einsum("nd,nd->", positions, matrix @ positions))
     return energy / TriangleMesh(positions, mesh.faces).area - 1.0
 
 

@@ -68,8 +68,10 @@ def grid_interpolation(band: NarrowBand, points: Floats, degree: int) -> GridInt
     ends = np.stack([locate(band.keys, row + degree) for row in rows], axis=1)
     missing = int(((starts < 0) | (ends != starts + degree)).any(axis=1).sum())
     if missing:
-        raise ValueError(f"{missing} of {len(points)} stencils of degree {degree} leave a band of radius "
-                         f"{band.radius / band.step:.3g} steps; take interpolation_radius({degree})")
+        raise ValueError(
+            f"{missing} of {len(points)} stencils of degree {degree} leave a band of radius "
+            f"{band.radius / band.step:.3g} steps; take interpolation_radius({degree})"
+        )
     return GridInterpolation(starts, scaled - cell)
 
 

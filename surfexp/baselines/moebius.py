@@ -26,7 +26,9 @@ def invert(points: Floats, centre: Floats) -> Floats:
     """
     size = float(centre @ centre)
     if size >= 1:
-        raise ValueError(f"centre has length {np.sqrt(size):.4g}, a Moebius transformation of the sphere needs less than 1")
+        raise ValueError(
+            f"centre has length {np.sqrt(size):.4g}, a Moebius transformation of the sphere needs less than 1"
+        )
     shifted = points + centre
     return (1.0 - size) * shifted / np.einsum("nd,nd->n", shifted, shifted)[:, None] + centre
 

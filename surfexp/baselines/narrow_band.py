@@ -146,8 +146,10 @@ def narrow_band(mesh: TriangleMesh, step: float, radius: float) -> NarrowBand:
     counts = np.ceil(mesh.vertices.max(axis=0) / step) + padding - lowest + 1
     if counts.prod() > LARGEST_GRID:
         nearest = step * (counts.prod() / LARGEST_GRID) ** (1 / 3)
-        raise ValueError(f"grid step {step:g} makes {counts.prod():.3g} grid points, the bound is {LARGEST_GRID:g}; "
-                         f"take a step of at least {nearest:.3g}")
+        raise ValueError(
+            f"grid step {step:g} makes {counts.prod():.3g} grid points, the bound is {LARGEST_GRID:g}; "
+            f"take a step of at least {nearest:.3g}"
+        )
     shape = (int(counts[0]), int(counts[1]), int(counts[2]))
     origin = lowest * step
 

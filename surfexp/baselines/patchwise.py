@@ -65,9 +65,7 @@ def patchwise_domain(mesh: TriangleMesh, labels: Integers) -> ParameterDomain:
     ValueError
         If a patch is not a topological disk.
     """
-    copies, corner = np.unique(
-        np.repeat(labels, 3) * len(mesh.vertices) + mesh.faces.ravel(), return_inverse=True
-    )
+    copies, corner = np.unique(np.repeat(labels, 3) * len(mesh.vertices) + mesh.faces.ravel(), return_inverse=True)
     origin, patch = copies % len(mesh.vertices), copies // len(mesh.vertices)
     cut = TriangleMesh(mesh.vertices[origin], corner.reshape(-1, 3))
     positions = np.zeros((len(origin), 2))
@@ -85,7 +83,7 @@ def patchwise_domain(mesh: TriangleMesh, labels: Integers) -> ParameterDomain:
         "patches": float(labels.max() + 1),
         "seam_vertices": float(seam_vertices(mesh, labels).sum()),
     }
-    return ParameterDomain(operator, to_domain, to_vertices, "patchwise", metrics)
+    return ParameterDomain(operator, to_domain, to_vertices, name="patchwise", metrics=metrics)
 
 
 def seam_vertices(mesh: TriangleMesh, labels: Integers) -> np.ndarray:

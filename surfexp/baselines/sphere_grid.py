@@ -42,7 +42,7 @@ def sphere_grid_domain(mesh: TriangleMesh, positions: Floats, columns: int = 512
         "grid_separation": grid_separation(positions, columns, rows),
         "area_ratio": float(weighted.areas.sum() / mesh.area),
     }
-    return ParameterDomain(weighted, to_domain, to_vertices, f"conformal grid {columns}x{rows}", metrics)
+    return ParameterDomain(weighted, to_domain, to_vertices, False, f"conformal grid {columns}x{rows}", metrics)
 
 
 def longitude_latitude_mesh(columns: int, rows: int) -> TriangleMesh:
@@ -92,7 +92,9 @@ def _barycentric_matrix(mesh: TriangleMesh, points: Floats) -> tuple[csr_array, 
     """(q, n) interpolation at the closest points of a mesh, and the (q,) faces that hold them."""
     _, face, closest = igl.point_mesh_squared_distance(np.ascontiguousarray(points), mesh.vertices, mesh.faces)
     corners = mesh.faces[face]
-    weights = igl.barycentric_coordinates(closest, *(np.ascontiguousarray(mesh.vertices[corners[:, c]]) for c in range(3)))
+    weights = igl.barycentric_coordinates(
+        closest, *(np.ascontiguousarray(mesh.vertices[corners[:, c]]) for c in range(3))
+    )
     weights = np.clip(weights, 0.0, 1.0)
     weights /= weights.sum(axis=1, keepdims=True)
     rows = np.arange(0, 3 * len(points) + 1, 3)

@@ -9,9 +9,7 @@ from surfexp.mesh.triangle_mesh import Floats
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 
 
-def transported(
-    fidelity: SeparableQuadratic, mass: Floats, carry: Callable[[Floats], Floats]
-) -> SeparableQuadratic:
+def transported(fidelity: SeparableQuadratic, mass: Floats, carry: Callable[[Floats], Floats]) -> SeparableQuadratic:
     """Return the same data term on a domain of other points.
 
     Parameters

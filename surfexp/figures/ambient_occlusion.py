@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.mesh.triangle_mesh import Floats, Integers
 
-DIRECTIONS = 16
+DIRECTIONS = 12
 STEPS = 7
 # sines under this are the facets of the mesh, not its folds
 BIAS = 0.08
+FAR = 1e30
 
 
-def ambient_occlusion(depth: Floats, normals: Floats, radius: float) -> Floats:
+def ambient_occlusion(depth: Floats, normals: Floats, radius: float, nearest: float = 1.0) -> Floats:
     """(height, width) share of the sky that nearby surface hides, 0 in the open.
 
-    Along each of 16 directions on the screen the steepest elevation above the tangent plane is kept, faded out with
+    Along each of 12 directions on the screen the steepest elevation above the tangent plane is kept, faded out with
     the distance; the mean over the directions is returned.
 
     Parameters
@@ -27,20 +28,27 @@ def ambient_occlusion(depth: Floats, normals: Floats, radius: float) -> Floats:
         Unit normals in camera coordinates.
     radius : float
         Reach in pixels.
+    nearest : float
+        Distance in pixels within which nothing hides the sky. The length of an edge keeps facets out of the picture.
     """
     angles = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
-    reach = np.maximum(radius * (np.arange(1, STEPS + 1) / STEPS) ** 1.7, 1.0)
+    first = min(max(nearest, 1.0), 0.5 * radius)
+    reach = first + (radius - first) * (np.arange(STEPS) / STEPS) ** 1.5
     shifts = np.rint(reach[None, :, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)[:, None, :])
-    return _occlusion(depth, normals, shifts.astype(np.int64), radius)
+    # nothing is far behind everything, where it hides no sky
+    far = np.where(np.isfinite(depth), depth, FAR)
+    return _occlusion(far, normals, shifts.astype(np.int64), radius)
 
 
 @njit(cache=True, nogil=True)
-def _occlusion(depth, normals, shifts, radius):  # type: ignore[no-untyped-def]
+def _occlusion(depth: Floats, normals: Floats, shifts: Integers, radius: float) -> Floats:
     height, width = depth.shape
     result = np.zeros((height, width))
+    reach = radius * radius
     for row in range(height):
         for column in range(width):
-            if not np.isfinite(depth[row, column]):
+            here = depth[row, column]
+            if here == FAR:
                 continue
             nx, ny, nz = normals[row, column]
             total = 0.0
@@ -49,14 +57,13 @@ def _occlusion(depth, normals, shifts, radius):  # type: ignore[no-untyped-def]
                 for step in range(shifts.shape[1]):
                     dx, dy = shifts[direction, step, 0], shifts[direction, step, 1]
                     i, j = row + dy, column + dx
-                    if i < 0 or j < 0 or i >= height or j >= width or not np.isfinite(depth[i, j]):
-                        continue
-                    dz = depth[row, column] - depth[i, j]
+                    if i < 0 or j < 0 or i >= height or j >= width:
+                        break
+                    dz = here - depth[i, j]
                     squared = dx * dx + dy * dy + dz * dz
-                    if squared >= radius * radius or squared == 0.0:
-                        continue
-                    sine = (nx * dx - ny * dy + nz * dz) / np.sqrt(squared) - BIAS
-                    highest = max(highest, sine * (1.0 - squared / (radius * radius)))
+                    above = nx * dx - ny * dy + nz * dz
+                    if squared < reach and above > 0.0:
+                        highest = max(highest, (above / np.sqrt(squared) - BIAS) * (1.0 - squared / reach))
                 total += highest
             result[row, column] = total / shifts.shape[0]
     return result

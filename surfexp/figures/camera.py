@@ -85,7 +85,9 @@ def viewing_direction(view: View, mesh: TriangleMesh) -> tuple[float, float]:
     if view not in VIEWS:
         names = [*VIEWS, *HEMISPHERE_VIEWS]
         nearest = get_close_matches(view, names, 1, 0.0)[0]
-        raise ValueError(f"view {view!r} is unknown, choose {nearest!r} or one of {', '.join(names)}, or (azimuth, elevation)")
+        raise ValueError(
+            f"view {view!r} is unknown, choose {nearest!r} or one of {', '.join(names)}, or (azimuth, elevation)"
+        )
     return VIEWS[view]
 
 

@@ -13,8 +13,7 @@ from surfexp.mesh.triangle_mesh import Floats
 # matplotlib's diverging maps: their middle means zero
 DIVERGING = frozenset(
     ["PiYG", "PRGn", "BrBG", "PuOr", "RdGy", "RdBu", "RdYlBu", "RdYlGn", "Spectral", "coolwarm", "bwr", "seismic"]
-    + ["berlin", "managua", "vanimo"]
-)
+).union(["berlin", "managua", "vanimo"])
 MISSING = (0.62, 0.62, 0.62)
 
 
@@ -80,12 +79,20 @@ class ColorScale:
             low, high = low - 0.5, high + 0.5
         return replace(self, limits=(float(low), float(high)))
 
-    def rgb(self, values: Floats) -> Floats:
-        """(..., 3) colours in 0..1 of a scale with limits; the end colours beyond them, grey where values are NaN."""
+    def position(self, values: Floats) -> Floats:
+        """Where values lie between the limits, 0 to 1; outside beyond them, NaN stays."""
         low, high = self._known_limits()
+        return (np.asarray(values, dtype=float) - low) / (high - low)
+
+    def rgb(self, values: Floats) -> Floats:
+        """(..., 3) colours in 0..1; the end colours beyond the limits, grey where values are NaN."""
         colormap = matplotlib.colormaps[self.colormap].with_extremes(bad=MISSING)
-        share = (np.asarray(values, dtype=float) - low) / (high - low)
-        return np.asarray(colormap(share))[..., :3]
+        return np.asarray(colormap(self.position(values)))[..., :3]
+
+    def table(self) -> Floats:
+        """(k, 3) all colours of the map from the lower limit to the upper."""
+        colormap = matplotlib.colormaps[self.colormap]
+        return np.asarray(colormap(np.arange(colormap.N)))[:, :3]
 
     def share_beyond(self, values: Floats) -> tuple[float, float]:
         """Shares of the finite values below and above the limits."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import reduce
 
 import numpy as np
 from matplotlib.colors import to_rgb
@@ -12,18 +13,19 @@ from surfexp.figures.ambient_occlusion import ambient_occlusion
 from surfexp.figures.camera import Camera, View, fit_camera
 from surfexp.figures.colormap import MISSING, ColorScale
 from surfexp.figures.contours import RED, Contours, contour_coverage
-from surfexp.figures.rasterizer import Raster, rasterize
-from surfexp.figures.sampling import Blocks
-from surfexp.figures.shading import CLAY, facing_normals, shade, to_display, to_linear
+from surfexp.figures.rasterizer import rasterize
+from surfexp.figures.shading import shade, to_display, to_linear
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 
 Pixels = NDArray[np.uint8]
 
+CLAY = (0.88, 0.85, 0.81)
 # colours that mean values are shaded less than clay, so that they can be read against their bar
 CLAY_SHADING, VALUE_SHADING = 1.0, 0.8
 CLAY_OCCLUSION, VALUE_OCCLUSION = 1.3, 0.9
 # reach of the occlusion as a share of the longer side of the picture
 OCCLUSION_REACH = 0.06
+DARKEST_FOLD = 0.15
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +52,7 @@ class SurfaceView:
     mesh: TriangleMesh
     values: Floats | None = None
     view: View = "oblique"
-    scale: ColorScale = ColorScale()
+    scale: ColorScale = field(default_factory=ColorScale)
     contours: tuple[Contours, ...] = ()
     title: str = ""
 
@@ -113,44 +115,49 @@ def draw(scene: SurfaceView, camera: Camera, supersampling: int = 2) -> Pixels:
         raise ValueError(f"supersampling is {supersampling}, choose 1 to 4 samples per pixel in each direction")
     mesh, fine = scene.mesh, camera.supersampled(supersampling)
     raster = rasterize(mesh, fine)
-    back = _seen_from_behind(mesh, camera)[raster.face[raster.covered]]
-    normals = facing_normals(raster.interpolate(mesh, mesh.vertex_normals @ camera.axes.T), back)
-    light = shade(_base_colors(scene, raster), normals, back, CLAY_SHADING if scene.values is None else VALUE_SHADING)
-
-    blocks = Blocks(raster.covered, supersampling)
-    picture = blocks.mean(light) * _visible_sky(scene, blocks.least(raster.depth), blocks.mean(normals), camera)
-    picture += 1.0 - blocks.mean(np.ones((len(light), 1)))
+    if not raster.covered.any():
+        return np.full((camera.size[1], camera.size[0], 3), 255, dtype=np.uint8)
+    strength = CLAY_SHADING if scene.values is None else VALUE_SHADING
+    shaded = shade(mesh, camera, raster, *_coloring(scene), strength, supersampling)
+    picture = shaded.light * _visible_sky(
+        scene, _nearest_of_blocks(raster.depth, supersampling), shaded.normals, camera
+    )
+    picture += 1.0 - shaded.coverage[:, :, None]
     for contours in scene.contours:
         wide = replace(contours, width=supersampling * contours.width)
-        share = blocks.mean(contour_coverage(mesh, wide, fine, raster)[raster.covered][:, None])
+        share = _mean_of_blocks(contour_coverage(mesh, wide, fine, raster), supersampling)[:, :, None]
         picture += share * (to_linear(np.array(to_rgb(contours.color))) - picture)
     return to_display(picture)
 
 
-def _seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
-    """(m,) whether the eye is on the inner side of each face."""
-    toward = camera.axes[2]
-    if np.isinf(camera.distance):
-        return mesh.face_normals @ toward < 0.0
-    to_eye = camera.center + camera.distance * toward - mesh.vertices[mesh.faces[:, 0]]
-    return (mesh.face_normals * to_eye).sum(axis=1) < 0.0
-
-
-def _base_colors(scene: SurfaceView, raster: Raster) -> Floats:
-    """(p, 3) linear colours of the covered pixels, before light falls on them."""
+def _coloring(scene: SurfaceView) -> tuple[Floats, Floats]:
+    """Colours as `shade` takes them: positions in a table or linear colours at the vertices, and the table."""
+    missing = to_linear(np.array([MISSING]))
     if scene.values is None:
-        return np.broadcast_to(to_linear(np.array(CLAY)), (int(raster.covered.sum()), 3))
-    values = raster.interpolate(scene.mesh, scene.values)
-    if scene.is_scalar:
-        return to_linear(scene.scale.fitted(scene.values).rgb(values))
-    grey = np.array(MISSING)
-    return to_linear(np.where(np.isfinite(values).all(axis=1, keepdims=True), values, grey))
+        return np.zeros((len(scene.mesh.vertices), 1)), np.concatenate([to_linear(np.array([CLAY])), missing])
+    if not scene.is_scalar:
+        return to_linear(np.asarray(scene.values, dtype=float)), missing
+    scale = scene.scale.fitted(scene.values)
+    return scale.position(scene.values)[:, None], np.concatenate([to_linear(scale.table()), missing])
 
 
 def _visible_sky(scene: SurfaceView, depth: Floats, normals: Floats, camera: Camera) -> Floats:
-    """(height, width, 1) factor that darkens folds, from the depth and the mean normals of the picture's pixels."""
-    lengths = np.linalg.norm(normals, axis=2, keepdims=True)
-    unit = normals / np.where(lengths > 0.0, lengths, 1.0)
-    hidden = ambient_occlusion(depth * camera.scale, unit, OCCLUSION_REACH * max(camera.size))
+    """(height, width, 1) factor that darkens folds."""
+    # not mesh.edge_length, which is NaN as soon as one vertex is
+    edge = 1.5 * np.sqrt(np.nanmean(scene.mesh.areas))
+    hidden = ambient_occlusion(depth * camera.scale, normals, OCCLUSION_REACH * max(camera.size), edge * camera.scale)
     strength = CLAY_OCCLUSION if scene.values is None else VALUE_OCCLUSION
-    return np.maximum(1.0 - strength * hidden, 0.15)[..., None]
+    return np.maximum(1.0 - strength * hidden, DARKEST_FOLD)[:, :, None]
+
+
+def _samples_of_blocks(samples: Floats, factor: int) -> list[Floats]:
+    """The factor x factor pictures of the k-th sample of each pixel."""
+    return [samples[i::factor, j::factor] for i in range(factor) for j in range(factor)]
+
+
+def _nearest_of_blocks(depth: Floats, factor: int) -> Floats:
+    return reduce(np.minimum, _samples_of_blocks(depth, factor))
+
+
+def _mean_of_blocks(samples: Floats, factor: int) -> Floats:
+    return reduce(np.add, _samples_of_blocks(samples, factor)) / factor**2

@@ -1,25 +1,48 @@
-"""Matte shading of a visible surface, in linear light."""
+"""Matte shading of the visible surface, in linear light."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.figures.camera import Camera
+from surfexp.figures.rasterizer import Raster
+from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
-# directions to the lights in camera coordinates (right, up, toward the eye) and their strengths: key, fill
-LIGHTS = (((-0.45, 0.62, 0.64), 0.62), ((0.75, -0.05, 0.66), 0.20))
+# unit directions to the lights in camera coordinates (right, up, toward the eye) and their strengths
+KEY, KEY_STRENGTH = (-0.450, 0.620, 0.643), 0.66
+FILL, FILL_STRENGTH = (0.750, -0.050, 0.660), 0.20
 SKY, GROUND = 0.34, 0.22
 # how far light wraps around the terminator; clay is softer than Lambert's cosine
 WRAP = 0.25
 RIM_DARKENING = 0.35
-CLAY = (0.86, 0.83, 0.79)
-BACK_TINT = (0.55, 0.62, 0.72)
-BACK_SHARE = 0.45
+BACK_TINT, BACK_SHARE = (0.26, 0.34, 0.48), 0.45
+
+
+@dataclass(frozen=True, eq=False)
+class Shaded:
+    """What falls on each pixel of a picture.
+
+    Parameters
+    ----------
+    light : (height, width, 3) float64
+        Linear colour, weighted with the coverage.
+    coverage : (height, width) float64
+        Share of the pixel where the surface is seen.
+    normals : (height, width, 3) float64
+        Unit mean normals toward the eye in camera coordinates, zero where nothing is seen.
+    """
+
+    light: Floats
+    coverage: Floats
+    normals: Floats
 
 
 def to_linear(srgb: Floats) -> Floats:
-    """Linear light of display colours in 0..1 (gamma 2.2)."""
+    """Linear light of display colours in 0..1 (gamma 2.2); NaN stays."""
     return np.clip(srgb, 0.0, 1.0) ** 2.2
 
 
@@ -28,44 +51,91 @@ def to_display(linear: Floats) -> NDArray[np.uint8]:
     return np.rint(255.0 * np.clip(linear, 0.0, 1.0) ** (1.0 / 2.2)).astype(np.uint8)
 
 
-def illumination(normals: Floats) -> Floats:
-    """(p,) light that a white matte surface returns, about 1 where it faces the key light.
+def seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
+    """(m,) whether the eye is on the inner side of each face."""
+    toward = camera.axes[2]
+    if np.isinf(camera.distance):
+        return mesh.face_normals @ toward < 0.0
+    to_eye = camera.center + camera.distance * toward - mesh.vertices[mesh.faces[:, 0]]
+    return (mesh.face_normals * to_eye).sum(axis=1) < 0.0
+
+
+def shade(
+    mesh: TriangleMesh, camera: Camera, raster: Raster, coloring: Floats, table: Floats, strength: float, factor: int
+) -> Shaded:
+    """Light from a surface with interpolated normals under a key light, a fill light and the sky.
 
     Parameters
     ----------
-    normals : (p, 3) float64
-        Unit normals toward the eye, in camera coordinates.
-    """
-    up = normals[:, 1]
-    light = 0.5 * (SKY + GROUND) + 0.5 * (SKY - GROUND) * up
-    for direction, strength in LIGHTS:
-        cosine = normals @ (np.array(direction) / np.linalg.norm(direction))
-        light += strength * np.maximum(cosine + WRAP, 0.0) / (1.0 + WRAP)
-    # a soft dark edge where the surface turns away
-    return light * (1.0 - RIM_DARKENING * (1.0 - np.clip(normals[:, 2], 0.0, 1.0)) ** 3)
-
-
-def facing_normals(normals: Floats, back: NDArray[np.bool_]) -> Floats:
-    """(p, 3) unit normals turned toward the eye where the back of a face is seen; (0, 0, 1) where there is none."""
-    turned = np.where(back[:, None], -normals, normals)
-    lengths = np.linalg.norm(turned, axis=1, keepdims=True)
-    return np.where(lengths > 0.0, turned / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
-
-
-def shade(base: Floats, normals: Floats, back: NDArray[np.bool_], strength: float = 1.0) -> Floats:
-    """(p, 3) linear light of a matte surface.
-
-    Parameters
-    ----------
-    base : (p, 3) float64
-        Linear colours of the surface.
-    normals : (p, 3) float64
-        As in `illumination`.
-    back : (p,) bool
-        Where the back of a face is seen; it is tinted blue.
+    raster : Raster
+        Of factor x factor samples for each pixel.
+    coloring : (n, 1) or (n, 3) float64
+        At the vertices: a position in the table in 0..1, or a linear colour.
+    table : (k + 1, 3) float64
+        Linear colours for positions from 0 to 1, then the colour of NaN.
     strength : float
         0 leaves the colours as they are, 1 is full light and shade.
+    factor : int
     """
-    tint = (1.0 - BACK_SHARE) * base + BACK_SHARE * to_linear(np.array(BACK_TINT))
-    light = 1.0 + strength * (illumination(normals) - 1.0)
-    return np.where(back[:, None], tint, base) * light[:, None]
+    height, width = raster.face.shape[0] // factor, raster.face.shape[1] // factor
+    light, normals = np.zeros((height, width, 3)), np.zeros((height, width, 3))
+    coverage = np.zeros((height, width))
+    turn = np.where(seen_from_behind(mesh, camera), -1.0, 1.0)
+    vertex_normals = mesh.vertex_normals @ camera.axes.T
+    _shade(
+        raster.face, raster.barycentric, mesh.faces, vertex_normals, turn, coloring, table, strength, factor,
+        light, normals, coverage,
+    )  # fmt: skip
+    lengths = np.linalg.norm(normals, axis=2, keepdims=True)
+    return Shaded(light, coverage, normals / np.where(lengths > 0.0, lengths, 1.0))
+
+
+@njit(cache=True, nogil=True)
+def illumination(x: float, y: float, z: float) -> float:
+    """Light that a white matte surface with unit normal (x, y, z) in camera coordinates returns, about 1 toward the key."""
+    key = KEY[0] * x + KEY[1] * y + KEY[2] * z
+    fill = FILL[0] * x + FILL[1] * y + FILL[2] * z
+    light = 0.5 * (SKY + GROUND) + 0.5 * (SKY - GROUND) * y
+    light += (KEY_STRENGTH * max(key + WRAP, 0.0) + FILL_STRENGTH * max(fill + WRAP, 0.0)) / (1.0 + WRAP)
+    # a soft dark edge where the surface turns away
+    return light * (1.0 - RIM_DARKENING * (1.0 - min(max(z, 0.0), 1.0)) ** 3)
+
+
+@njit(cache=True, nogil=True)
+def _shade(
+    face: Integers, barycentric: Floats, faces: Integers, vertex_normals: Floats, turn: Floats, coloring: Floats,
+    table: Floats, strength: float, factor: int, light: Floats, normals: Floats, coverage: Floats,
+) -> None:  # fmt: skip
+    share = 1.0 / factor**2
+    last = len(table) - 2
+    color = np.zeros(3)
+    for row in range(face.shape[0]):
+        for column in range(face.shape[1]):
+            t = face[row, column]
+            if t < 0:
+                continue
+            i, j = row // factor, column // factor
+            color[:] = 0.0
+            x = y = z = 0.0
+            for k in range(3):
+                weight, vertex = barycentric[row, column, k], faces[t, k]
+                x += weight * vertex_normals[vertex, 0]
+                y += weight * vertex_normals[vertex, 1]
+                z += weight * vertex_normals[vertex, 2]
+                for channel in range(coloring.shape[1]):
+                    color[channel] += weight * coloring[vertex, channel]
+            length = turn[t] * np.sqrt(x * x + y * y + z * z)
+            # opposite normals cancel at a needle; it is lit from the front
+            x, y, z = (x / length, y / length, z / length) if length != 0.0 else (0.0, 0.0, 1.0)
+            if np.isnan(color[0] + color[1] + color[2]):
+                color[:] = table[last + 1]
+            elif coloring.shape[1] == 1:
+                color[:] = table[min(max(int(np.floor(color[0] * (last + 1))), 0), last)]
+            received = share * (1.0 + strength * (illumination(x, y, z) - 1.0))
+            tint = BACK_SHARE if turn[t] < 0.0 else 0.0
+            for channel in range(3):
+                light[i, j, channel] += received * ((1.0 - tint) * color[channel] + tint * BACK_TINT[channel])
+            normals[i, j, 0] += x
+            normals[i, j, 1] += y
+            normals[i, j, 2] += z
+            coverage[i, j] += share

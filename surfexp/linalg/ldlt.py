@@ -34,7 +34,10 @@ class LDLT:
     replaced_pivots : int
         Pivots under 1e-14 of the largest diagonal entry, replaced by that bound.
     residual : float
-        |A x - b| / |b| of a first solve with a fixed right-hand side.
+        |A x - b| / |b| of a first solve with fixed right-hand sides.
+    perturbation : float
+        |A x - b| / |x| of that solve. As x is mostly made of the eigenvectors nearest to zero, this is about how far the
+        eigenvalues nearest to zero have moved: the inertia is exact when all are farther from zero than that.
 
     Raises
     ------
@@ -73,7 +76,9 @@ class LDLT:
         probe = np.cos(np.outer(np.arange(s.size), np.arange(1.0, LANES + 1)))
         solution = probe.copy()
         self.solve_in_order(solution)
-        self.residual = float(np.linalg.norm(matrix @ solution - probe) / np.linalg.norm(probe))
+        error = float(np.linalg.norm(matrix @ solution - probe))
+        self.residual = error / float(np.linalg.norm(probe))
+        self.perturbation = error / float(np.linalg.norm(solution))
 
     @property
     def inertia(self) -> tuple[int, int]:

@@ -81,9 +81,10 @@ def analyse(matrix: sparray) -> SymbolicFactor:
 
 
 def permuted(matrix: csr_array, order: Integers) -> csr_array:
-    """Return P A P^T with sorted columns, its row i being row order[i] of A."""
+    """Return P A P^T with sorted 32-bit column indices, its row i being row order[i] of A."""
     result = csr_array(matrix[order][:, order])
     result.sort_indices()
+    result.indptr, result.indices = result.indptr.astype(np.int32), result.indices.astype(np.int32)
     return result
 
 

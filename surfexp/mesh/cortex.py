@@ -7,35 +7,46 @@ from typing import Literal
 import numpy as np
 from numba import njit
 
-from surfexp.mesh.implicit_surface import mesh_implicit
+from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.remeshing import remesh
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 
 SEMIAXES = np.array([0.85, 1.1, 0.95])
-# depth and width of the sulci
-FORMS = {"smooth": (0.10, 0.55), "folded": (0.34, 0.32)}
-WAVE_COUNT, WAVE_NUMBER = 48, 10.0
+# depth and half width of the sulci
+FORMS = {"smooth": (0.12, 0.10), "folded": (0.34, 0.055)}
+WAVE_COUNT, WAVE_NUMBER = 16, 8.0
 
 
 @njit(cache=True, nogil=True)
 def _radius_excess(points: Floats, waves: Floats, phases: Floats, depth: float, width: float) -> Floats:
+    """Distance from the origin less r(direction), for each point."""
     excess = np.empty(len(points))
     for i in range(len(points)):
-        length = max(np.sqrt((points[i] ** 2).sum()), 1e-12)
-        field = 0.0
+        length = max(np.sqrt(points[i, 0] ** 2 + points[i, 1] ** 2 + points[i, 2] ** 2), 1e-12)
+        if length > 1.05 or length < 0.95 - depth:
+            excess[i] = length - 1.0
+            continue
+        x, y, z = points[i, 0] / length, points[i, 1] / length, points[i, 2] / length
+        field = gx = gy = gz = 0.0
         for k in range(len(phases)):
-            product = waves[k, 0] * points[i, 0] + waves[k, 1] * points[i, 1] + waves[k, 2] * points[i, 2]
-            field += np.cos(product / length + phases[k])
-        field *= np.sqrt(2.0 / len(phases))
-        excess[i] = length - 1.0 + depth * np.exp(-((field / width) ** 2))
+            angle = waves[k, 0] * x + waves[k, 1] * y + waves[k, 2] * z + phases[k]
+            field += np.cos(angle)
+            slope = -np.sin(angle)
+            gx, gy, gz = gx + slope * waves[k, 0], gy + slope * waves[k, 1], gz + slope * waves[k, 2]
+        radial = gx * x + gy * y + gz * z
+        tangential = gx * gx + gy * gy + gz * gz - radial * radial
+        # |g| / |grad g| is the distance from the zero line; the floor keeps it finite at saddles
+        floor = 0.15 * len(phases) * WAVE_NUMBER**2 / 3.0
+        excess[i] = length - 1.0 + depth * np.exp(-(field * field) / ((tangential + floor) * width * width))
     return excess
 
 
 def cortex(form: Literal["smooth", "folded"] = "folded", count: int = 39994, seed: int = 0) -> Surface:
     """Ellipsoid with narrow sulci along the zero lines of a random field of one wavelength.
 
-    The surface is the radial graph r(d) = 1 - depth * exp(-(g(d) / width)^2) over the directions d, stretched to the
-    semiaxes 0.85, 1.1, 0.95, so it cannot intersect itself. "smooth" and "folded" share their sulci and stand for M1
+    The surface is the radial graph r(d) = 1 - depth * exp(-(s(d) / width)^2) over the directions d, stretched to the
+    semiaxes 0.85, 1.1, 0.95, so it cannot intersect itself; s = g / |grad g| is about the distance from a zero line. "smooth" and "folded" share their sulci and stand for M1
     and M2 of table 2.2.
 
     Parameters
@@ -62,6 +73,8 @@ def cortex(form: Literal["smooth", "folded"] = "folded", count: int = 39994, see
     def implicit(points: Floats) -> Floats:
         return _radius_excess(points / SEMIAXES, waves, phases, depth, width)
 
-    box = SEMIAXES + 0.05
-    mesh = mesh_implicit(implicit, (-box).tolist(), box.tolist(), min(6.0 / np.sqrt(count), 0.04), count)
+    # a sphere pushed inward has the right topology however narrow the sulci are
+    sphere = fibonacci_sphere(count).mesh
+    radii = -_radius_excess(sphere.vertices, waves, phases, depth, width)
+    mesh = remesh(sphere.vertices * (1.0 + radii[:, None]) * SEMIAXES, sphere.faces, implicit, count)
     return Surface(mesh, name=f"{form} cortex-like surface")

@@ -12,6 +12,35 @@ from numba import njit
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
+# vectors are tuples here: small arrays inside a compiled loop cost an allocation each
+Vector = tuple[float, float, float]
+
+
+@njit(cache=True, nogil=True)
+def _difference(vertices: Floats, a: int, b: int) -> Vector:
+    return vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
+
+
+@njit(cache=True, nogil=True)
+def _dot(u: Vector, v: Vector) -> float:
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+@njit(cache=True, nogil=True)
+def _cross(u: Vector, v: Vector) -> Vector:
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+@njit(cache=True, nogil=True)
+def _normal(vertices: Floats, a: int, b: int, c: int) -> Vector:
+    return _cross(_difference(vertices, a, b), _difference(vertices, a, c))
+
+
+@njit(cache=True, nogil=True)
+def _cosine(u: Vector, v: Vector) -> float:
+    return _dot(u, v) / max(np.sqrt(_dot(u, u) * _dot(v, v)), 1e-300)
+
+
 @njit(cache=True, nogil=True)
 def vertex_stars(faces: Integers, vertex_count: int) -> tuple[Integers, Integers]:
     """Faces around each vertex in compressed rows: those of vertex i are star[start[i]:start[i + 1]]."""
@@ -39,16 +68,17 @@ def across(faces: Integers, start: Integers, star: Integers, face: int, a: int, 
 
 
 @njit(cache=True, nogil=True)
-def boundary_vertices(faces: Integers, vertex_count: int) -> np.ndarray:
-    """(n,) bool, the vertices on a boundary edge."""
+def boundary_edges(faces: Integers, vertex_count: int) -> Integers:
+    """(b, 2) edges with one face, in its direction."""
     start, star = vertex_stars(faces, vertex_count)
-    boundary = np.zeros(vertex_count, np.bool_)
+    edges, count = np.empty((faces.size, 2), np.int64), 0
     for f in range(len(faces)):
         for k in range(3):
             a, b = faces[f, k], faces[f, (k + 1) % 3]
             if across(faces, start, star, f, a, b)[0] < 0:
-                boundary[a] = boundary[b] = True
-    return boundary
+                edges[count] = a, b
+                count += 1
+    return edges[:count].copy()
 
 
 @njit(cache=True, nogil=True)
@@ -57,8 +87,8 @@ def half_edges_by_length(vertices: Floats, faces: Integers, low: float, high: fl
     lengths = np.empty(faces.size)
     for f in range(len(faces)):
         for k in range(3):
-            difference = vertices[faces[f, (k + 1) % 3]] - vertices[faces[f, k]]
-            lengths[3 * f + k] = np.sqrt((difference**2).sum())
+            side = _difference(vertices, faces[f, k], faces[f, (k + 1) % 3])
+            lengths[3 * f + k] = np.sqrt(_dot(side, side))
     chosen = np.flatnonzero((lengths >= low) & (lengths <= high))
     order = chosen[np.argsort(lengths[chosen], kind="mergesort")]
     return order, lengths[order]
@@ -93,41 +123,37 @@ def split_edges(vertices: Floats, faces: Integers, longest: float, limit: int) -
 
 @njit(cache=True, nogil=True)
 def _common_neighbours(faces: Integers, start: Integers, star: Integers, a: int, b: int) -> int:
+    """Number of pairs of a face at a and a face at b that share a vertex besides, a and b being adjacent."""
     common = 0
-    seen = np.empty(2 * (start[a + 1] - start[a]), np.int64)
-    count = 0
-    for f in star[start[a] : start[a + 1]]:
-        for x in faces[f]:
-            if x != a and x != b and x not in seen[:count]:
-                seen[count] = x
-                count += 1
-                found = False
-                for g in star[start[b] : start[b + 1]]:
-                    found = found or x in faces[g]
-                common += found
+    for i in range(start[a], start[a + 1]):
+        for k in range(3):
+            x = faces[star[i], k]
+            # each neighbour once: where it follows a in the face, or comes before it at a boundary
+            if x != a and x != b and (faces[star[i], (k + 2) % 3] == a or across(faces, start, star, star[i], a, x)[0] < 0):
+                for j in range(start[b], start[b + 1]):
+                    if faces[star[j], 0] == x or faces[star[j], 1] == x or faces[star[j], 2] == x:
+                        common += 1
+                        break
     return common
 
 
 @njit(cache=True, nogil=True)
 def _collapse_is_safe(
-    vertices: Floats, faces: Integers, start: Integers, star: Integers, a: int, b: int, point: Floats, longest: float
+    vertices: Floats, faces: Integers, start: Integers, star: Integers, a: int, b: int, point: Vector, longest: float
 ) -> bool:
     """Whether moving a and b to `point` turns no face by more than 60 degrees and makes no edge over `longest`."""
-    corners = np.empty((3, 3))
-    for end in (a, b):
-        for f in star[start[end] : start[end + 1]]:
-            if a in faces[f] and b in faces[f]:
+    for end, other in ((a, b), (b, a)):
+        for i in range(start[end], start[end + 1]):
+            f = star[i]
+            k = 0 if faces[f, 0] == end else 1 if faces[f, 1] == end else 2
+            x, y = faces[f, (k + 1) % 3], faces[f, (k + 2) % 3]
+            if x == other or y == other:
                 continue
-            for k in range(3):
-                corners[k] = vertices[faces[f, k]]
-            before = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-            for k in range(3):
-                if faces[f, k] == end:
-                    corners[k] = point
-                elif ((vertices[faces[f, k]] - point) ** 2).sum() > longest**2:
-                    return False
-            after = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-            if (before * after).sum() <= 0.5 * np.sqrt((before**2).sum() * (after**2).sum()):
+            to_x = vertices[x, 0] - point[0], vertices[x, 1] - point[1], vertices[x, 2] - point[2]
+            to_y = vertices[y, 0] - point[0], vertices[y, 1] - point[1], vertices[y, 2] - point[2]
+            if max(_dot(to_x, to_x), _dot(to_y, to_y)) > longest**2:
+                return False
+            if _cosine(_normal(vertices, end, x, y), _cross(to_x, to_y)) <= 0.5:
                 return False
     return True
 
@@ -139,7 +165,9 @@ def collapse_edges(
     """Contract edges shorter than `shortest`, the shortest first, at most `limit`, making none over `longest`."""
     n = len(vertices)
     start, star = vertex_stars(faces, n)
-    boundary = boundary_vertices(faces, n)
+    boundary = np.zeros(n, np.bool_)
+    for a, b in boundary_edges(faces, n):
+        boundary[a] = True
     locked, removed = np.zeros(len(faces), np.bool_), np.zeros(len(faces), np.bool_)
     valence = start[1:] - start[:-1]
     target, moved, done = np.arange(n), vertices.copy(), 0
@@ -155,12 +183,16 @@ def collapse_edges(
             continue
         if _common_neighbours(faces, start, star, a, b) != (1 if g < 0 else 2):
             continue
-        point = 0.5 * (vertices[a] + vertices[b])
-        if boundary[a] != boundary[b]:
-            point = vertices[a] if boundary[a] else vertices[b]
+        share = 0.5 if boundary[a] == boundary[b] else 0.0 if boundary[a] else 1.0
+        step = _difference(vertices, a, b)
+        point = (
+            vertices[a, 0] + share * step[0],
+            vertices[a, 1] + share * step[1],
+            vertices[a, 2] + share * step[2],
+        )
         if not _collapse_is_safe(vertices, faces, start, star, a, b, point, longest):
             continue
-        target[b], moved[a] = a, point
+        target[b], moved[a, 0], moved[a, 1], moved[a, 2] = a, point[0], point[1], point[2]
         locked[star[start[a] : start[a + 1]]] = True
         locked[star[start[b] : start[b + 1]]] = True
         removed[f], done = True, done + 1
@@ -177,12 +209,6 @@ def collapse_edges(
 
 
 @njit(cache=True, nogil=True)
-def _opposite_cosine(a: Floats, b: Floats, c: Floats) -> float:
-    u, v = a - c, b - c
-    return (u * v).sum() / max(np.sqrt((u**2).sum() * (v**2).sum()), 1e-300)
-
-
-@njit(cache=True, nogil=True)
 def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
     """Flip edges whose opposite angles exceed 180 degrees (Delaunay) where the surface is flat enough; also the count."""
     n = len(vertices)
@@ -196,14 +222,14 @@ def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
             g, d = across(faces, start, star, f, a, b)
             if g < f or locked[f] or locked[g] or min(valence[a], valence[b]) <= 3 or (gained[c] and gained[d]):
                 continue
-            pa, pb, pc, pd = vertices[a], vertices[b], vertices[c], vertices[d]
-            first, second = _opposite_cosine(pa, pb, pc), _opposite_cosine(pa, pb, pd)
-            if first + second >= -1e-9 or across(faces, start, star, -1, c, d)[0] >= 0:
+            angles = _cosine(_difference(vertices, c, a), _difference(vertices, c, b)) + _cosine(
+                _difference(vertices, d, a), _difference(vertices, d, b)
+            )
+            if angles >= -1e-9 or across(faces, start, star, -1, c, d)[0] >= 0:
                 continue
-            normal = np.cross(pb - pa, pc - pa) + np.cross(pd - pa, pb - pa)
-            one, two = np.cross(pd - pa, pc - pa), np.cross(pb - pd, pc - pd)
-            bound = 0.5 * np.sqrt((normal**2).sum())
-            if min((one * normal).sum() / np.sqrt((one**2).sum()), (two * normal).sum() / np.sqrt((two**2).sum())) < bound:
+            one, two = _normal(vertices, a, b, c), _normal(vertices, a, d, b)
+            mean = one[0] + two[0], one[1] + two[1], one[2] + two[2]
+            if min(_cosine(_normal(vertices, a, d, c), mean), _cosine(_normal(vertices, d, b, c), mean)) < 0.5:
                 continue
             flipped[f] = a, d, c
             flipped[g] = d, b, c

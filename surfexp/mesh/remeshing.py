@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from surfexp.mesh.edge_operations import boundary_vertices, collapse_edges, flip_edges, split_edges
+from surfexp.mesh.edge_operations import boundary_edges, collapse_edges, flip_edges, split_edges
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
 Implicit = Callable[[Floats], Floats]
@@ -44,7 +44,7 @@ def remesh(
         vertices, faces = _relax(vertices, faces, implicit, floor, sweeps=2)
         edge *= float(np.clip(np.sqrt(len(vertices) / count), 0.9, 1.1))
     vertices, faces = _adjust_count(vertices, faces, count)
-    return TriangleMesh(*_relax(vertices, faces, implicit, floor, sweeps=4))
+    return TriangleMesh(*_relax(vertices, faces, implicit, floor, sweeps=4, newton_steps=3))
 
 
 def _adjust_count(vertices: Floats, faces: Integers, count: int) -> tuple[Floats, Integers]:
@@ -60,13 +60,14 @@ def _adjust_count(vertices: Floats, faces: Integers, count: int) -> tuple[Floats
 
 
 def _relax(
-    vertices: Floats, faces: Integers, implicit: Implicit, floor: float | None, sweeps: int
+    vertices: Floats, faces: Integers, implicit: Implicit, floor: float | None, sweeps: int, newton_steps: int = 1
 ) -> tuple[Floats, Integers]:
-    boundary = boundary_vertices(faces, len(vertices))
+    # no flip touches the boundary
+    boundary, reach = boundary_edges(faces, len(vertices)), 0.5 * TriangleMesh(vertices, faces).edge_length
     for _ in range(sweeps):
-        for _ in range(2):
-            faces, _ = flip_edges(vertices, faces)
-        vertices = _project(_smooth(vertices, faces, boundary), boundary, implicit, floor)
+        faces, _ = flip_edges(vertices, faces)
+        vertices = _smooth(vertices, faces, boundary)
+        vertices = _project(vertices, boundary[:, 0], implicit, floor, newton_steps, reach)
     for _ in range(8):
         faces, count = flip_edges(vertices, faces)
         if not count:
@@ -74,33 +75,34 @@ def _relax(
     return vertices, faces
 
 
-def _smooth(vertices: Floats, faces: Integers, boundary: np.ndarray) -> Floats:
+def _smooth(vertices: Floats, faces: Integers, boundary: Integers) -> Floats:
     """Move each vertex in its tangent plane to the area-weighted mean of its faces, on a boundary along the boundary."""
     mesh = TriangleMesh(vertices, faces)
-    corner, weight = faces.ravel(), np.repeat(mesh.areas, 3)
-    centres = np.repeat(vertices[faces].mean(axis=1), 3, axis=0) * weight[:, None]
-    n = len(vertices)
-    mean = np.stack([np.bincount(corner, centres[:, k], n) for k in range(3)], axis=1)
-    step = mean / np.bincount(corner, weight, n)[:, None] - vertices
+    weighted = vertices[faces].mean(axis=1) * mesh.areas[:, None]
+    target, total = np.zeros_like(vertices), np.bincount(faces.ravel(), np.repeat(mesh.areas, 3), len(vertices))
+    for axis in range(3):
+        target[:, axis] = np.bincount(faces.ravel(), np.repeat(weighted[:, axis], 3), len(vertices))
+    step = target / total[:, None] - vertices
     step -= mesh.vertex_normals * (step * mesh.vertex_normals).sum(axis=1, keepdims=True)
-    step[boundary] = 0.0
-    if boundary.any():
-        for loop in mesh.boundary_loops:
-            points = vertices[loop]
-            before, after = np.roll(points, 1, axis=0), np.roll(points, -1, axis=0)
-            step[loop] = 0.5 * (0.5 * (before + after) - points)
+    along = np.zeros((len(vertices), 3))
+    np.add.at(along, boundary, 0.25 * (vertices[boundary[:, ::-1]] - vertices[boundary]))
+    step[boundary[:, 0]] = along[boundary[:, 0]]
     return vertices + step
 
 
-def _project(points: Floats, boundary: np.ndarray, implicit: Implicit, floor: float | None, steps: int = 2) -> Floats:
-    """Newton's steps onto {implicit = 0}, inside the plane z = floor for boundary vertices."""
-    delta = 1e-5
+def _project(
+    points: Floats, boundary: Integers, implicit: Implicit, floor: float | None, steps: int, reach: float
+) -> Floats:
+    """Newton's steps, none over `reach`, onto {implicit = 0}, inside the plane z = floor for boundary vertices."""
+    delta = 1e-6
     for _ in range(steps):
         value = implicit(points)
         gradient = np.stack([(implicit(points + delta * axis) - value) / delta for axis in np.eye(3)], axis=1)
         if floor is not None:
             gradient[boundary, 2] = 0.0
-        points = points - gradient * (value / np.maximum((gradient**2).sum(axis=1), 1e-12))[:, None]
+        step = gradient * (value / np.maximum((gradient**2).sum(axis=1), 1e-12))[:, None]
+        length = np.linalg.norm(step, axis=1, keepdims=True)
+        points = points - step * np.minimum(1.0, reach / np.maximum(length, 1e-12))
     if floor is not None:
         points[boundary, 2] = floor
     return points

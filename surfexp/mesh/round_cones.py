@@ -22,12 +22,14 @@ def round_cones(points: Floats, cones: Floats) -> Floats:
     values = np.empty(len(points))
     for i in range(len(points)):
         union = 1e30
-        for cone in cones:
-            axis, offset = cone[3:6] - cone[0:3], points[i] - cone[0:3]
-            along = min(max((axis * offset).sum() / (axis**2).sum(), 0.0), 1.0)
-            away = offset - along * axis
-            distance = np.sqrt((away**2).sum()) - (cone[6] + along * (cone[7] - cone[6]))
-            overlap = max(cone[8] - abs(union - distance), 0.0)
-            union = min(union, distance) - overlap**2 / (4.0 * cone[8])
+        for k in range(len(cones)):
+            # written out by components: array temporaries cost ten times more
+            ax, ay, az = cones[k, 3] - cones[k, 0], cones[k, 4] - cones[k, 1], cones[k, 5] - cones[k, 2]
+            x, y, z = points[i, 0] - cones[k, 0], points[i, 1] - cones[k, 1], points[i, 2] - cones[k, 2]
+            along = min(max((ax * x + ay * y + az * z) / (ax * ax + ay * ay + az * az), 0.0), 1.0)
+            away = np.sqrt((x - along * ax) ** 2 + (y - along * ay) ** 2 + (z - along * az) ** 2)
+            distance = away - (cones[k, 6] + along * (cones[k, 7] - cones[k, 6]))
+            overlap = max(cones[k, 8] - abs(union - distance), 0.0)
+            union = min(union, distance) - overlap**2 / (4.0 * cones[k, 8])
         values[i] = union
     return values

@@ -54,21 +54,17 @@ class ConvexChanVese:
         ValueError
             If a parameter is not positive, the image is constant or has several channels.
         """
-        self._check(image, operator)
+        self.check(image, operator)
         spread = float(np.ptp(image.values))
-        region = image.values > operator.mass @ image.values / operator.mass.sum()
-        means, notes = self._means(
-            image.values,
-            operator.mass,
-            self.initial if self.initial is not None else region,
-            (float(image.values.max()), float(image.values.min())),
-        )
+        region = self.first_region(image, operator) if self.initial is None else self.initial
+        extremes = float(image.values.max()), float(image.values.min())
+        means, notes = self.means(image.values, operator.mass, region, extremes)
         solution: Solution | None = None
         settled = False
         for update in range(1, self.updates + 1):
             slope = self._slope(image.values, means, operator)
             solution = method(convex_chan_vese(operator.mass, slope), operator, solution)
-            new, notes = self._means(image.values, operator.mass, solution.values > 0.5, means)
+            new, notes = self.means(image.values, operator.mass, solution.values > 0.5, means)
             settled = max(abs(new[0] - means[0]), abs(new[1] - means[1])) <= 1e-6 * spread
             if settled or abs(new[0] - new[1]) <= 1e-9 * spread or update == self.updates:
                 break
@@ -76,7 +72,8 @@ class ConvexChanVese:
         assert solution is not None
         return self._result(solution, slope, means, settled, update, notes, image, operator)
 
-    def _check(self, image: Image, operator: SurfaceOperator) -> None:
+    def check(self, image: Image, operator: SurfaceOperator) -> None:
+        """Raise ValueError if a parameter is not positive, or the image is constant or has several channels."""
         check_positive("length", self.length)
         if self.mu is not None:
             check_positive("mu", self.mu)
@@ -90,7 +87,17 @@ class ConvexChanVese:
         if np.ptp(image.values) == 0:
             raise ValueError(f"image {image.name!r} is constant at {image.values[0]}, two regions need two values")
 
-    def _means(
+    def first_region(self, image: Image, operator: SurfaceOperator) -> Mask:
+        """Return where the image exceeds its mean."""
+        return image.values > operator.mass @ image.values / operator.mass.sum()
+
+    def weight(self, means: tuple[float, float], operator: SurfaceOperator) -> float:
+        """Return mu, or 1 / (ell h (c1 - c2)^2) where it is None."""
+        if self.mu is not None:
+            return self.mu
+        return 1.0 / (self.length * operator.edge_length * (means[0] - means[1]) ** 2)
+
+    def means(
         self, values: Floats, mass: Floats, region: Mask, last: tuple[float, float]
     ) -> tuple[tuple[float, float], tuple[str, ...]]:
         """Return c1, c2 of a region and its complement; an empty one keeps its last c."""
@@ -107,8 +114,7 @@ class ConvexChanVese:
 
     def _slope(self, values: Floats, means: tuple[float, float], operator: SurfaceOperator) -> Floats:
         c1, c2 = means
-        mu = self.mu if self.mu is not None else 1.0 / (self.length * operator.edge_length * (c1 - c2) ** 2)
-        slope: Floats = mu * ((c1 - values) ** 2 - (c2 - values) ** 2)
+        slope: Floats = self.weight(means, operator) * ((c1 - values) ** 2 - (c2 - values) ** 2)
         return slope
 
     def _result(

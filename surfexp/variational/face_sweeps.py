@@ -106,3 +106,103 @@ def face_steps(hats: Floats) -> Floats:
     trace = gram[:, 0, 0] + gram[:, 1, 1]
     spread = np.hypot(gram[:, 0, 0] - gram[:, 1, 1], 2.0 * gram[:, 0, 1])
     return 2.0 / (3.0 * (trace + spread))
+
+
+@njit(cache=True, nogil=True)
+def chambolle_step(
+    faces: Integers, hats: Floats, areas: Floats, steps: Floats, step: float, values: Floats, dual: Floats, load: Floats
+) -> None:
+    """Set p <- (p + s G phi) / (1 + s |G phi|) with s = step s_T, (2.26) for p = -V."""
+    load[:] = 0.0
+    for f in range(len(faces)):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        ascent = step * steps[f]
+        square = 0.0
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
+            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            dual[f, c, 0] += ascent * x
+            dual[f, c, 1] += ascent * y
+            square += x * x + y * y
+        shrink = 1.0 / (1.0 + ascent * np.sqrt(square))
+        for c in range(values.shape[1]):
+            x, y = shrink * dual[f, c, 0], shrink * dual[f, c, 1]
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
+            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
+            load[j, c] += b
+            load[k, c] += e
+            load[i, c] -= b + e
+
+
+@njit(cache=True, nogil=True)
+def fista_step(
+    faces: Integers,
+    hats: Floats,
+    areas: Floats,
+    steps: Floats,
+    step: float,
+    momentum: float,
+    values: Floats,
+    dual: Floats,
+    ahead: Floats,
+    load: Floats,
+) -> float:
+    """Set p_new = P(q + step s_T G phi), q = p_new + momentum (p_new - p); `ahead` is q and `load` belongs to it.
+
+    Returns the inner product of the two last moves, positive when the momentum should be dropped.
+    """
+    load[:] = 0.0
+    turn = 0.0
+    for f in range(len(faces)):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        ascent = step * steps[f]
+        square = 0.0
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = ahead[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0])
+            y = ahead[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1])
+            square += x * x + y * y
+        shrink = 1.0 / np.sqrt(max(square, 1.0))
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = shrink * (ahead[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0]))
+            y = shrink * (ahead[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1]))
+            dx, dy = x - dual[f, c, 0], y - dual[f, c, 1]
+            turn += areas[f] / steps[f] * ((ahead[f, c, 0] - x) * dx + (ahead[f, c, 1] - y) * dy)
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            x, y = x + momentum * dx, y + momentum * dy
+            ahead[f, c, 0], ahead[f, c, 1] = x, y
+            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
+            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
+            load[j, c] += b
+            load[k, c] += e
+            load[i, c] -= b + e
+    return turn
+
+
+@njit(cache=True, nogil=True)
+def smoothed_normals(
+    faces: Integers, hats: Floats, areas: Floats, smoothing: float, values: Floats, dual: Floats, load: Floats
+) -> None:
+    """Set p = G phi / sqrt(|G phi|^2 + smoothing^2), the gradient of the regularised total variation."""
+    load[:] = 0.0
+    for f in range(len(faces)):
+        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
+        square = smoothing * smoothing
+        for c in range(values.shape[1]):
+            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
+            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
+            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            square += x * x + y * y
+        length = np.sqrt(square)
+        for c in range(values.shape[1]):
+            x, y = dual[f, c, 0] / length, dual[f, c, 1] / length
+            dual[f, c, 0], dual[f, c, 1] = x, y
+            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
+            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
+            load[j, c] += b
+            load[k, c] += e
+            load[i, c] -= b + e

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.accuracy import restoration_metrics
+from surfexp.variational.channelwise import solve_by_channel
 from surfexp.variational.fidelity import Method
 from surfexp.variational.image import Image
 from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive, rof
@@ -23,10 +24,13 @@ class ROF:
         near 1, the residual is as large as the noise near 0.55.
     mu : float, optional
         The printed weight, in 1 / (unit of the image * unit of length), in place of w.
+    by_channel : bool
+        Denoise the channels one by one, as printed, in place of the rotation-invariant |D phi|_F.
     """
 
     w: float = 0.9
     mu: float | None = None
+    by_channel: bool = False
 
     def fidelity(self, image: Image, operator: SurfaceOperator) -> SeparableQuadratic:
         """Return the data term.
@@ -40,7 +44,9 @@ class ROF:
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
         """Return the denoised image, with rmse and psnr where the clean one is known."""
-        solution = method(self.fidelity(image, operator), operator)
+        fidelity = self.fidelity(image, operator)
+        separate = self.by_channel and len(fidelity.shape) > 1
+        solution = solve_by_channel(fidelity, operator, method) if separate else method(fidelity, operator)
         return replace(solution, metrics=solution.metrics | restoration_metrics(image, operator, solution.values))
 
 

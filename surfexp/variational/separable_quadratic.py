@@ -55,11 +55,11 @@ class SeparableQuadratic:
 
     @cached_property
     def step(self) -> float:
-        """1/mu, or 0.05 / mean|r| for a linear term, or 1 / mean a."""
+        """1/mu, or 0.1 / mean a where some a_i are 0, or 0.05 / mean|r| for a linear term."""
         if self.strong_convexity > 0:
             return 1.0 / self.strong_convexity
         if self.weight.any():
-            return float(1.0 / self.weight.mean())
+            return float(0.1 / self.weight.mean())
         return float(0.05 / max(np.abs(self.slope).mean(), 1e-300))
 
     def value(self, values: Floats) -> float:
@@ -96,6 +96,11 @@ class SeparableQuadratic:
             return self.scale
         floor = 1e-12 * _value(self._mass, *self._data, np.zeros(self.target.size))
         return float(max(energy, floor, np.finfo(float).tiny))
+
+    def channel(self, index: int) -> SeparableQuadratic:
+        """Return the fidelity of one channel of several, with its own scale."""
+        weight, target, slope = (np.ascontiguousarray(a[:, index]) for a in (self.weight, self.target, self.slope))
+        return SeparableQuadratic(self.name, self.mass, weight, target, slope, self.lower, self.upper, self.scale)
 
     def _minimiser(self, load: Floats) -> Floats:
         result = np.empty(self.shape)

@@ -49,7 +49,7 @@ def split_bregman(
         Bound of the relative gap.
     iteration_limit : int
     penalty : float, optional
-        lambda. Default: 6 mu h^2 for a quadratic, else h^2 over the primal step of the fidelity.
+        lambda. Default: 6 mu h^2 for a quadratic, else h^2 over three primal steps of the fidelity.
     relaxation : float
         Over-relaxation in (0, 2).
     progress : callable, optional
@@ -79,7 +79,7 @@ def split_bregman(
         chosen = 6.0 * fidelity.strong_convexity * h**2 if penalty is None else penalty
         iterates = _quadratic_iterates(fidelity, operator, start, chosen, relaxation, iteration_limit)
     else:
-        chosen = h**2 / fidelity.step if penalty is None else penalty
+        chosen = h**2 / (3.0 * fidelity.step) if penalty is None else penalty
         iterates = _split_iterates(fidelity, operator, start, chosen, relaxation, iteration_limit)
     return run_to_gap(iterates, fidelity, operator, "split_bregman", tolerance, progress)
 

@@ -1,0 +1,40 @@
+"""The picture of figure 2.8: curvature in colour, the boundary of the regions in red."""
+
+from dataclasses import replace
+
+from pydantic import Field
+
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.contours import Contours
+from surfexp.figures.figure import Figure
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class Parcellation(Options):
+    views: list[str] = Field(["left", "right"], description="directions of view")
+    width: int = Field(1600, ge=200, le=8000, description="pixels across")
+
+
+@register("figure", "parcellation")
+def parcellation_figure(
+    options: Parcellation, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
+) -> Figure:
+    """The image in colour with the boundary of the segmented regions in red, from several sides (figure 2.8)."""
+    scale = ColorScale(label=image.name, unit=image.unit, colormap="RdBu_r")
+    level = solver.metrics.get("threshold", 0.5)
+    field = image.values if solver.model == "threshold" else solver.values
+    contours = (Contours(field, levels=(level,)),)
+    views = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in options.views]
+    length = solver.metrics.get("perimeter")
+    caption = (
+        f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
+        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}. Compare figure 2.8 of the dissertation."
+    )
+    title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
+    return replace(surface_panel(views, width=options.width, caption=caption), title=title)

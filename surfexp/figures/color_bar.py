@@ -1,0 +1,73 @@
+"""Colour bars below a grid of pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.ticker import MaxNLocator
+
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.panel_layout import FONT, Grid, Layout
+from surfexp.figures.render import SurfaceView
+from surfexp.figures.typography import QUIET, points
+from surfexp.mesh.triangle_mesh import Floats
+
+# lengths as shares of the panel's width
+LONGEST, THICKNESS, DISTANCE = 0.26, 0.010, 0.003
+TICKS = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10])
+ENDS = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
+
+Scales = Mapping[ColorScale, ColorScale]
+
+
+def fitted_scales(views: Sequence[SurfaceView]) -> dict[ColorScale, ColorScale]:
+    """Each distinct scale, and the same with the limits that all its views share, in order of appearance."""
+    distinct = dict.fromkeys(view.scale for view in views if view.is_scalar)
+    return {scale: scale.fitted(values_on(scale, views)) for scale in distinct}
+
+
+def values_on(scale: ColorScale, views: Sequence[SurfaceView]) -> Floats:
+    """All values that a bar stands for."""
+    return np.concatenate([v.values for v in views if v.values is not None and v.is_scalar and v.scale == scale])
+
+
+def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
+    """One bar for each scale, in the foot of a panel; an end is pointed where values lie beyond it."""
+    views = [view for row in grid for view in row]
+    length = min(
+        LONGEST, 0.8 / max(len(scales), 1), 0.85 * min(layout.columns) / layout.width if len(scales) > 1 else 1.0
+    )
+    thickness = THICKNESS * layout.width / layout.height
+    bottom = layout.foot / layout.height - 1.5 * thickness
+    for (scale, fitted), center in zip(scales.items(), _centers(layout, grid, scales, length), strict=True):
+        below, above = fitted.share_beyond(values_on(scale, views))
+        bar = figure.colorbar(
+            ScalarMappable(Normalize(*fitted.limits or ()), fitted.colormap),
+            cax=figure.add_axes((center - 0.5 * length, bottom, length, thickness)),
+            orientation="horizontal",
+            extend=ENDS[below > 0.0, above > 0.0],
+            extendfrac=0.04,
+            ticks=TICKS,
+        )
+        bar.outline.set(edgecolor=QUIET, linewidth=points(0.0006 * layout.width))
+        distance = points(DISTANCE * layout.width)
+        bar.ax.tick_params(labelsize=points(0.92 * FONT * layout.width), length=distance, pad=distance)
+        bar.set_label(fitted.title, size=points(0.92 * FONT * layout.width), labelpad=distance)
+
+
+def _centers(layout: Layout, grid: Grid, scales: Scales, length: float) -> list[float]:
+    """Middle of each bar: under the views that use it, or evenly spread where bars would meet."""
+    users: dict[ColorScale, list[float]] = {scale: [] for scale in scales}
+    for row in grid:
+        for j, view in enumerate(row):
+            if view.is_scalar:
+                users[view.scale].append(layout.middle(j, len(row)))
+    centers = [0.5 * (min(middles) + max(middles)) for middles in users.values()]
+    if any(b - a < 1.1 * length for a, b in pairwise(sorted(centers))):
+        return [(k + 0.5) / len(centers) for k in range(len(centers))]
+    return centers

@@ -1,0 +1,65 @@
+"""Sweeps: a metric against an option, a line for each method."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
+from surfexp.figures.figure import Figure
+from surfexp.figures.typography import canvas, drawn
+from surfexp.mesh.triangle_mesh import Floats
+
+# up to so many values of the option are written under the axis
+MOST_TICKS = 9
+
+
+def sweep_plot(
+    x: Floats,
+    series: Mapping[str, Floats],
+    *,
+    x_label: str,
+    y_label: str,
+    log: str = "",
+    title: str = "",
+    caption: str = "",
+    size: tuple[int, int] = (1000, 620),
+) -> Figure:
+    """A line with markers for each method, and a band where an interval is known.
+
+    Parameters
+    ----------
+    x : (k,) float64
+        The option's values, increasing.
+    series : mapping of label to (k,) or (k, 3) float64
+        Values, or value, lower and upper end. NaN leaves a gap.
+    log : "", "x", "y" or "xy"
+        Which axes are logarithmic.
+
+    Raises
+    ------
+    ValueError
+        If there is nothing to draw, or lengths differ.
+    """
+    for name, values in series.items():
+        if np.shape(values) not in ((len(x),), (len(x), 3)):
+            raise ValueError(f"{name!r} has shape {np.shape(values)}, expected ({len(x)},) or ({len(x)}, 3)")
+    if not any(np.isfinite(values).any() for values in series.values()):
+        raise ValueError(f"sweep plot has {len(series)} lines and no finite value, at least 1 is needed")
+    with canvas(*size) as figure:
+        axes = add_axes(figure, title, x_label, y_label)
+        labels: list[Label] = []
+        for k, (name, values) in enumerate(series.items()):
+            bounded = np.asarray(values, dtype=float).reshape(len(x), -1)
+            axes.plot(x, bounded[:, 0], **style(k))
+            if bounded.shape[1] == 3:
+                axes.fill_between(x, bounded[:, 1], bounded[:, 2], color=style(k)["color"], alpha=0.15, linewidth=0.0)
+            for last in np.flatnonzero(np.isfinite(bounded[:, 0]))[-1:]:
+                labels.append((name, float(x[last]), float(bounded[last, 0]), style(k)["color"]))
+        logarithmic(axes, log)
+        if len(x) <= MOST_TICKS:
+            axes.set_xticks(x, [f"{value:g}" for value in x])
+        label_lines(axes, labels)
+        pixels = drawn(figure)
+    return Figure(pixels, caption, title)

@@ -1,0 +1,114 @@
+"""Two-phase segmentation by the non-convex Chan-Vese model with a regularised Heaviside function, (2.9)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.operators.calculus import gradient
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.accuracy import segmentation_metrics
+from surfexp.variational.convex_chan_vese_model import ConvexChanVese, Mask
+from surfexp.variational.face_sweeps import smoothed_normals
+from surfexp.variational.fidelity import Progress
+from surfexp.variational.image import Image
+from surfexp.variational.level_sets import perimeters
+from surfexp.variational.solution import Solution
+
+
+@dataclass(frozen=True, eq=False)
+class ChanVese:
+    """min TV(H(phi)) + mu int (c1 - I)^2 H(phi) + mu int (c2 - I)^2 (1 - H(phi)), H = 1/2 + atan(phi)/pi.
+
+    Descends by explicit steps whose length is halved until the energy falls; stops at a local minimum, which depends on the
+    initial curve. No certificate exists.
+
+    Parameters
+    ----------
+    length, mu, initial
+        As in `ConvexChanVese`; phi starts as +1 and -1.
+    iteration_limit : int
+    tolerance : float
+        Bound of the relative fall of the energy over ten iterations.
+    """
+
+    length: float = 2.0
+    mu: float | None = None
+    initial: Mask | None = None
+    iteration_limit: int = 2000
+    tolerance: float = 1e-6
+
+    def run(self, image: Image, operator: SurfaceOperator, progress: Progress | None = None) -> Solution:
+        """Return phi, with {phi > 0} in `segmentation`; `progress` is given the relative fall of the energy."""
+        model = ConvexChanVese(self.length, self.mu)
+        model.check(image, operator)
+        start = model.first_region(image, operator) if self.initial is None else self.initial
+        phi = np.where(start, 1.0, -1.0)
+        means, notes = model.means(image.values, operator.mass, start, (image.values.max(), image.values.min()))
+        mu = model.weight(means, operator)
+        descent = _Descent(operator, image.values, mu)
+        energies = [descent.energy(phi, means)]
+        step, reason = 1.0, "iteration limit"
+        for iteration in range(1, self.iteration_limit + 1):
+            phi, energy, step = descent.step(phi, means, energies[-1], step)
+            means, notes = model.means(image.values, operator.mass, phi > 0, means)
+            energies.append(min(energy, descent.energy(phi, means)))
+            fall = (energies[max(0, iteration - 10)] - energies[-1]) / max(abs(energies[-1]), np.finfo(float).tiny)
+            if progress is not None:
+                progress(iteration, fall)
+            if iteration >= 10 and fall <= self.tolerance:
+                reason = "energy no longer falls"
+                break
+        region = phi > 0
+        metrics = {"energy": energies[-1], "iterations": float(iteration), "c1": means[0], "c2": means[1]}
+        metrics["perimeter"] = float(perimeters(operator, phi, np.array([0.0]))[0])
+        return Solution(
+            values=phi,
+            energy=energies[-1],
+            iterations=iteration,
+            converged=reason != "iteration limit",
+            reason=reason,
+            history={"iteration": np.arange(len(energies)), "energy": np.array(energies)},
+            model="Chan-Vese",
+            solver="gradient descent",
+            segmentation=region.astype(np.float64),
+            metrics=metrics | segmentation_metrics(image, operator, region),
+            notes=(*notes, "The energy is not convex: a local minimum, without certificate."),
+        )
+
+
+class _Descent:
+    """Energy and descent steps for fixed mu."""
+
+    def __init__(self, operator: SurfaceOperator, values: Floats, mu: float):
+        self._operator, self._values, self._mu = operator, values, mu
+        self._smoothing = 1e-3 / operator.edge_length
+        self._dual = np.zeros((len(operator.faces), 1, 2))
+        self._load = np.zeros((operator.vertex_count, 1))
+
+    def energy(self, phi: Floats, means: tuple[float, float]) -> float:
+        inside = 0.5 + np.arctan(phi) / np.pi
+        c1, c2 = ((c - self._values) ** 2 for c in means)
+        lengths = np.sqrt((gradient(self._operator, inside) ** 2).sum(axis=1) + self._smoothing**2)
+        data = self._mu * float(self._operator.mass @ (c1 * inside + c2 * (1.0 - inside)))
+        return float(self._operator.areas @ (lengths - self._smoothing)) + data
+
+    def step(self, phi: Floats, means: tuple[float, float], energy: float, step: float) -> tuple[Floats, float, float]:
+        """Return the next phi, its energy and twice the step that was short enough."""
+        operator = self._operator
+        inside = 0.5 + np.arctan(phi) / np.pi
+        smoothed_normals(
+            *(operator.faces, operator.hat_gradients, operator.areas, self._smoothing),
+            *(inside[:, None], self._dual, self._load),
+        )
+        c1, c2 = ((c - self._values) ** 2 for c in means)
+        slope = (self._load[:, 0] / operator.mass + self._mu * (c1 - c2)) / (np.pi * (1.0 + phi**2))
+        for _ in range(40):
+            trial = phi - step * slope
+            reached = self.energy(trial, means)
+            if reached < energy:
+                return trial, reached, 2.0 * step
+            step *= 0.5
+        return phi, energy, step

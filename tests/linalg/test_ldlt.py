@@ -1,0 +1,150 @@
+"""The sparse LDL^T against dense algebra: solves, inertia, refactoring, orderings."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import eigvalsh
+from scipy.sparse import block_diag, coo_array, csr_array, diags_array, eye_array, random_array
+
+from surfexp.linalg.ldlt import LDLT
+from surfexp.linalg.ldlt_ordering import nested_dissection
+from surfexp.linalg.ldlt_symbolic import analyse
+from surfexp.mesh.disk import disk
+from surfexp.mesh.icosphere import icosphere
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
+
+
+def grid_laplacian(rows: int, columns: int) -> csr_array:
+    index = np.arange(rows * columns).reshape(rows, columns)
+    pairs = np.concatenate(
+        [
+            np.stack([index[1:].ravel(), index[:-1].ravel()], 1),
+            np.stack([index[:, 1:].ravel(), index[:, :-1].ravel()], 1),
+        ]
+    )
+    joined = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(index.size,) * 2).tocsr()
+    joined = joined + joined.T
+    return csr_array(diags_array(joined.sum(axis=1)) - joined)
+
+
+def clustered_matrix(size: int, seed: int) -> csr_array:
+    """Symmetric matrix of `size` rows: many copies of few small blocks, coupled by 1e-7, so eigenvalues come in clusters."""
+    rng = np.random.default_rng(seed)
+    copies = [grid_laplacian(5, 5)] * (size // 50) + [grid_laplacian(1, 25)] * (size // 50)
+    coupling = random_array((size, size), density=3 / size, rng=rng, format="csr")
+    return csr_array(block_diag(copies) + 1e-7 * (coupling + coupling.T))
+
+
+def surface_pencil(mesh) -> tuple[csr_array, csr_array]:
+    operator = fem(mesh)
+    return stiffness(operator), mass_matrix(operator)
+
+
+def test_inertia_equals_dense_counts_at_random_shifts_on_a_clustered_spectrum() -> None:
+    matrix = clustered_matrix(500, 0)
+    values = eigvalsh(matrix.toarray())
+    symbolic = analyse(matrix + eye_array(500))
+    rng = np.random.default_rng(1)
+    inside_clusters = np.concatenate([values[::25] + 3e-8, values[::25] - 3e-8])
+    for shift in np.concatenate([rng.uniform(-0.1, 8.1, 100), inside_clusters]):
+        factors = LDLT(csr_array(matrix - shift * eye_array(500)), symbolic)
+        doubt = 10.0 * factors.perturbation
+        count = factors.inertia[0]
+        assert (values < shift - doubt).sum() <= count <= (values < shift + doubt).sum(), f"at {shift}"
+        if shift not in inside_clusters:
+            assert doubt < 1e-9 and count == (values < shift).sum(), f"at {shift}"
+
+
+@pytest.mark.parametrize("mesh", [icosphere(4).mesh, disk(20).mesh], ids=["closed", "boundary"])
+@pytest.mark.parametrize("shift", [-1.0, 23.7, 211.3])
+def test_solves_to_rounding_at_interior_shifts(mesh, shift: float) -> None:
+    a, b = surface_pencil(mesh)
+    matrix = csr_array(a - shift * b)
+    factors = LDLT(matrix)
+    truth = np.random.default_rng(0).normal(size=(matrix.shape[0], 11))
+    solution = factors.solve(matrix @ truth)
+    assert np.linalg.norm(matrix @ (solution - truth)) <= 1e-12 * np.linalg.norm(matrix @ truth)
+    assert factors.residual < 1e-11 and factors.replaced_pivots == 0
+    assert np.array_equal(factors.solve((matrix @ truth)[:, 3]), factors.solve((matrix @ truth)[:, 3:4])[:, 0])
+
+
+def test_refactoring_equals_a_fresh_factor() -> None:
+    a, b = surface_pencil(disk(12).mesh)
+    factors = LDLT(a - 3.0 * b)
+    fresh = LDLT(a - 50.0 * b)
+    order = factors.symbolic.permutation
+    factors.refactor(csr_array((a - 50.0 * b)[order][:, order]))
+    load = np.random.default_rng(2).normal(size=a.shape[0])
+    assert np.array_equal(factors.solve(load), fresh.solve(load))
+    assert factors.inertia == fresh.inertia
+
+
+def test_several_components_and_isolated_vertices() -> None:
+    pieces = [grid_laplacian(9, 9), csr_array([[2.0]]), grid_laplacian(30, 3), csr_array([[-1.0]])]
+    matrix = csr_array(block_diag(pieces)) - 0.37 * eye_array(173)
+    factors = LDLT(matrix)
+    values = eigvalsh(matrix.toarray())
+    assert factors.inertia == ((values < 0).sum(), (values > 0).sum())
+    load = np.arange(173.0)
+    assert np.allclose(factors.solve(load), np.linalg.solve(matrix.toarray(), load), rtol=1e-11, atol=1e-11)
+
+
+def test_a_singular_matrix_is_told_by_replaced_pivots_or_residual() -> None:
+    factors = LDLT(grid_laplacian(20, 20))
+    assert factors.replaced_pivots > 0 or factors.residual > 1e-6
+    assert LDLT(grid_laplacian(20, 20) + 1e-3 * eye_array(400)).residual < 1e-12
+
+
+def test_large_fronts_use_the_blocked_path() -> None:
+    rng = np.random.default_rng(3)
+    dense = rng.normal(size=(230, 230))
+    dense = dense + dense.T + 40.0 * np.diag(np.sign(rng.normal(size=230)))
+    factors = LDLT(csr_array(dense))
+    values = eigvalsh(dense)
+    assert factors.inertia[0] == (values < 0).sum()
+    load = rng.normal(size=(230, 8))
+    assert np.linalg.norm(dense @ factors.solve(load) - load) < 1e-10 * np.linalg.norm(load)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(1, 60), st.floats(0.01, 0.5), st.integers(0, 10_000))
+def test_any_symmetric_pattern_solves_and_counts(size: int, density: float, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    half = random_array((size, size), density=density, rng=rng, format="csr")
+    signs = diags_array(np.sign(rng.normal(size=size)) * (size + 1.0))
+    matrix = csr_array(half + half.T + signs)
+    factors = LDLT(matrix)
+    assert factors.inertia[0] == (eigvalsh(matrix.toarray()) < 0).sum()
+    load = rng.normal(size=(size, 3))
+    assert np.allclose(matrix @ factors.solve(load), load, atol=1e-11)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(1, 400), st.floats(0.0, 0.03), st.integers(0, 10_000))
+def test_nested_dissection_is_a_permutation(size: int, density: float, seed: int) -> None:
+    half = random_array((size, size), density=density, rng=np.random.default_rng(seed), format="csr")
+    graph = csr_array(half + half.T + eye_array(size))
+    order = nested_dissection(graph.indptr, graph.indices)
+    assert np.array_equal(np.sort(order), np.arange(size))
+    assert np.array_equal(order, nested_dissection(graph.indptr, graph.indices))
+
+
+def test_fill_grows_like_n_log_n_on_a_surface() -> None:
+    entries = [analyse(surface_pencil(icosphere(k).mesh)[0]).entries / (10 * 4**k + 2) for k in (3, 4, 5, 6)]
+    assert np.all(np.diff(entries) < 11.0)
+    assert entries[-1] < 62.0
+
+
+def test_bad_matrices_are_refused() -> None:
+    with pytest.raises(ValueError, match="shape"):
+        LDLT(csr_array(np.ones((2, 3))))
+    with pytest.raises(ValueError, match="1 entries that are not finite"):
+        LDLT(csr_array(np.array([[1.0, 0.0], [0.0, np.nan]])))
+    with pytest.raises(ValueError, match="5 rows"):
+        LDLT(eye_array(3).tocsr()).solve(np.ones(5))
+    with pytest.raises(ValueError, match="4 rows"):
+        LDLT(eye_array(4).tocsr(), analyse(eye_array(3).tocsr()))
