@@ -13,24 +13,48 @@ from surfexp.baselines.transport import transported
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 
+WEIGHTED_RADIUS = 3.0
+FLOOR = 1e-4
+
 
 @dataclass(frozen=True, eq=False)
 class BandEnergy:
     """sum_k w_k |D u|_k + sum_k m_k h(u_k), the level-set form of int_M |grad u| + h(u).
 
-    Integrals over the surface become integrals over the band with delta(d) = (1 + cos(pi d / b)) / (2 b), which has
-    integral 1 and vanishes just outside the band, so the energies are those of the surface. D is the forward difference, zero
-    where a neighbour is missing. The mass m_k = (3 w_k + sum_axis w_{k - axis}) / 6 is the one for which
+    Integrals over the surface become integrals over the band with delta(d) = (1 + cos(pi d / b)) / (2 b), |d| < b. Its integral
+    is 1, also as a sum over grid planes, for b is a whole number of steps (Peskin 2002); and b is at least one step less than
+    the band's radius, so that no difference D that counts lacks a neighbour. Nodes farther out get the weight FLOOR delta(0):
+    they follow the others. The mass m_k = (3 w_k + sum_axis w_{k - axis}) / 6 is the one for which
     sum_k w_k |D u|^2 <= 12 / step^2 sum_k m_k u_k^2.
+
+    Parameters
+    ----------
+    band : NarrowBand
+        Of radius two steps or more; `WEIGHTED_RADIUS` makes b two steps, the least that is accurate.
+
+    Raises
+    ------
+    ValueError
+        If the band is narrower.
     """
 
     band: NarrowBand
 
+    def __post_init__(self) -> None:
+        if self.support < self.band.step:
+            steps = self.band.radius / self.band.step
+            raise ValueError(f"band has radius {steps:.3g} steps, at least 2 are needed, {WEIGHTED_RADIUS:g} are good")
+
+    @property
+    def support(self) -> float:
+        """b, in the unit of the surface."""
+        return self.band.step * float(np.floor(self.band.radius / self.band.step - 1.0 + 1e-9))
+
     @cached_property
     def cells(self) -> Floats:
         """(k,) weights w of the differences, in units of area."""
-        width = self.band.radius + self.band.step
-        return self.band.step**3 * 0.5 / width * (1.0 + np.cos(np.pi * self.band.distance / width))
+        phase = np.pi * np.minimum(np.abs(self.band.distance) / self.support, 1.0)
+        return self.band.step**3 / self.support * np.maximum(0.5 * (1.0 + np.cos(phase)), FLOOR)
 
     @cached_property
     def mass(self) -> Floats:

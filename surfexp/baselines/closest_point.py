@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.baselines.band_energy import BandEnergy
+from surfexp.baselines.band_energy import WEIGHTED_RADIUS, BandEnergy
 from surfexp.baselines.band_result import solution_at_vertices
 from surfexp.baselines.grid_interpolation import GridInterpolation, grid_interpolation
-from surfexp.baselines.narrow_band import interpolation_radius, narrow_band
+from surfexp.baselines.narrow_band import narrow_band
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Progress
@@ -99,5 +99,5 @@ def closest_point(mesh: TriangleMesh, step: float) -> ClosestPoint:
     step : float
         Grid spacing, in the unit of the mesh.
     """
-    band = narrow_band(mesh, step, interpolation_radius(1))
+    band = narrow_band(mesh, step, WEIGHTED_RADIUS)
     return ClosestPoint(BandEnergy(band), grid_interpolation(band, mesh.vertices, 1))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.baselines.band_energy import BandEnergy
+from surfexp.baselines.band_energy import WEIGHTED_RADIUS, BandEnergy
 from surfexp.baselines.band_result import solution_at_vertices
 from surfexp.baselines.grid_interpolation import GridInterpolation, grid_interpolation
 from surfexp.baselines.narrow_band import interpolation_radius, narrow_band
@@ -15,8 +16,6 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
-
-CHECK_INTERVAL = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +34,12 @@ class LevelSet:
     to_closest : GridInterpolation
         From the band to the closest points of its own nodes.
     regularisation : float
-        eps in units of (spread of the values) / step.
+        eps in units of (spread of the values) / (edge length of the mesh).
     extension_interval : int
-        Steps between two extensions.
+        Time between two extensions, in units of the time in which the data term alone would carry a value across the spread.
+        A fixed number of the small steps of a fine grid would let the error of the interpolation outrun the descent.
     tolerance : float
-        Stop when a hundred steps lower the energy by less than this share of it.
+        Stop when the energy falls by less than this share of it between two extensions.
     step_limit : int
     progress : callable, optional
         Called with the step and the relative fall of the energy.
@@ -48,8 +48,8 @@ class LevelSet:
     energy: BandEnergy
     to_vertices: GridInterpolation
     to_closest: GridInterpolation
-    regularisation: float = 0.1
-    extension_interval: int = 20
+    regularisation: float = 0.05
+    extension_interval: float = 1.0
     tolerance: float = 1e-4
     step_limit: int = 20000
     progress: Progress | None = None
@@ -68,15 +68,17 @@ class LevelSet:
         """
         energy, problem = self.energy, self.energy.fidelity(fidelity)
         values = problem.initial() if start is None else energy.band.extend(start.values)
-        spread = np.ptp(problem.target) if problem.is_quadratic else problem.upper - problem.lower
-        eps = self.regularisation * max(float(spread), 1e-12) / energy.band.step
+        spread = max(float(np.ptp(problem.target) if problem.is_quadratic else problem.upper - problem.lower), 1e-12)
+        eps = self.regularisation * spread / operator.edge_length
         step = 1.8 * eps / energy.difference_bound
+        duration = spread / float(np.mean(np.abs(problem.slope) + problem.weight * spread))
+        interval = math.ceil(self.extension_interval * duration / step)
         load = np.empty_like(values)
         rows: list[tuple[float, float]] = []
         converged = False
         for iteration in range(self.step_limit + 1):
             length = energy.projected_load(values, eps, load)
-            if iteration % CHECK_INTERVAL == 0:
+            if iteration % interval == 0:
                 rows.append((iteration, length + problem.value(values)))
                 fall = (rows[-2][1] - rows[-1][1]) / max(abs(rows[-1][1]), problem.scale) if iteration else np.inf
                 if self.progress is not None:
@@ -85,7 +87,7 @@ class LevelSet:
                     converged = True
                     break
             values = problem.prox(values - step * load / energy.mass, step)
-            if (iteration + 1) % self.extension_interval == 0:
+            if (iteration + 1) % interval == 0:
                 values = np.clip(self.to_closest(values), problem.lower, problem.upper)
         reason = "energy stationary" if converged else "step limit"
         return solution_at_vertices(
@@ -103,7 +105,7 @@ def level_set(mesh: TriangleMesh, step: float, degree: int = 3) -> LevelSet:
         Grid spacing, in the unit of the mesh.
     degree : int
     """
-    band = narrow_band(mesh, step, interpolation_radius(degree))
+    band = narrow_band(mesh, step, max(WEIGHTED_RADIUS, interpolation_radius(degree)))
     return LevelSet(
         BandEnergy(band), grid_interpolation(band, mesh.vertices, 1), grid_interpolation(band, band.closest, degree)
     )

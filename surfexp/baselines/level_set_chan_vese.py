@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from surfexp.baselines.level_set import CHECK_INTERVAL, LevelSet
+from surfexp.baselines.level_set import LevelSet
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive
 from surfexp.variational.solution import Solution
+
+CROSSING = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +29,8 @@ class LevelSetChanVese:
     Parameters
     ----------
     level_set : LevelSet
-        Band and stencils, and its regularisation, extension interval, tolerance and step limit.
+        Band and stencils, regularisation (here a slope, without unit), tolerance and step limit; the unit of its extension
+        interval is the time in which the data term alone would move the curve by ten widths.
     mu : float
         Weight, in 1 / (unit of the image^2 * unit of length).
     width : float
@@ -64,6 +69,8 @@ class LevelSetChanVese:
         data, phi = band.extend(image), band.extend(initial)
         width = self.width * band.step
         step = 1.8 * scheme.regularisation / energy.difference_bound * np.pi * width
+        speed = self.mu * float(np.ptp(data)) ** 2 / (np.pi * width)
+        interval = math.ceil(scheme.extension_interval * CROSSING * width / (speed * step))
         load = np.empty_like(phi)
         rows: list[tuple[float, float]] = []
         means = (float(data.max()), float(data.min()))
@@ -71,9 +78,9 @@ class LevelSetChanVese:
         for iteration in range(scheme.step_limit + 1):
             energy.projected_load(phi, scheme.regularisation, load)
             inside = 0.5 + np.arctan(phi / width) / np.pi
-            means = _means(mass, inside, data, means)
+            means = _means(mass, phi > 0, data, means)
             slope = self.mu * ((means[0] - data) ** 2 - (means[1] - data) ** 2)
-            if iteration % CHECK_INTERVAL == 0:
+            if iteration % interval == 0:
                 misfit = self.mu * mass @ (data - means[1]) ** 2
                 rows.append(
                     (iteration, energy.total_variation(inside) + float(mass @ (slope * inside)) + float(misfit))
@@ -83,7 +90,7 @@ class LevelSetChanVese:
                     break
             delta = width / (np.pi * (width**2 + phi**2))
             phi = phi - step * delta * (load / mass + slope)
-            if (iteration + 1) % scheme.extension_interval == 0:
+            if (iteration + 1) % interval == 0:
                 phi = scheme.to_closest(phi)
         return self._result(scheme.to_vertices(phi), width, means, rows, converged, image, operator)
 
@@ -123,9 +130,9 @@ class LevelSetChanVese:
         )
 
 
-def _means(mass: Floats, inside: Floats, data: Floats, last: tuple[float, float]) -> tuple[float, float]:
+def _means(mass: Floats, inside: NDArray[np.bool_], data: Floats, last: tuple[float, float]) -> tuple[float, float]:
     """c1 and c2, the last ones where a region is empty."""
-    weights = (mass * inside, mass * (1.0 - inside))
+    weights = (mass * inside, mass * ~inside)
     areas = [float(weight.sum()) for weight in weights]
     floor = 1e-9 * sum(areas)
     first, second = (

@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.commands.views import print_tables, wide_console
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.launch import launch, run, unfinished
@@ -24,13 +25,16 @@ def command(name: str, arguments: list[str]) -> int:
         launch(arguments, _show if name == "plan" else _run)
     except (HydraException, OmegaConfBaseException) as error:
         raise _explained(error, arguments) from error
+    except OSError as error:
+        remedy = "choose another results folder with results=FOLDER"
+        raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
     return 0
 
 
 def _run(plan: Plan) -> None:
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
-    console = Console(highlight=False)
+    console = wide_console()
     state = f"{len(missing)} to compute" if missing else "nothing to compute"
     console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
     failure = None
@@ -38,8 +42,6 @@ def _run(plan: Plan) -> None:
         run(plan)
     except StageFailure as error:
         failure = error
-    from surfexp.commands.views import print_tables
-
     print_tables(plan, results, console)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"

@@ -28,7 +28,7 @@ def command(name: str, arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     plan = latest_plan(given.results, given.experiment)
     if name == "table":
-        print_tables(plan, given.results, Console(highlight=False))
+        print_tables(plan, given.results, wide_console())
     else:
         print(write_report(plan, given.results.resolve()) / "report.html")
     return 0
@@ -43,12 +43,18 @@ def latest_plan(results: Path, experiment: str) -> Plan:
     return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
 
 
+def wide_console() -> Console:
+    """A console for tables: as wide as the terminal, or wide enough for any table when the output is a file."""
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(highlight=False, width=200)
+
+
 def print_tables(plan: Plan, results: Path, console: Console) -> None:
     """One table a comparison; a row that reached its iteration limit is red."""
     for group in comparisons(rows_of(plan, results.resolve())):
         table = Table(title=group.title, title_justify="left", header_style="bold")
         for name in group.varying:
-            table.add_column(short_name(name))
+            table.add_column(short_name(name), overflow="fold")
         for name in group.metric_names:
             table.add_column(name.replace("_", " "), justify="right")
         for row in group.rows:

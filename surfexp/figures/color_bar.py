@@ -12,14 +12,13 @@ from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.panel_layout import FONT, Grid, Layout
+from surfexp.figures.panel_layout import Grid, Layout
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import QUIET, points
 from surfexp.mesh.triangle_mesh import Floats
 
-# lengths as shares of the panel's width
-LONGEST, THICKNESS, DISTANCE = 0.26, 0.010, 0.003
-TICKS = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10])
+# longest bar as a share of the panel's width; the rest in multiples of the text's size
+LONGEST, THICKNESS, DISTANCE, OUTLINE, TICK_FONT = 0.26, 0.75, 0.22, 0.045, 0.92
 ENDS = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
 
 Scales = Mapping[ColorScale, ColorScale]
@@ -42,7 +41,7 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
     length = min(
         LONGEST, 0.8 / max(len(scales), 1), 0.85 * min(layout.columns) / layout.width if len(scales) > 1 else 1.0
     )
-    thickness = THICKNESS * layout.width / layout.height
+    thickness = THICKNESS * layout.em / layout.height
     bottom = layout.foot / layout.height - 1.5 * thickness
     for (scale, fitted), center in zip(scales.items(), _centers(layout, grid, scales, length), strict=True):
         below, above = fitted.share_beyond(values_on(scale, views))
@@ -52,12 +51,12 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
             orientation="horizontal",
             extend=ENDS[below > 0.0, above > 0.0],
             extendfrac=0.04,
-            ticks=TICKS,
+            ticks=MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]),
         )
-        bar.outline.set(edgecolor=QUIET, linewidth=points(0.0006 * layout.width))
-        distance = points(DISTANCE * layout.width)
-        bar.ax.tick_params(labelsize=points(0.92 * FONT * layout.width), length=distance, pad=distance)
-        bar.set_label(fitted.title, size=points(0.92 * FONT * layout.width), labelpad=distance)
+        bar.outline.set(edgecolor=QUIET, linewidth=points(OUTLINE * layout.em))
+        distance = points(DISTANCE * layout.em)
+        bar.ax.tick_params(labelsize=points(TICK_FONT * layout.em), length=distance, pad=distance)
+        bar.set_label(fitted.title, size=points(TICK_FONT * layout.em), labelpad=distance)
 
 
 def _centers(layout: Layout, grid: Grid, scales: Scales, length: float) -> list[float]:

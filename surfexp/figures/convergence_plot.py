@@ -72,7 +72,8 @@ def _draw_rates(axes: Any, histories: Mapping[str, tuple[Floats, Floats]], rates
         y = y0 * (x / x0) ** -rate
         axes.plot(x, y, color=QUIET, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1.5)
         middle = np.sqrt(x[0] * x[1]), np.sqrt(y[0] * y[1])
-        text, size = f"$k^{{-{rate:g}}}$", axes.xaxis.label.get_size()
-        axes.annotate(
-            text, middle, (-3, -3), textcoords="offset points", ha="right", va="top", fontsize=size, color=QUIET
+        text = axes.text(*middle, f"$k^{{-{rate:g}}}$", ha="right", va="top", color=QUIET)
+        text.set(
+            fontsize=axes.xaxis.label.get_size(),
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.85},
         )

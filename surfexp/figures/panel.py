@@ -9,7 +9,7 @@ from typing import Any
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import Scales, draw_bars, fitted_scales, values_on
 from surfexp.figures.figure import Figure
-from surfexp.figures.panel_layout import FONT, MARGIN, Grid, Layout, arrange
+from surfexp.figures.panel_layout import MARGIN, Grid, Layout, arrange
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn, points
 
@@ -75,7 +75,7 @@ def _rows(views: Sequence[SurfaceView] | Sequence[Sequence[SurfaceView]]) -> lis
 
 
 def _write(figure: Any, layout: Layout, grid: Grid, title: str) -> None:
-    size, height = points(FONT * layout.width), layout.height
+    size, height = points(layout.em), layout.height
     y = 1.0 - 0.6 * layout.head / height
     figure.text(MARGIN, y, title, fontsize=1.15 * size, fontweight="bold", ha="left", va="center")
     for i, row in enumerate(grid):
@@ -89,10 +89,11 @@ def _notes(views: Sequence[SurfaceView], scales: Scales) -> tuple[str, ...]:
     for scale, fitted in scales.items():
         beyond = 100.0 * sum(fitted.share_beyond(values_on(scale, views)))
         if beyond > 0.0:
-            name = f"the values of {fitted.label}" if fitted.label else "the values"
-            notes.append(f"{beyond:.2g} % of {name} lie beyond the colour bar and take its end colours.")
+            bar = f"the bar {fitted.label!r}" if fitted.label else "the bar"
+            notes.append(f"{beyond:.2g} % of the values lie beyond {bar} and take its end colours.")
     for view in views:
         if view.missing:
             where = f" of {view.title!r}" if view.title else ""
             notes.append(f"{view.missing} vertices{where} have no value; their faces are drawn grey.")
-    return tuple(notes)
+    # two views of one surface say the same
+    return tuple(dict.fromkeys(notes))

@@ -13,8 +13,12 @@ from surfexp.figures.render import SurfaceView
 
 Grid = Sequence[Sequence[SurfaceView]]
 
-# lengths as shares of the panel's width
-FONT, TITLE_BAND, HEAD_BAND, BAR_BAND, MARGIN = 0.0135, 0.027, 0.036, 0.066, 0.010
+# size of the text as a share of the panel's width, and its least number of pixels
+FONT, SMALLEST_FONT = 0.0135, 14.0
+# heights of bands in multiples of the text's size
+TITLE_BAND, HEAD_BAND, BAR_BAND = 2.0, 2.7, 4.9
+# empty space around a surface as a share of the panel's width
+MARGIN = 0.010
 # a row is at most this many times as high as the mean column is wide
 TALLEST = 1.25
 # a column is at least this share of the mean column, so that its title has room
@@ -37,6 +41,10 @@ class Layout:
         Height of the band with the colour bars.
     scale : float
         Pixels per unit of length, the same for all surfaces.
+    width : int
+        Of the panel.
+    em : float
+        Size of the text.
     """
 
     columns: tuple[int, ...]
@@ -46,6 +54,7 @@ class Layout:
     foot: int
     scale: float
     width: int
+    em: float
 
     @property
     def height(self) -> int:
@@ -78,12 +87,14 @@ def arrange(grid: Grid, width: int, has_head: bool, has_bars: bool, field_of_vie
     columns = np.diff(borders)
     scale = float(np.min((columns - 2 * gap) / np.maximum(widest, 1e-300)))
     scale = min(scale, TALLEST * width / count / max(tallest, 1e-300))
+    em = max(FONT * width, SMALLEST_FONT)
     return Layout(
         columns=tuple(columns.tolist()),
         rows=tuple(int(np.ceil(scale * max(h for _, h in row))) + 2 * gap for row in extents),
-        head=round(HEAD_BAND * width) if has_head else 0,
-        title_bands=tuple(round(TITLE_BAND * width) if any(view.title for view in row) else 0 for row in grid),
-        foot=round(BAR_BAND * width) if has_bars else 0,
+        head=round(HEAD_BAND * em) if has_head else 0,
+        title_bands=tuple(round(TITLE_BAND * em) if any(view.title for view in row) else 0 for row in grid),
+        foot=round(BAR_BAND * em) if has_bars else 0,
         scale=scale,
         width=width,
+        em=em,
     )

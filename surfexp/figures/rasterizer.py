@@ -56,7 +56,9 @@ def rasterize(mesh: TriangleMesh, camera: Camera) -> Raster:
     face = np.full((height, width), -1, dtype=np.int64)
     barycentric = np.zeros((height, width, 3))
     depth = np.full((height, width), np.inf)
-    _fill(*camera.project(mesh.vertices), mesh.faces, face, barycentric, depth)
+    with np.errstate(invalid="ignore"):
+        projected = camera.project(mesh.vertices)
+    _fill(*projected, mesh.faces, face, barycentric, depth)
     return Raster(face, barycentric, depth)
 
 

@@ -14,23 +14,22 @@ SMALLEST_PIVOT = 1e-14
 
 
 class LDLT:
-    """Factors P A P^T = L D L^T with diagonal D, without pivoting.
+    """Factors P A P^T = L D L^T with diagonal D, without pivoting; `ldlt` makes one.
 
     Without pivoting the factors of an indefinite matrix can lose digits; `residual` says how many before anybody relies
     on them. The numbers of negative and positive pivots are those of the eigenvalues (Sylvester's law of inertia).
 
     Parameters
     ----------
-    matrix : (n, n) sparse array
-        Symmetric; both triangles present.
-    symbolic : SymbolicFactor, optional
-        The analysis of a matrix of the same pattern, which saves repeating it.
+    matrix : (n, n) csr_array
+        Symmetric, both triangles present, in elimination order (see `ldlt_symbolic.permuted`).
+    symbolic : SymbolicFactor
+        The analysis of the pattern.
 
     Attributes
     ----------
-    symbolic : SymbolicFactor
-    matrix : (n, n) csr_array
-        In elimination order.
+    matrix, symbolic
+        As given.
     replaced_pivots : int
         Pivots under 1e-14 of the largest diagonal entry, replaced by that bound.
     residual : float
@@ -42,25 +41,19 @@ class LDLT:
     Raises
     ------
     ValueError
-        If the matrix is not square, has entries that are not finite, or another size than the analysis.
+        If the matrix has entries that are not finite, or another size than the analysis.
     """
 
-    def __init__(self, matrix: sparray, symbolic: SymbolicFactor | None = None) -> None:
-        self.symbolic = analyse(matrix) if symbolic is None else symbolic
-        if matrix.shape[0] != self.symbolic.size:
-            raise ValueError(f"matrix has {matrix.shape[0]} rows, the analysis is of one with {self.symbolic.size}")
-        self._factor = np.empty(self.symbolic.entries)
-        self._pivots = np.empty(self.symbolic.size)
-        self.refactor(permuted(csr_array(matrix, dtype=np.float64), self.symbolic.permutation))
+    def __init__(self, matrix: csr_array, symbolic: SymbolicFactor) -> None:
+        if matrix.shape[0] != symbolic.size:
+            raise ValueError(f"matrix has {matrix.shape[0]} rows, the analysis is of one with {symbolic.size}")
+        self.symbolic = symbolic
+        self._factor = np.empty(symbolic.entries)
+        self._pivots = np.empty(symbolic.size)
+        self.refactor(matrix)
 
     def refactor(self, matrix: csr_array) -> None:
-        """Replace the factors by those of a matrix of the same pattern that is in elimination order already.
-
-        Parameters
-        ----------
-        matrix : (n, n) csr_array
-            P A P^T, with P of `symbolic.permutation`.
-        """
+        """Replace the factors by those of another matrix of the same pattern, in elimination order."""
         if not np.isfinite(matrix.data).all():
             raise ValueError(f"matrix has {int((~np.isfinite(matrix.data)).sum())} entries that are not finite")
         self.matrix = matrix
@@ -111,3 +104,24 @@ class LDLT:
             self.solve_in_order(block)
             solution[order, some] = block[:, : some.stop - some.start]
         return solution.reshape(np.shape(right_hand_side))
+
+
+def ldlt(matrix: sparray, symbolic: SymbolicFactor | None = None) -> LDLT:
+    """Factorise a symmetric matrix in its own order of rows.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse array
+        Symmetric; both triangles present.
+    symbolic : SymbolicFactor, optional
+        The analysis of a matrix of the same pattern, which saves repeating it.
+
+    Raises
+    ------
+    ValueError
+        If the matrix is not square, has entries that are not finite, or another size than the analysis.
+    """
+    symbolic = analyse(matrix) if symbolic is None else symbolic
+    if matrix.shape[0] != symbolic.size:
+        raise ValueError(f"matrix has {matrix.shape[0]} rows, the analysis is of one with {symbolic.size}")
+    return LDLT(permuted(csr_array(matrix, dtype=np.float64), symbolic.permutation), symbolic)

@@ -167,7 +167,7 @@ def _improve(
     heaviest = int(HEAVIEST * sizes.sum())
     best_size, best_weight, best_length = sizes[SEPARATOR], max(sizes[0], sizes[1]), 0
     patience = 30 + best_size // 4
-    trail = [(np.int64(0), np.int64(0)) for _ in range(0)]
+    trail = [(0, 0) for _ in range(0)]
     since = 0
     while since < patience:
         at, to = _best_move(border, count, ties, locked, sizes, heaviest)
@@ -233,7 +233,7 @@ def _best_move(
 
 @njit(cache=True, nogil=True)
 def _relabel(v: int, to: int, side: Integers, sizes: Integers, trail: list[tuple[int, int]]) -> None:
-    trail.append((v, np.int64(side[v])))
+    trail.append((v, int(side[v])))
     sizes[side[v]] -= 1
     sizes[to] += 1
     side[v] = to

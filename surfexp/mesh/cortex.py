@@ -14,8 +14,8 @@ from surfexp.mesh.triangle_mesh import Floats
 
 SEMIAXES = np.array([0.85, 1.1, 0.95])
 # depth and half width of the sulci
-FORMS = {"smooth": (0.12, 0.10), "folded": (0.34, 0.055)}
-WAVE_COUNT, WAVE_NUMBER = 16, 8.0
+FORMS = {"smooth": (0.12, 0.11), "folded": (0.31, 0.075)}
+WAVE_COUNT, WAVE_NUMBER = 16, 11.0
 
 
 @njit(cache=True, nogil=True)
@@ -38,16 +38,16 @@ def _radius_excess(points: Floats, waves: Floats, phases: Floats, depth: float, 
         tangential = gx * gx + gy * gy + gz * gz - radial * radial
         # |g| / |grad g| is the distance from the zero line; the floor keeps it finite at saddles
         floor = 0.15 * len(phases) * WAVE_NUMBER**2 / 3.0
-        excess[i] = length - 1.0 + depth * np.exp(-(field * field) / ((tangential + floor) * width * width))
+        excess[i] = length - 1.0 + depth / (1.0 + field * field / ((tangential + floor) * width * width))
     return excess
 
 
 def cortex(form: Literal["smooth", "folded"] = "folded", count: int = 39994, seed: int = 0) -> Surface:
     """Ellipsoid with narrow sulci along the zero lines of a random field of one wavelength.
 
-    The surface is the radial graph r(d) = 1 - depth * exp(-(s(d) / width)^2) over the directions d, stretched to the
-    semiaxes 0.85, 1.1, 0.95, so it cannot intersect itself; s = g / |grad g| is about the distance from a zero line. "smooth" and "folded" share their sulci and stand for M1
-    and M2 of table 2.2.
+    The surface is the radial graph r(d) = 1 - depth / (1 + (s(d) / width)^2) over the directions d, stretched to the
+    semiaxes 0.85, 1.1, 0.95, so it cannot intersect itself; s = g / |grad g| is about the distance from a zero line.
+    "smooth" and "folded" share their sulci and stand for M1 and M2 of table 2.2.
 
     Parameters
     ----------

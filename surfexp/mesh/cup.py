@@ -30,15 +30,15 @@ def cup(count: int = 25075) -> Surface:
     Parameters
     ----------
     count : int
-        Number of vertices, at least 3000, which is what the handle needs.
+        Number of vertices, at least 2000, which is what the handle needs.
 
     Raises
     ------
     ValueError
-        If the count is under 3000.
+        If the count is under 2000.
     """
-    if count < 3000:
-        raise ValueError(f"cup has count = {count}; at least 3000 vertices are needed to resolve wall and handle")
+    if count < 2000:
+        raise ValueError(f"cup has count = {count}; at least 2000 vertices are needed to resolve wall and handle")
     spacing = min(5.8 / np.sqrt(count), 0.07)
     mesh = mesh_implicit(cup_function, [-1.1, -1.1, -1.4], [2.0, 1.1, 1.4], spacing, count)
     return Surface(mesh, name="cup")

@@ -10,75 +10,17 @@ import numpy as np
 from numba import njit
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
-
-
-# vectors are tuples here: small arrays inside a compiled loop cost an allocation each
-Vector = tuple[float, float, float]
-
-
-@njit(cache=True, nogil=True)
-def _difference(vertices: Floats, a: int, b: int) -> Vector:
-    return vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
-
-
-@njit(cache=True, nogil=True)
-def _dot(u: Vector, v: Vector) -> float:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-@njit(cache=True, nogil=True)
-def _cross(u: Vector, v: Vector) -> Vector:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-@njit(cache=True, nogil=True)
-def _normal(vertices: Floats, a: int, b: int, c: int) -> Vector:
-    return _cross(_difference(vertices, a, b), _difference(vertices, a, c))
-
-
-@njit(cache=True, nogil=True)
-def _cosine(u: Vector, v: Vector) -> float:
-    return _dot(u, v) / max(np.sqrt(_dot(u, u) * _dot(v, v)), 1e-300)
-
-
-@njit(cache=True, nogil=True)
-def vertex_stars(faces: Integers, vertex_count: int) -> tuple[Integers, Integers]:
-    """Faces around each vertex in compressed rows: those of vertex i are star[start[i]:start[i + 1]]."""
-    start = np.zeros(vertex_count + 1, np.int64)
-    for corner in faces.ravel():
-        start[corner + 1] += 1
-    start = np.cumsum(start)
-    cursor, star = start[:-1].copy(), np.empty(faces.size, np.int64)
-    for f in range(len(faces)):
-        for k in range(3):
-            star[cursor[faces[f, k]]] = f
-            cursor[faces[f, k]] += 1
-    return start, star
-
-
-@njit(cache=True, nogil=True)
-def across(faces: Integers, start: Integers, star: Integers, face: int, a: int, b: int) -> tuple[int, int]:
-    """The other face at edge (a, b) and its vertex opposite, or (-1, -1) on the boundary."""
-    for g in star[start[a] : start[a + 1]]:
-        if g != face:
-            for k in range(3):
-                if faces[g, k] == b:
-                    return g, faces[g, 0] + faces[g, 1] + faces[g, 2] - a - b
-    return -1, -1
-
-
-@njit(cache=True, nogil=True)
-def boundary_edges(faces: Integers, vertex_count: int) -> Integers:
-    """(b, 2) edges with one face, in its direction."""
-    start, star = vertex_stars(faces, vertex_count)
-    edges, count = np.empty((faces.size, 2), np.int64), 0
-    for f in range(len(faces)):
-        for k in range(3):
-            a, b = faces[f, k], faces[f, (k + 1) % 3]
-            if across(faces, start, star, f, a, b)[0] < 0:
-                edges[count] = a, b
-                count += 1
-    return edges[:count].copy()
+from surfexp.mesh.vertex_star import (
+    Vector,
+    across,
+    boundary_edges,
+    cosine,
+    cross,
+    difference,
+    dot,
+    normal,
+    vertex_stars,
+)
 
 
 @njit(cache=True, nogil=True)
@@ -87,8 +29,8 @@ def half_edges_by_length(vertices: Floats, faces: Integers, low: float, high: fl
     lengths = np.empty(faces.size)
     for f in range(len(faces)):
         for k in range(3):
-            side = _difference(vertices, faces[f, k], faces[f, (k + 1) % 3])
-            lengths[3 * f + k] = np.sqrt(_dot(side, side))
+            side = difference(vertices, faces[f, k], faces[f, (k + 1) % 3])
+            lengths[3 * f + k] = np.sqrt(dot(side, side))
     chosen = np.flatnonzero((lengths >= low) & (lengths <= high))
     order = chosen[np.argsort(lengths[chosen], kind="mergesort")]
     return order, lengths[order]
@@ -129,7 +71,11 @@ def _common_neighbours(faces: Integers, start: Integers, star: Integers, a: int,
         for k in range(3):
             x = faces[star[i], k]
             # each neighbour once: where it follows a in the face, or comes before it at a boundary
-            if x != a and x != b and (faces[star[i], (k + 2) % 3] == a or across(faces, start, star, star[i], a, x)[0] < 0):
+            if (
+                x != a
+                and x != b
+                and (faces[star[i], (k + 2) % 3] == a or across(faces, start, star, star[i], a, x)[0] < 0)
+            ):
                 for j in range(start[b], start[b + 1]):
                     if faces[star[j], 0] == x or faces[star[j], 1] == x or faces[star[j], 2] == x:
                         common += 1
@@ -151,9 +97,9 @@ def _collapse_is_safe(
                 continue
             to_x = vertices[x, 0] - point[0], vertices[x, 1] - point[1], vertices[x, 2] - point[2]
             to_y = vertices[y, 0] - point[0], vertices[y, 1] - point[1], vertices[y, 2] - point[2]
-            if max(_dot(to_x, to_x), _dot(to_y, to_y)) > longest**2:
+            if max(dot(to_x, to_x), dot(to_y, to_y)) > longest**2:
                 return False
-            if _cosine(_normal(vertices, end, x, y), _cross(to_x, to_y)) <= 0.5:
+            if cosine(normal(vertices, end, x, y), cross(to_x, to_y)) <= 0.5:
                 return False
     return True
 
@@ -166,8 +112,8 @@ def collapse_edges(
     n = len(vertices)
     start, star = vertex_stars(faces, n)
     boundary = np.zeros(n, np.bool_)
-    for a, b in boundary_edges(faces, n):
-        boundary[a] = True
+    for edge in boundary_edges(faces, n):
+        boundary[edge[0]] = True
     locked, removed = np.zeros(len(faces), np.bool_), np.zeros(len(faces), np.bool_)
     valence = start[1:] - start[:-1]
     target, moved, done = np.arange(n), vertices.copy(), 0
@@ -184,7 +130,7 @@ def collapse_edges(
         if _common_neighbours(faces, start, star, a, b) != (1 if g < 0 else 2):
             continue
         share = 0.5 if boundary[a] == boundary[b] else 0.0 if boundary[a] else 1.0
-        step = _difference(vertices, a, b)
+        step = difference(vertices, a, b)
         point = (
             vertices[a, 0] + share * step[0],
             vertices[a, 1] + share * step[1],
@@ -222,14 +168,14 @@ def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
             g, d = across(faces, start, star, f, a, b)
             if g < f or locked[f] or locked[g] or min(valence[a], valence[b]) <= 3 or (gained[c] and gained[d]):
                 continue
-            angles = _cosine(_difference(vertices, c, a), _difference(vertices, c, b)) + _cosine(
-                _difference(vertices, d, a), _difference(vertices, d, b)
+            angles = cosine(difference(vertices, c, a), difference(vertices, c, b)) + cosine(
+                difference(vertices, d, a), difference(vertices, d, b)
             )
             if angles >= -1e-9 or across(faces, start, star, -1, c, d)[0] >= 0:
                 continue
-            one, two = _normal(vertices, a, b, c), _normal(vertices, a, d, b)
+            one, two = normal(vertices, a, b, c), normal(vertices, a, d, b)
             mean = one[0] + two[0], one[1] + two[1], one[2] + two[2]
-            if min(_cosine(_normal(vertices, a, d, c), mean), _cosine(_normal(vertices, d, b, c), mean)) < 0.5:
+            if min(cosine(normal(vertices, a, d, c), mean), cosine(normal(vertices, d, b, c), mean)) < 0.5:
                 continue
             flipped[f] = a, d, c
             flipped[g] = d, b, c

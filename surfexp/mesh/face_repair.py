@@ -37,7 +37,9 @@ def flip_zero_area_faces(mesh: TriangleMesh, changes: list[str]) -> Integers:
         sides = current.vertices[faces[:, [1, 2, 0]]] - current.vertices[faces]
         longest = (sides[flat] ** 2).sum(axis=2).argmax(axis=1)
         for f, side in zip(flat.tolist(), longest.tolist(), strict=True):
-            neighbours = [g for g in np.flatnonzero((current.face_edges == current.face_edges[f, side]).any(axis=1)) if g != f]
+            neighbours = [
+                g for g in np.flatnonzero((current.face_edges == current.face_edges[f, side]).any(axis=1)) if g != f
+            ]
             if f in locked or any(g in locked for g in neighbours):
                 continue
             a, b, tip = (int(faces[f, (side + k) % 3]) for k in range(3))

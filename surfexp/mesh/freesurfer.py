@@ -35,16 +35,18 @@ def read_geometry(path: Path) -> tuple[Floats, Integers]:
 
 
 def read_map(path: Path) -> Floats:
-    """(n,) values of a curvature file.
+    """(n,) values of a curvature file (lh.sulc, lh.curv, lh.thickness).
 
     Raises
     ------
     ValueError
-        If the file is cut off.
+        If the file is not one, or is cut off.
     """
-    from nibabel.freesurfer import read_morph_data
-
-    try:
-        return np.asarray(read_morph_data(path), dtype=np.float64)
-    except (IndexError, TypeError) as error:
-        raise ValueError(f"FreeSurfer map is cut off ({error})") from error
+    # nibabel returns as many values as it finds, without a word
+    data = path.read_bytes()
+    count = int.from_bytes(data[3:7], "big")
+    if not data.startswith(b"\xff\xff\xff"):
+        raise ValueError("it is not a FreeSurfer curvature file")
+    if len(data) != 15 + 4 * count:
+        raise ValueError(f"it has {len(data)} bytes, {15 + 4 * count} are needed for {count} vertices")
+    return np.frombuffer(data, ">f4", count, 15).astype(np.float64)

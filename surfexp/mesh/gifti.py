@@ -21,14 +21,15 @@ def read_gifti_arrays(path: Path) -> list[NDArray[Any]]:
         If the file is not GIFTI, is cut off or holds no array.
     """
     import nibabel
+    from nibabel.filebasedimages import ImageFileError
 
     try:
         image = nibabel.load(path)
         arrays = [np.asarray(array.data) for array in image.darrays]
-    except (ExpatError, EOFError, OSError, AttributeError, nibabel.filebasedimages.ImageFileError, ValueError) as error:
-        raise ValueError(f"{path} is not a readable GIFTI file: {error}") from error
+    except (ExpatError, EOFError, OSError, AttributeError, ImageFileError, ValueError) as error:
+        raise ValueError(f"it is not a readable GIFTI file: {error}") from error
     if not arrays or any(array.size == 0 for array in arrays):
-        raise ValueError(f"{path} is a GIFTI file without data arrays")
+        raise ValueError("it is a GIFTI file without data arrays")
     return arrays
 
 

@@ -35,7 +35,9 @@ def icosphere(levels: int = 4, radius: float = 1.0) -> Surface:
         raise ValueError(f"icosphere has levels = {levels}, radius = {radius}; levels >= 0 and radius > 0 are needed")
     signs = np.array([[-1, 1], [1, 1], [-1, -1], [1, -1]], dtype=float) * [1.0, GOLDEN]
     zero = np.zeros((4, 1))
-    corners = np.concatenate([np.hstack([signs, zero]), np.hstack([zero, signs]), np.hstack([signs, zero])[:, [1, 2, 0]]])
+    corners = np.concatenate(
+        [np.hstack([signs, zero]), np.hstack([zero, signs]), np.hstack([signs, zero])[:, [1, 2, 0]]]
+    )
 
     def onto_sphere(points: Floats) -> Floats:
         return points * (radius / np.linalg.norm(points, axis=1, keepdims=True))

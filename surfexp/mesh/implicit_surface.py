@@ -27,7 +27,8 @@ def marching_cubes(implicit: Implicit, lower: Floats, upper: Floats, spacing: fl
     steps = (upper - lower) / (shape - 1)
     axes = [lower[k] + steps[k] * np.arange(shape[k]) for k in range(3)]
     slabs = [
-        implicit(np.stack(np.meshgrid(x, axes[1], axes[2], indexing="ij"), axis=-1).reshape(-1, 3)) for x in axes[0][:, None]
+        implicit(np.stack(np.meshgrid(x, axes[1], axes[2], indexing="ij"), axis=-1).reshape(-1, 3))
+        for x in axes[0][:, None]
     ]
     values = np.stack(slabs).reshape(shape)
     # a level set through grid nodes makes faces without area

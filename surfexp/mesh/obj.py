@@ -9,7 +9,12 @@ import numpy as np
 from surfexp.mesh.polygons import triangulate
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
-IGNORED = set("vt vn vp g o s usemtl mtllib l p usemap maplib cstype deg curv surf end lod bevel c_interp d_interp".split())
+# fmt: off
+IGNORED = {
+    "vt", "vn", "vp", "g", "o", "s", "usemtl", "mtllib", "l", "p", "usemap", "maplib", "cstype", "deg", "curv", "surf", "end",
+    "lod", "bevel", "c_interp", "d_interp",
+}
+# fmt: on
 
 
 def read_obj(path: Path) -> tuple[Floats, Integers]:

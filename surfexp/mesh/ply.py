@@ -52,7 +52,9 @@ def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     if not {"x", "y", "z"} <= set(vertex) or polygons is None:
         raise ValueError("it has no element 'vertex' with x, y, z or no element 'face' with vertex_indices")
     positions = np.stack([np.asarray(vertex.pop(axis), dtype=np.float64) for axis in "xyz"], axis=1)
-    scalars = {name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)}
+    scalars = {
+        name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)
+    }
     faces = polygons.astype(np.int64) if isinstance(polygons, np.ndarray) else triangulate(polygons)
     return positions, faces, scalars
 
@@ -83,7 +85,9 @@ def _ascii_element(words: list[bytes], at: int, element: Element) -> tuple[dict[
     if all(length is None for _, _, length in element.properties):
         block = words[at : at + width * element.count]
         if len(block) < width * element.count:
-            raise ValueError(f"it ends after {len(block) // max(width, 1)} of {element.count} entries of {element.name!r}")
+            raise ValueError(
+                f"it ends after {len(block) // max(width, 1)} of {element.count} entries of {element.name!r}"
+            )
         table = np.array(block, dtype=np.float64).reshape(element.count, width)
         return {name: table[:, k] for k, (name, _, _) in enumerate(element.properties)}, at + len(block)
     lists: dict[str, list[list[int]]] = {name: [] for name, _, _ in element.properties}
@@ -119,7 +123,9 @@ def _binary_element(data: bytes, at: int, element: Element, order: str) -> tuple
             columns = {name: _column(table[name], name in lengths) for name, _, _ in element.properties}
             return columns, at + row.itemsize * element.count
     if not lengths:
-        raise ValueError(f"it ends after {(len(data) - at) // row.itemsize} of {element.count} entries of {element.name!r}")
+        raise ValueError(
+            f"it ends after {(len(data) - at) // row.itemsize} of {element.count} entries of {element.name!r}"
+        )
     return _mixed_element(data, at, element, order)
 
 

@@ -36,7 +36,6 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
         vertices, faces, scalars = _read(path)
     except (ValueError, OSError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        reason = f"no such file in {path.parent.absolute()}" if isinstance(error, FileNotFoundError) else reason
         raise ValueError(f"{path} cannot be read as a mesh: {reason}") from error
     if len(faces) and not 0 <= faces.min() <= faces.max() < len(vertices):
         bad = faces.max() if faces.min() >= 0 else faces.min()
@@ -46,7 +45,9 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
 
 def _read(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     suffix = path.suffix.lower()
-    if path.is_file() and path.stat().st_size == 0:
+    if not path.is_file():
+        raise ValueError(f"no such file in {path.parent.absolute()}")
+    if path.stat().st_size == 0:
         raise ValueError("the file is empty")
     if suffix in SIMPLE:
         return *SIMPLE[suffix](path), {}

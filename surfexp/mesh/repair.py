@@ -18,7 +18,6 @@ from surfexp.mesh.orientation import (
 from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
 from surfexp.mesh.validate import validate
 
-
 SHIFT = 1e-3
 
 
@@ -42,11 +41,17 @@ class Repaired(NamedTuple):
 def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = False) -> Repaired:
     """Mend a mesh so that `validate` finds nothing but notes; a mesh without defects comes back unchanged.
 
-    Merges vertices of equal position on boundaries and moves others apart; drops faces with a repeated index and copies of faces; flips faces without area
-    into their neighbours; at an edge with more than two faces keeps the two that hang together best and drops the
-    others; orients faces consistently and closed components outward; cuts where no orientation is possible; splits
-    vertices at which several fans meet, moving the copies apart by a thousandth of the ring's radius; drops vertices
-    without faces.
+    Merges vertices of equal position on boundaries and moves others apart; drops faces with a repeated index and
+    copies of faces; flips faces without area into their neighbours; at an edge with more than two faces keeps the two
+    that hang together best and drops the others; orients faces consistently and closed components outward; cuts where
+    no orientation is possible; splits vertices at which several fans meet; drops vertices without faces.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    largest_component : bool
+        Whether to keep only the component of largest area.
 
     Raises
     ------
@@ -58,7 +63,8 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     if fatal:
         raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible")
     mesh = TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces))
-    origin, changes = np.arange(len(mesh.vertices)), []
+    origin = np.arange(len(mesh.vertices))
+    changes: list[str] = []
     for _ in range(10):
         if validate(mesh.vertices, mesh.faces).ok:
             break
@@ -145,7 +151,9 @@ def _move_apart(mesh: TriangleMesh, changes: list[str]) -> TriangleMesh:
     place[order] = np.arange(len(number)) - np.searchsorted(number.ravel()[order], number.ravel()[order])
     if not place.any():
         return mesh
-    changes.append(f"moved apart by {SHIFT:g} of the ring's radius, because positions were equal: {np.sum(place > 0)} vertices")
+    changes.append(
+        f"moved apart by {SHIFT:g} of the ring's radius, because positions were equal: {np.sum(place > 0)} vertices"
+    )
     middles = mesh.vertices[mesh.faces].mean(axis=1).repeat(3, axis=0)
     corner, n = mesh.faces.ravel(), len(mesh.vertices)
     sums = np.stack([np.bincount(corner, middles[:, k], n) for k in range(3)], axis=1)

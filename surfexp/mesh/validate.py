@@ -16,7 +16,7 @@ from surfexp.mesh.orientation import (
     inconsistent_edges,
     inside_out_components,
 )
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Severity = Literal["refuse", "repairable", "note"]
 ZERO_AREA = 1e-9
@@ -140,7 +140,9 @@ def later_copies(rows: NDArray[Any]) -> NDArray[np.bool_]:
     return copies
 
 
-def _entry(kind: str, severity: Severity, where: NDArray[Any], label: str, rows: NDArray[Any] | None = None) -> Iterator[Defect]:
+def _entry(
+    kind: str, severity: Severity, where: NDArray[Any], label: str, rows: NDArray[Any] | None = None
+) -> Iterator[Defect]:
     found = np.flatnonzero(where)
     if len(found):
         shown = found[:3].tolist() if rows is None else ["-".join(map(str, row)) for row in rows[found[:3]].tolist()]
@@ -157,7 +159,7 @@ def _array_defects(vertices: NDArray[Any], faces: NDArray[Any]) -> Iterator[Defe
         yield Defect("missing faces or vertices", 1, "refuse", (f"{len(vertices)} vertices, {len(faces)} faces",))
         return
     yield from _entry("vertices that are not finite", "refuse", ~np.isfinite(vertices).all(axis=1), "vertex")
-    outside = ((faces < 0) | (faces >= len(vertices))).any(axis=1)
+    outside = np.any((faces < 0) | (faces >= len(vertices)), axis=1)
     yield from _entry("faces with an index out of range", "refuse", outside, "face")
 
 

@@ -23,8 +23,13 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
     path, maps = Path(path), scalars or {}
     for name, values in maps.items():
         if len(values) != len(mesh.vertices):
-            raise ValueError(f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices")
-    with_maps, without = {".ply": write_ply, ".vtk": write_vtk}, {".off": write_off, ".obj": write_obj, ".gii": write_gifti}
+            raise ValueError(
+                f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
+            )
+    with_maps, without = (
+        {".ply": write_ply, ".vtk": write_vtk},
+        {".off": write_off, ".obj": write_obj, ".gii": write_gifti},
+    )
     suffix = path.suffix.lower()
     if suffix in with_maps:
         with_maps[suffix](path, mesh, maps)

@@ -34,8 +34,8 @@ def fem(mesh: TriangleMesh) -> SurfaceOperator:
     return SurfaceOperator(mesh.faces, hat_gradients, areas, len(mesh.vertices), frames, name="fem")
 
 
-def check_mesh(mesh: TriangleMesh) -> None:
-    """Refuse a mesh on which the gradient is not defined.
+def check_mesh(mesh: TriangleMesh, flat_faces: bool = False) -> None:
+    """Refuse a mesh on which the gradient is not defined; faces without area are let pass when `flat_faces`.
 
     Raises
     ------
@@ -50,9 +50,11 @@ def check_mesh(mesh: TriangleMesh) -> None:
             f"vertex {bad[0]} is at {mesh.vertices[bad[0]]}, positions must be finite ({len(bad)} are not)"
         )
     flat = np.flatnonzero(mesh.areas <= 0)
-    if len(flat):
-        raise ValueError(f"face {flat[0]} has area 0, must be positive ({len(flat)} such faces): repair the mesh")
-    loose = np.flatnonzero(mesh.vertex_areas == 0)
+    if len(flat) and not flat_faces:
+        raise ValueError(
+            f"face {flat[0]} has area 0, must be positive ({len(flat)} such faces): repair the mesh or use intrinsic_delaunay"
+        )
+    loose = np.setdiff1d(np.arange(len(mesh.vertices)), mesh.faces)
     if len(loose):
         raise ValueError(f"vertex {loose[0]} belongs to no face ({len(loose)} such vertices): repair the mesh")
 

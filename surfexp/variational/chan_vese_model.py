@@ -70,7 +70,7 @@ class ChanVese:
             iterations=iteration,
             converged=reason != "iteration limit",
             reason=reason,
-            history={"iteration": np.arange(len(energies)), "energy": np.array(energies)},
+            history={"iteration": np.arange(len(energies), dtype=np.float64), "energy": np.array(energies)},
             model="Chan-Vese",
             solver="gradient descent",
             segmentation=region.astype(np.float64),

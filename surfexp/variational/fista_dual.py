@@ -83,6 +83,6 @@ def _iterates(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | N
             age = 1.0
         if iteration % CHECK_INTERVAL == 0 or iteration == limit:
             own = adjoint_gradient(operator, dual)
-            values = fidelity.primal_from_dual(own)
-            assert values is not None
-            yield Iterate(iteration, values, dual, own)
+            minimiser = fidelity.primal_from_dual(own)
+            assert minimiser is not None
+            yield Iterate(iteration, minimiser, dual, own)

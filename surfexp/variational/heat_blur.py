@@ -19,8 +19,8 @@ from surfexp.variational.separable_quadratic import check_positive
 class HeatBlur:
     """H(phi) = mu/2 |K phi - I|_m^2 with K = T^-1 M, T = M + time Q, self-adjoint in the lumped mass.
 
-    K is invertible but not well so: no useful strong convexity. The dual problem has a second variable
-    q = -mu (K phi - I), bound to the first by d = M K q' and so known from it: q = T M^-1 d / m.
+    K is invertible, but so badly that its strong convexity is of no use. The dual problem has a second variable q, which is
+    mu (K phi - I) at the optimum; stationarity, d + M K q = 0, gives it from the first: m q = -T M^-1 d.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ class MultiphaseSegmentation:
             reason=solution.reason if settled else f"the means still change after {update} updates",
             metrics=solution.metrics
             | {"updates": float(update)}
-            | {f"c{j + 1}": c[0] for j, c in enumerate(means)}
+            | {f"c{j + 1}": float(c[0]) for j, c in enumerate(means)}
             | scores,
             notes=(*solution.notes, *notes),
         )

@@ -22,6 +22,7 @@ from surfexp.variational.solution import Solution
 
 WARM_UP = 1e-3
 STEP_SHARE = 0.98
+SHORT_STEP = 0.2
 
 
 def newton(
@@ -57,8 +58,12 @@ def newton(
     Chan, Golub, Mulet: A nonlinear primal-dual method for total variation-based image restoration (1999).
     """
     require_consistent(operator, "newton")
-    scalar = isinstance(fidelity, SeparableQuadratic) and fidelity.shape == (operator.vertex_count,)
-    if not (scalar and fidelity.is_quadratic and fidelity.strong_convexity > 0):
+    if (
+        not isinstance(fidelity, SeparableQuadratic)
+        or not fidelity.is_quadratic
+        or fidelity.strong_convexity <= 0
+        or fidelity.shape != (operator.vertex_count,)
+    ):
         raise ValueError(
             f"newton solves a strongly convex quadratic of {operator.vertex_count} values, not {fidelity.name} of shape "
             f"{fidelity.shape}: use primal_dual or split_bregman"
@@ -82,9 +87,9 @@ def _iterates(fidelity: SeparableQuadratic, operator: SurfaceOperator, values: F
         nu = complementarity(areas, slack, grad, dual)
         blocks, local = curvature_blocks(hats, areas, slack, grad, dual)
         system = factorise(csr_array(assemble(operator.faces, local, len(values)) + diags_array(weight)))
-        moves = (np.zeros_like(slack), np.zeros_like(grad), np.zeros_like(dual))
-        centring = 0.0
-        for _ in ("predictor", "corrector"):
+        still = (np.zeros_like(slack), np.zeros_like(grad), np.zeros_like(dual))
+        moves, centring = still, 0.0
+        for attempt in ("predictor", "corrector", "centring"):
             base, rest = residual_fields(centring * nu, slack, grad, dual, moves)
             move = system.solve(pull - weight * values - adjoint_gradient(operator, dual + base))
             grad_move = gradient(operator, move)
@@ -92,7 +97,12 @@ def _iterates(fidelity: SeparableQuadratic, operator: SurfaceOperator, values: F
             moves = (slack_move, grad_move, dual_move)
             primal_step, dual_step = min(1.0, STEP_SHARE * cone), min(1.0, STEP_SHARE * ball)
             ahead = (slack + primal_step * slack_move, grad + primal_step * grad_move, dual + dual_step * dual_move)
-            centring = float(np.clip((complementarity(areas, *ahead) / nu) ** 3, 1e-4, 1.0))
+            if attempt == "predictor":
+                centring = float(np.clip((complementarity(areas, *ahead) / nu) ** 3, 1e-4, 1.0))
+            elif min(primal_step, dual_step) >= SHORT_STEP:
+                break
+            else:
+                moves, centring = still, 0.8
         values = values + primal_step * move
         slack, grad, dual = ahead[0], gradient(operator, values), ahead[2]
         yield Iterate(iteration, values, dual, adjoint_gradient(operator, dual))

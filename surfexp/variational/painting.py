@@ -69,12 +69,14 @@ def paint(
     rows, columns = picture.shape[:2]
     row = (0.5 - (plane[:, 1] - middle[1]) / height) * rows - 0.5
     column = (0.5 + (plane[:, 0] - middle[0]) / width) * columns - 0.5
-    pixels_per_edge = 0.0 if projection == "coordinates" else surface.mesh.edge_length * columns / width
+    # coordinates have a scale of their own, which says nothing about the distance of vertices
+    edge = 0.0 if projection == "coordinates" else surface.mesh.edge_length
+    blur = (0.4 * edge * rows / height, 0.4 * edge * columns / width)
     channels = picture[:, :, None] if picture.ndim == 2 else picture
     mode = MODES[extension]
     values = [
         map_coordinates(
-            gaussian_filter(channel, 0.4 * pixels_per_edge, mode=mode.removeprefix("grid-")),
+            gaussian_filter(channel, blur, mode=mode.removeprefix("grid-")),
             (row, column),
             order=1,
             mode=mode,
@@ -88,9 +90,8 @@ def paint(
 
 def _size(extent: Floats, shape: tuple[int, ...], width: float | None, height: float | None) -> tuple[float, float]:
     rows, columns = shape[:2]
-    if width is None and height is None:
-        width = max(float(extent[0]), float(extent[1]) * columns / rows)
-    width = height * columns / rows if width is None else width
+    if width is None:
+        width = max(float(extent[0]), float(extent[1]) * columns / rows) if height is None else height * columns / rows
     height = width * rows / columns if height is None else height
     if min(width, height) <= 0:
         raise ValueError(f"picture has size {width} x {height}; both have to be positive")

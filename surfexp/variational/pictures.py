@@ -1,4 +1,4 @@
-"""Pictures for painting: those that scikit-image carries in its own package, and rendered letters."""
+"""Pictures for painting: those that scikit-image carries in its own package, and letters."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.variational.letters import letters
 
 PACKAGED = {
     "cameraman": "camera.png",
@@ -62,34 +63,3 @@ def read_picture(path: Path) -> Floats:
             return np.asarray(levels, dtype=np.float64) / depth
     except (OSError, SyntaxError, EOFError) as error:
         raise ValueError(f"{path} is not a readable picture: {error}") from error
-
-
-def letters(text: str = "UCLA\nMATH", size: int = 512, ink: float = 0.0, paper: float = 255.0) -> Floats:
-    """(size, size) picture of two levels with lines of text in Pillow's built-in bitmap font, its steps smoothed.
-
-    Parameters
-    ----------
-    text : str
-        Lines separated by newlines; they fill the width together.
-    size : int
-        Side of the picture in pixels.
-    ink, paper : float
-        The two levels.
-
-    Raises
-    ------
-    ValueError
-        If the text has no visible character.
-    """
-    if not text.strip():
-        raise ValueError(f"letters has text = {text!r}; at least one visible character is needed")
-    font = ImageFont.load_default_imagefont()
-    canvas = Image.new("L", (16 * max(map(len, text.split("\n"))) + 16, 16 * text.count("\n") + 32), 0)
-    ImageDraw.Draw(canvas).multiline_text((8, 8), text, fill=255, font=font, align="center", spacing=2)
-    left, top, right, bottom = canvas.getbbox() or (0, 0, 1, 1)
-    margin = max(right - left, bottom - top) // 8
-    side = max(right - left, bottom - top) + 2 * margin
-    square = Image.new("L", (side, side), 0)
-    square.paste(canvas.crop((left, top, right, bottom)), ((side - right + left) // 2, (side - bottom + top) // 2))
-    covered = np.asarray(square.resize((size, size), Image.Resampling.BICUBIC)) > 127
-    return np.where(covered, ink, paper)

@@ -93,15 +93,15 @@ def project_to_simplex(points: Floats) -> Floats:
 def _project(points: Floats) -> None:
     count, labels = points.shape
     for i in range(count):
-        active, excess = labels, points[i].sum() - 1.0
-        shift = excess / active
+        active = labels
+        shift = (points[i].sum() - 1.0) / active
         while True:
             total, kept = -1.0, 0
             for j in range(labels):
                 if points[i, j] > shift:
                     total += points[i, j]
                     kept += 1
-            if kept == active:
+            if kept >= active or kept == 0:  # rounding can bring an entry back
                 break
             active, shift = kept, total / kept
         for j in range(labels):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import copy
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.registry import plugin
 
 Context = dict[str, Any]
 
@@ -54,6 +55,8 @@ def one_line(where: str, error: ValidationError) -> str:
     """The first complaint of pydantic with the thing, its value and the bound, in one line."""
     first = error.errors()[0]
     path = ".".join([where, *(str(part) for part in first["loc"])])
+    if first["type"] == "missing":
+        return f"{path} is required; set {path.partition('/')[0]}.{first['loc'][-1]}=VALUE"
     return f"{path} = {first.get('input')!r}: {first['msg']}"
 
 
@@ -81,24 +84,21 @@ def merge(base: Mapping[str, Any], partial: Mapping[str, Any]) -> Context:
 
 def assign(configuration: Context, dotted: str, value: Any) -> Context:
     """A copy with one dotted option set."""
-    head, *rest = dotted.split(".")
+    head, _, rest = dotted.partition(".")
     if not rest:
         return merge(configuration, {head: value})
-    result = dict(configuration)
-    inner = stage(result.get(head) or {}) if head in KINDS else dict(result.get(head) or {})
-    for part in rest[:-1]:
-        raise UserError(f"grid key {dotted!r}: options are not nested below {part!r}; give the whole value")
-    result[head] = {**inner, rest[-1]: value}
-    return result
+    inner = stage(configuration.get(head) or {}) if head in KINDS else dict(configuration.get(head) or {})
+    return {**configuration, head: assign(inner, rest, value)}
 
 
-def expand(configuration: Context, forced: Iterable[str] = ()) -> Iterator[Context]:
+def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -> list[Context]:
     """All leaf configurations of one composed configuration: the union over variants of their grids.
 
-    `forced` names what the command line set: it wins over variants and grids wherever it applies.
+    `overrides` is what the command line says of stages: a kind's configuration, or an option's value under its dotted
+    name. It wins over variants and grids; an option goes to every plugin that has it.
     """
     base = {key: value for key, value in configuration.items() if key not in ("variants", "grid")}
-    forced = [key.lstrip("+~") for key in forced]
+    leaves = []
     for variant in configuration.get("variants") or [{}]:
         if not isinstance(variant, Mapping):
             raise UserError(f"variants: {variant!r} is not a partial configuration")
@@ -108,16 +108,19 @@ def expand(configuration: Context, forced: Iterable[str] = ()) -> Iterator[Conte
             leaf = merge(base, partial)
             for dotted, value in zip(grid, values, strict=True):
                 leaf = assign(leaf, dotted, value)
-            yield _force(copy.deepcopy(leaf), base, forced)
+            leaves.append(copy.deepcopy(leaf))
+    for dotted, value in (overrides or {}).items():
+        leaves = _override(leaves, dotted, value)
+    return leaves
 
 
-def _force(leaf: Context, base: Context, forced: Iterable[str]) -> Context:
-    for key in sorted(forced):
-        head, _, option = key.partition(".")
-        if head not in KINDS:
-            continue
-        if not option:
-            leaf[head] = base.get(head)
-        elif stage(base.get(head) or {}).get("name") == stage(leaf.get(head) or {}).get("name"):
-            leaf = assign(leaf, key, base[head][option])
-    return leaf
+def _override(leaves: list[Context], dotted: str, value: Any) -> list[Context]:
+    kind, _, option = dotted.partition(".")
+    if not option:
+        return [{**leaf, kind: value} for leaf in leaves]
+    names = [str(stage(leaf[kind]).get("name")) if leaf.get(kind) else None for leaf in leaves]
+    options = {name: set(plugin(kind, name).options.model_fields) | {"inputs"} for name in names if name}
+    if not any(option.partition(".")[0] in known for known in options.values()):
+        raise unknown(f"option of {kind}", option, set().union(*options.values()) - {"inputs"})
+    applies = [name is not None and option.partition(".")[0] in options[name] for name in names]
+    return [assign(leaf, dotted, value) if here else leaf for leaf, here in zip(leaves, applies, strict=True)]

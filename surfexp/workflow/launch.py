@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import re
 import subprocess
 import sys
 import time
@@ -14,6 +15,7 @@ from typing import Any
 
 from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
+from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.utils import JobReturn, JobStatus
 from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
@@ -22,6 +24,7 @@ from omegaconf import DictConfig, OmegaConf
 from surfexp.workflow import registry, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Node, Plan, make_plan, read_plan
 from surfexp.workflow.progress import follow
 from surfexp.workflow.stage import event_path, read_event
@@ -43,8 +46,8 @@ class PlanLauncher(Launcher):
         """Expand every job's variants, plan them together, act, and hand the objective back to the sweeper."""
         batch, counts = [], []
         for overrides in job_overrides:
-            composed = self.loader.load_sweep_config(self.config, list(overrides))
-            leaves = list(expand(_plain(composed), [text.split("=")[0] for text in overrides]))
+            stages, rest = split_overrides(overrides, self.loader.repository)
+            leaves = expand(_plain(self.loader.load_sweep_config(self.config, rest)), stages)
             batch += leaves
             counts.append(make_plan(leaves))
         plan = make_plan(batch)
@@ -93,6 +96,8 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     prepare_hydra()
     PlanLauncher.action = staticmethod(action)
     os.environ["HYDRA_FULL_ERROR"] = "1"
+    dotted = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=")
+    arguments = [f"++{text}" if dotted.match(text) else text for text in arguments]  # their names are checked later
     flags = [] if {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments) else ["--multirun"]
     sys.argv = ["surfexp run", *flags, *arguments]
     folder = str(registry.package_folder("surfexp.conf"))
@@ -106,11 +111,13 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
         path = Path(str(config["plan"])).resolve()
         return path, read_plan(path)
     from hydra import compose, initialize_config_dir
+    from hydra.core.global_hydra import GlobalHydra
 
     prepare_hydra()
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
-        composed = compose("config", overrides=[f"{key}={value}" for key, value in config.items()])
-    plan = make_plan(expand(_plain(composed), config))
+        repository = GlobalHydra.instance().config_loader().repository
+        stages, rest = split_overrides([f"{key}={value}" for key, value in config.items()], repository)
+        plan = make_plan(expand(_plain(compose("config", overrides=rest)), stages))
     path = plan.write(Path(plan.settings.results).resolve())
     return path, read_plan(path)
 
@@ -160,6 +167,8 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], force
             process.wait()
             raise
     if process.returncode and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
+        if process.returncode < 0:
+            raise StageFailure(f"Snakemake was killed by signal {-process.returncode}; the same command continues")
         tail = [line for line in log.read_text().splitlines() if line.strip()]
         raise StageFailure(f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}")
 
@@ -202,6 +211,26 @@ def finish(path: Path) -> None:
     plan, results = read_plan(path), path.parent.parent
     folder = write_report(plan, results)
     record(plan, results, folder)
+
+
+def split_overrides(overrides: Sequence[str], repository: Any) -> tuple[dict[str, Any], list[str]]:
+    """Part what the command line says of stages, which wins over variants and grids, from the rest, which Hydra composes.
+
+    Returns the stage overrides in order, a plugin or preset as its configuration under the kind, an option as its value
+    under the dotted name; and the other overrides as they are.
+    """
+    stages: dict[str, Any] = {}
+    rest = []
+    for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
+        key = override.key_or_group
+        if key.partition(".")[0] not in KINDS:
+            rest.append(text)
+        elif "." in key:
+            stages[key] = override.value()
+        else:
+            found = repository.load_config(f"{key}/{override.value()}")
+            stages[key] = _plain(found.config) if found else {"name": str(override.value())}
+    return stages, rest
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:

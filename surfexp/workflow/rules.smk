@@ -43,15 +43,3 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
             command=shlex.join([sys.executable, "-m", "surfexp.workflow.stage", str(plan_path)]),
         shell:
             "{params.command} {wildcards.key} > {log} 2>&1"
-
-
-onstart:
-    launch.hold_results(results)
-
-
-onsuccess:
-    launch.after_snakemake(plan_path)
-
-
-onerror:
-    launch.after_snakemake(plan_path)

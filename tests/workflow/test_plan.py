@@ -49,7 +49,7 @@ def test_chain_in_which_a_kind_recurs_and_two_inputs_of_one_kind(tmp_path: Path)
     assert pairing.trace == "eigen(flux(boundary))~boundary"
     assert pairing.value == 7.0
     parameters = plan.leaves[0].parameters
-    assert parameters["source.weighted.weight.shift" if "source.weighted.weight.shift" in parameters else "weight.shift"] == 1.0
+    assert parameters["weight.shift"] == 1.0 and parameters["target.surface.size"] == 3.0
     assert len(plan.stored) == 7 and plan.requested == 8
 
 
@@ -116,13 +116,16 @@ def test_variants_and_grids_are_a_union_of_products_and_the_command_line_wins() 
             {"feature": "toy_eigenfunction", "grid": {"weighted": ["toy_flux"]}},
         ],
     }
-    leaves = list(expand(configuration))
+    leaves = expand(configuration)
     assert [leaf["surface"].get("size") for leaf in leaves] == [1.0, 2.0, 1.0]
     assert leaves[0]["feature"] == {"name": "toy_boundary", "shift": 5.0}
     assert leaves[2]["feature"] == {"name": "toy_eigenfunction"} and leaves[2]["weighted"] == {"name": "toy_flux"}
-    forced = list(expand(configuration, ["surface.size", "feature.shift"]))
-    assert [leaf["surface"]["size"] for leaf in forced] == [1.0, 1.0, 1.0]
-    assert forced[0]["feature"]["shift"] == 0.0 and forced[2]["feature"] == {"name": "toy_eigenfunction"}
+    forced = expand(configuration, {"surface.size": 9.0, "feature.shift": 0.5})
+    assert [leaf["surface"]["size"] for leaf in forced] == [9.0, 9.0, 9.0]
+    assert forced[0]["feature"]["shift"] == 0.5 and forced[2]["feature"] == {"name": "toy_eigenfunction"}
+    assert all(leaf["surface"] == {"name": "file"} for leaf in expand(configuration, {"surface": {"name": "file"}}))
+    with pytest.raises(UserError, match="option of surface 'szie'; did you mean 'size'"):
+        expand(configuration, {"surface.szie": 1.0})
 
 
 def test_plans_read_back_and_results_are_the_same_bytes(tmp_path: Path) -> None:

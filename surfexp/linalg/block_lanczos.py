@@ -1,0 +1,205 @@
+"""Block Lanczos for a shifted and inverted symmetric pencil, resumable step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigh, solve_triangular
+
+from surfexp.mesh.triangle_mesh import Floats
+
+BLOCK = 8
+REORTHOGONALISE_EVERY = 3
+DRIFT_LIMIT = 1e-9
+DEPENDENT = 1e-11
+
+
+@dataclass(frozen=True, eq=False)
+class RitzPairs:
+    """Approximate eigenpairs of a basis.
+
+    Parameters
+    ----------
+    values : (m,) float64
+        Eigenvalues theta of (A - sigma B)^-1 B.
+    coefficients : (m, m) float64
+        Their vectors in the basis.
+    residuals : (m,) float64
+        B-norm of (A - sigma B)^-1 B x - theta x.
+    """
+
+    values: Floats
+    coefficients: Floats
+    residuals: Floats
+
+
+class BlockLanczos:
+    """A B-orthonormal basis V of the Krylov space of (A - sigma B)^-1 B, grown eight vectors at a time.
+
+    The operator is symmetric in the inner product of B, so V^T B (A - sigma B)^-1 B V is block tridiagonal (Grimes, Lewis
+    and Simon 1994). The newest two blocks are orthogonalised against all the others at every third step, more often once
+    orthogonality drifts.
+
+    Parameters
+    ----------
+    solve : callable
+        Overwrites an (n, 8) C-ordered block X by (A - sigma B)^-1 X.
+    multiply_mass : callable
+        Returns B X as a new C-ordered array.
+    size : int
+        n.
+    capacity : int
+        Most vectors that the basis may have; rounded up to whole blocks.
+    locked : (n, q) float64, optional
+        B-orthonormal eigenvectors that the basis is kept orthogonal to.
+    seed : int
+        Of the random first block.
+    """
+
+    def __init__(
+        self,
+        solve: Callable[[Floats], None],
+        multiply_mass: Callable[[Floats], Floats],
+        size: int,
+        capacity: int,
+        locked: Floats | None = None,
+        seed: int = 0,
+    ) -> None:
+        self._solve, self._multiply_mass = solve, multiply_mass
+        self._random = np.random.default_rng(seed)
+        self._locked = 0 if locked is None else locked.shape[1]
+        self._basis = np.empty((size, self._locked + (capacity // BLOCK + 2) * BLOCK), order="F")
+        if locked is not None:
+            self._basis[:, : self._locked] = locked
+        self.capacity = capacity
+        self._projected = np.zeros((capacity + 2 * BLOCK, capacity + 2 * BLOCK))
+        self._period = REORTHOGONALISE_EVERY
+        self._since = 0
+        self.drift = 0.0
+        self.dimension = 0
+        start = multiply_mass(self._random.normal(size=(size, BLOCK)))
+        solve(start)
+        self._next, self._mass_next, _ = self._orthonormalise(self._purge(self._purge(start)))
+        self._coupling = np.zeros((BLOCK, BLOCK))
+
+    def extend(self) -> None:
+        """Append the next block to the basis and work out the one after it."""
+        first, last = self._locked + self.dimension, self._locked + self.dimension + BLOCK
+        self._basis[:, first:last] = self._next
+        self._write_coupling()
+        block, mass_block = self._basis[:, first:last], self._mass_next
+        new = mass_block.copy()
+        self._solve(new)
+        if self.dimension:
+            new -= self._basis[:, first - BLOCK : first] @ self._coupling.T
+        diagonal = mass_block.T @ new
+        new -= block @ diagonal
+        correction = mass_block.T @ new
+        new -= block @ correction
+        diagonal += correction
+        here = slice(self.dimension, self.dimension + BLOCK)
+        self._projected[here, here] = 0.5 * (diagonal + diagonal.T)
+        self.dimension += BLOCK
+        self._since += 1
+        if self._since >= self._period and first:
+            self._reorthogonalise(new, mass_block, first)
+        self._next, self._mass_next, self._coupling = self._orthonormalise(new)
+
+    def ritz(self) -> RitzPairs:
+        """Return the eigenpairs of the projected operator, by increasing value."""
+        m = self.dimension
+        values, coefficients = eigh(self._projected[:m, :m], driver="evd", check_finite=False)
+        residuals = np.linalg.norm(self._coupling @ coefficients[m - BLOCK :], axis=0)
+        return RitzPairs(values, coefficients, residuals)
+
+    def vectors(self, ritz: RitzPairs, selected: np.ndarray) -> Floats:
+        """Return the B-normalised vectors of some Ritz pairs, after one free step of inverse iteration.
+
+        (A - sigma B)^-1 B x / theta needs no solve, as x lies in the basis and the next block is known (the purification
+        of Ericsson and Ruhe 1980).
+
+        Parameters
+        ----------
+        ritz : RitzPairs
+            Of the present basis.
+        selected : index array
+
+        Returns
+        -------
+        (n, len(selected)) float64, Fortran order
+        """
+        m = self.dimension
+        chosen = ritz.coefficients[:, selected]
+        weights = np.concatenate([chosen, (self._coupling @ chosen[m - BLOCK :]) / ritz.values[selected]])
+        weights /= np.linalg.norm(weights, axis=0)
+        self._basis[:, self._locked + m : self._locked + m + BLOCK] = self._next
+        result = np.empty((len(self._basis), len(selected)), order="F")
+        return np.matmul(self._basis[:, self._locked : self._locked + m + BLOCK], weights, out=result)
+
+    def _write_coupling(self) -> None:
+        if self.dimension:
+            before = slice(self.dimension - BLOCK, self.dimension)
+            here = slice(self.dimension, self.dimension + BLOCK)
+            self._projected[here, before] = self._coupling
+            self._projected[before, here] = self._coupling.T
+
+    def _reorthogonalise(self, new: Floats, mass_block: Floats, older: int) -> None:
+        """Remove what the newest basis block and the next one have in common with all before, in place."""
+        both = np.concatenate([mass_block.T, self._multiply_mass(new).T])
+        overlap = both @ self._basis[:, :older]
+        drift = float(np.abs(overlap[:BLOCK]).max())
+        self.drift = max(self.drift, drift)
+        if drift > DRIFT_LIMIT:
+            self._period = max(1, self._period - 1)
+        common = self._basis[:, :older] @ overlap.T
+        block = self._basis[:, older : older + BLOCK]
+        block -= common[:, :BLOCK]
+        new -= common[:, BLOCK:]
+        new -= block @ (self._multiply_mass(np.ascontiguousarray(block)).T @ new)
+        self._since = 0
+
+    def _purge(self, block: Floats) -> Floats:
+        """Return the block without its part in the locked vectors and the basis."""
+        known = self._basis[:, : self._locked + self.dimension]
+        return np.ascontiguousarray(block - known @ (known.T @ self._multiply_mass(block)))
+
+    def _orthonormalise(self, block: Floats) -> tuple[Floats, Floats, Floats]:
+        """Return Q, B Q and R with block = Q R and Q^T B Q = I; dependent columns give way to random ones."""
+        factor = np.eye(BLOCK)
+        for _ in range(2):
+            mass_block = self._multiply_mass(block)
+            gram = block.T @ mass_block
+            scale = np.sqrt(np.maximum(gram.diagonal(), np.finfo(float).tiny))
+            correlation = gram / np.outer(scale, scale)
+            if np.linalg.eigvalsh(correlation)[0] < DEPENDENT:
+                return self._replace_dependent(block)
+            upper = np.linalg.cholesky(0.5 * (correlation + correlation.T)).T * scale
+            inverse = solve_triangular(upper, np.eye(BLOCK))
+            block, mass_block = block @ inverse, mass_block @ inverse
+            factor = upper @ factor
+            if np.linalg.cond(correlation) < 1e4:
+                break
+        return block, mass_block, factor
+
+    def _replace_dependent(self, block: Floats) -> tuple[Floats, Floats, Floats]:
+        """Gram-Schmidt column by column; a column that vanishes is replaced by a random one, with a zero row in R."""
+        result, factor = np.zeros_like(block), np.zeros((BLOCK, BLOCK))
+        largest = float(np.sqrt(np.max(np.sum(block * self._multiply_mass(block), axis=0))))
+        for c in range(BLOCK):
+            column = block[:, c : c + 1].copy()
+            for attempt in range(2):
+                for _ in range(2):
+                    part = result.T @ self._multiply_mass(column)
+                    column -= result @ part
+                    factor[:, c : c + 1] += part if attempt == 0 else 0.0
+                norm = float(np.sqrt((column * self._multiply_mass(column)).sum()))
+                if attempt or norm > 1e-10 * largest:
+                    break
+                column = self._random.normal(size=column.shape)
+                column = self._purge(self._purge(column))
+                norm = 0.0
+            result[:, c] = column[:, 0] / np.sqrt(float((column * self._multiply_mass(column)).sum()))
+            factor[c, c] = norm if attempt == 0 else 0.0
+        return result, self._multiply_mass(result), factor

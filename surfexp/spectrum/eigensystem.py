@@ -1,0 +1,136 @@
+"""The first eigenpairs of a surface, with the proof that none is missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from surfexp.mesh.triangle_mesh import Floats
+
+SMALLEST_GAP = 1e-6
+SINGLE_BLOCK = 64
+
+
+@dataclass(frozen=True, eq=False)
+class EigenSystem:
+    """The k lowest pairs of A x = lambda B x.
+
+    Parameters
+    ----------
+    values : (k,) float64
+        Increasing, counted from 0; in 1 / length^2.
+    vectors : (n, k) float64
+        B-orthonormal columns; the entry of largest modulus of each is positive (the first of them, to rounding).
+    residuals : (k,) float64
+        |A x - lambda B x| / (max(lambda, mean spacing) |B x|), the mean spacing being lambda_{k-1} / k.
+    orthogonality : float
+        Largest entry of |X^T B X - I|.
+    complete : bool
+        Whether it is proved that these are the k lowest: the inertia of A - s B at a shift s just above them equals the
+        number of pairs found below s.
+    inertia : tuple of (float, int)
+        The shifts that were factorised and how many eigenvalues lie below each: the proof.
+    clusters : tuple of (int, int)
+        Ranges start..stop-1 of nearly equal values (relative gap under 1e-6), in which single vectors are arbitrary.
+    method : str
+    metrics, notes
+        As in `Surface`.
+    """
+
+    values: Floats
+    vectors: Floats
+    residuals: Floats
+    orthogonality: float
+    complete: bool
+    inertia: tuple[tuple[float, int], ...] = ()
+    clusters: tuple[tuple[int, int], ...] = ()
+    method: str = ""
+    metrics: dict[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+
+def rayleigh_quotients(stiffness: csr_array, mass: csr_array, vectors: Floats) -> tuple[Floats, Floats]:
+    """Return x^T A x / x^T B x of each column, and |A x - lambda B x| / |B x| with that lambda (2-norms)."""
+    values, errors = np.empty(vectors.shape[1]), np.empty(vectors.shape[1])
+    for some in _column_blocks(vectors.shape[1]):
+        block = np.ascontiguousarray(vectors[:, some])
+        mass_block, error = mass @ block, stiffness @ block
+        values[some] = np.einsum("ij,ij->j", block, error) / np.einsum("ij,ij->j", block, mass_block)
+        error -= mass_block * values[some]
+        errors[some] = _column_norms(error) / _column_norms(mass_block)
+    return values, errors
+
+
+def relative_residuals(values: Floats, errors: Floats) -> Floats:
+    """Return errors over the values, or over the mean spacing where that is larger."""
+    return errors / np.maximum(np.abs(values), mean_spacing(values))
+
+
+def orthogonality_defect(mass: csr_array, vectors: Floats) -> float:
+    """Return the largest entry of |X^T B X - I|."""
+    worst = 0.0
+    for some in _column_blocks(vectors.shape[1]):
+        gram = (mass @ np.ascontiguousarray(vectors[:, some])).T @ vectors[:, some.start :]
+        gram[np.arange(len(gram)), np.arange(len(gram))] -= 1.0
+        worst = max(worst, float(np.abs(gram).max()))
+    return worst
+
+
+def mean_spacing(values: Floats) -> float:
+    """Return the largest value over their number, the scale that stands in for lambda near 0."""
+    return float(np.abs(values).max()) / len(values) or 1.0
+
+
+def clusters(values: Floats, gap: float = SMALLEST_GAP) -> tuple[tuple[int, int], ...]:
+    """Return the ranges (start, stop) of at least two values whose neighbours differ by less than `gap`, relatively."""
+    close = np.diff(values) <= gap * np.maximum(np.abs(values[1:]), mean_spacing(values))
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], close.astype(np.int8), [0]])))
+    return tuple((int(start), int(stop) + 1) for start, stop in edges.reshape(-1, 2))
+
+
+def fix_signs(vectors: Floats) -> Floats:
+    """Flip columns, in place, so that the first entry within 1e-6 of the largest modulus is positive."""
+    for column in vectors.T:
+        sizes = np.abs(column)
+        if column[np.argmax(sizes >= (1.0 - 1e-6) * sizes.max())] < 0:
+            column *= -1.0
+    return vectors
+
+
+def measured(
+    stiffness: csr_array,
+    mass: csr_array,
+    vectors: Floats,
+    method: str,
+    inertia: tuple[tuple[float, int], ...] = (),
+    complete: bool = False,
+    metrics: dict[str, float] | None = None,
+    notes: tuple[str, ...] = (),
+) -> EigenSystem:
+    """Take Rayleigh quotients as values, fix signs (in place), measure residuals, orthogonality and clusters."""
+    values, errors = rayleigh_quotients(stiffness, mass, vectors)
+    order = np.argsort(values, kind="stable")
+    if (np.diff(order) != 1).any():
+        values, errors, vectors = values[order], errors[order], np.asfortranarray(vectors[:, order])
+    return EigenSystem(
+        values=values,
+        vectors=fix_signs(vectors),
+        residuals=relative_residuals(values, errors),
+        orthogonality=orthogonality_defect(mass, vectors),
+        complete=complete,
+        inertia=inertia,
+        clusters=clusters(values),
+        method=method,
+        metrics=metrics or {},
+        notes=notes,
+    )
+
+
+def _column_blocks(count: int) -> list[slice]:
+    return [slice(start, min(start + SINGLE_BLOCK, count)) for start in range(0, count, SINGLE_BLOCK)]
+
+
+def _column_norms(block: Floats) -> Floats:
+    return np.sqrt(np.einsum("ij,ij->j", block, block))

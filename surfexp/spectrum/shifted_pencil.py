@@ -1,0 +1,111 @@
+"""A symmetric pencil A - s B, factorised at one shift after another."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array, sparray
+
+from surfexp.linalg.ldlt import LDLT
+from surfexp.linalg.ldlt_symbolic import analyse, permuted
+from surfexp.mesh.triangle_mesh import Floats
+
+WORST_RESIDUAL = 1e-9
+NUDGES = 6
+
+
+class ShiftedPencil:
+    """Stiffness A and mass B in elimination order, on one pattern, so that A - s B costs one subtraction.
+
+    Parameters
+    ----------
+    stiffness, mass : (n, n) sparse arrays
+        Symmetric; the mass positive definite.
+
+    Attributes
+    ----------
+    stiffness, mass : (n, n) csr_array
+        In elimination order.
+    order : (n,) int64
+        Row i here is row order[i] of the given matrices.
+    counts : dict of float to int
+        Eigenvalues below each shift at which the pencil was factorised well.
+    doubts : dict of float to float
+        How near to the shift an eigenvalue has to lie to have been counted on the wrong side.
+    """
+
+    def __init__(self, stiffness: sparray, mass: sparray) -> None:
+        pattern = _ones(stiffness) + _ones(mass)
+        self.symbolic = analyse(pattern)
+        self.order = self.symbolic.permutation
+        self._pattern = permuted(csr_array(pattern), self.order)
+        self.stiffness = permuted(csr_array(stiffness, dtype=np.float64), self.order)
+        self.mass = permuted(csr_array(mass, dtype=np.float64), self.order)
+        self._stiffness_entries = _entries_on(self._pattern, self.stiffness)
+        self._mass_entries = _entries_on(self._pattern, self.mass)
+        diagonal = self.mass.diagonal()
+        self._diagonal = diagonal[:, None] if self.mass.nnz == np.count_nonzero(diagonal) else None
+        self.counts: dict[float, int] = {}
+        self.doubts: dict[float, float] = {}
+
+    @property
+    def size(self) -> int:
+        """Number of rows."""
+        return len(self.order)
+
+    def multiply_mass(self, block: Floats) -> Floats:
+        """Return B X, C-ordered."""
+        if self._diagonal is not None:
+            return np.multiply(self._diagonal, block, order="C")
+        return self.mass @ np.ascontiguousarray(block)
+
+    def factor(self, shift: float) -> tuple[float, LDLT]:
+        """Factorise A - s B at the shift, or near it where the pivots are bad there.
+
+        Returns
+        -------
+        shift : float
+            The shift that was used; `counts` knows how many eigenvalues lie below it.
+        factors : LDLT
+
+        Raises
+        ------
+        ValueError
+            If no shift nearby solves to a residual of 1e-9.
+        """
+        tried = shift
+        for nudge in range(NUDGES):
+            tried = shift * (1.0 + 1e-3 * nudge * (-1) ** nudge) + (1e-300 if shift == 0 else 0.0)
+            shifted = csr_array(
+                (self._stiffness_entries - tried * self._mass_entries, self._pattern.indices, self._pattern.indptr),
+                shape=self._pattern.shape,
+            )
+            factors = LDLT(shifted, self.symbolic)
+            if factors.residual <= WORST_RESIDUAL and not factors.replaced_pivots:
+                self.counts[tried] = factors.inertia[0]
+                self.doubts[tried] = 10.0 * factors.perturbation * self.size / float(self.mass.sum())
+                return tried, factors
+        raise ValueError(
+            f"A - s B solves with residual {factors.residual:.1e} at s = {tried:g}, at most {WORST_RESIDUAL:.0e} is "
+            "accepted: repair slivers or faces of nearly no area"
+        )
+
+
+def _ones(matrix: sparray) -> csr_array:
+    ones = csr_array(matrix, dtype=np.float64, copy=True)
+    ones.sum_duplicates()
+    ones.data[:] = 1.0
+    return ones
+
+
+def _entries_on(pattern: csr_array, matrix: csr_array) -> Floats:
+    """Return the entries of `matrix` at the places of a larger pattern, zero where it has none."""
+    if matrix.nnz == pattern.nnz:
+        return matrix.data
+    result = np.zeros(pattern.nnz)
+    result[np.searchsorted(_keys(pattern), _keys(matrix))] = matrix.data
+    return result
+
+
+def _keys(matrix: csr_array) -> np.ndarray:
+    rows = np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))
+    return rows * matrix.shape[1] + matrix.indices.astype(np.int64)

@@ -1,0 +1,136 @@
+"""The level-set and the closest-point method against exact and intrinsic solutions, and their iterations by themselves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from surfexp.baselines.closest_point import closest_point
+from surfexp.baselines.energy_excess import energy_excess
+from surfexp.baselines.grid_interpolation import GridInterpolation
+from surfexp.baselines.level_set import LevelSet, level_set
+from surfexp.baselines.level_set_chan_vese import LevelSetChanVese
+from surfexp.mesh.icosphere import icosphere
+from surfexp.operators.fem import fem
+from surfexp.variational.convex_chan_vese_model import ConvexChanVese
+from surfexp.variational.image import Image
+from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.separable_quadratic import convex_chan_vese, rof
+
+MESH = icosphere(4).mesh
+OPERATOR = fem(MESH)
+ANGLE = 0.9
+CAP = MESH.vertices[:, 2] > np.cos(ANGLE)
+NOISY = CAP + np.random.default_rng(0).normal(0, 0.3, len(CAP))
+FIDELITY = convex_chan_vese(OPERATOR.mass, ((1 - NOISY) ** 2 - NOISY**2) / (3 * MESH.edge_length))
+
+
+class Idle(GridInterpolation):
+    """Leaves the values as they are, in place of the extension."""
+
+    def __call__(self, values):
+        return values
+
+
+def exact_cap(mu):
+    """ROF of the indicator of a cap: 1 - L / (mu A1) inside, L / (mu A2) outside."""
+    length, area = 2 * np.pi * np.sin(ANGLE), 2 * np.pi * (1 - np.cos(ANGLE))
+    return np.where(CAP, 1 - length / (mu * area), length / (mu * (4 * np.pi - area)))
+
+
+def rof_error(method):
+    """Mean distance of ROF of the cap, smeared over two edges, from the exact solution for the sharp one."""
+    clean = np.clip((ANGLE - np.arccos(np.clip(MESH.vertices[:, 2], -1, 1))) / (2 * MESH.edge_length) + 0.5, 0, 1)
+    solution = method(rof(OPERATOR.mass, clean, 8.0), OPERATOR)
+    assert solution.converged, solution.reason
+    return OPERATOR.mass @ np.abs(solution.values - exact_cap(8.0)) / OPERATOR.mass.sum()
+
+
+def test_rof_by_closest_points_approaches_the_exact_solution():
+    errors = [rof_error(replace(closest_point(MESH, step), tolerance=1e-3)) for step in (0.2, 0.1, 0.05)]
+    assert errors[2] < 0.8 * errors[1] < 0.64 * errors[0], errors
+    assert errors[2] < 0.02, errors
+
+
+def test_rof_by_level_set_approaches_the_exact_solution():
+    """Its error is that of the regularisation more than that of the grid."""
+    errors = [rof_error(replace(level_set(MESH, 0.2), regularisation=eps)) for eps in (0.1, 0.03, 0.01)]
+    assert errors[2] < 0.85 * errors[1] < 0.85 * 0.85 * errors[0], errors
+    assert errors[2] < 0.05, errors
+
+
+@pytest.mark.parametrize(("prepare", "bound"), [(closest_point, 0.006), (level_set, 0.015)])
+def test_segmentation_of_a_cap_approaches_the_intrinsic_one(prepare, bound):
+    reference = primal_dual(FIDELITY, OPERATOR, tolerance=1e-5)
+    assert reference.lower_bound is not None
+    differences, excesses = [], []
+    for step in (0.2, 0.1, 0.05):
+        solution = prepare(MESH, step)(FIDELITY, OPERATOR)
+        assert solution.converged and solution.lower_bound is None
+        differences.append(OPERATOR.mass @ np.abs(solution.values - reference.values) / OPERATOR.mass.sum())
+        excesses.append(energy_excess(FIDELITY, OPERATOR, solution.values, reference.lower_bound))
+    assert differences[2] < 0.9 * differences[1] < 0.6 * differences[0], differences
+    assert 0 < excesses[2] < excesses[1] < excesses[0] < 0.05, excesses
+    assert excesses[2] < bound, excesses
+    assert OPERATOR.mass @ ((solution.values > 0.5) == CAP) / OPERATOR.mass.sum() > 0.99
+
+
+def test_explicit_steps_lower_the_energy_up_to_the_bound_and_not_far_beyond():
+    """Without re-extension the descent is monotone; a step five times the bound is not."""
+    method = replace(level_set(MESH, 0.15), tolerance=-1.0, step_limit=1000)
+    method = replace(method, to_closest=Idle(method.to_closest.starts, method.to_closest.fractions))
+    energies = method(FIDELITY, OPERATOR).history["energy"]
+    assert (np.diff(energies) <= 1e-12 * abs(energies[0])).all()
+
+    class Reckless(type(method.energy)):
+        difference_bound = method.energy.difference_bound / 5
+
+    reckless = replace(method, energy=Reckless(method.energy.band))
+    assert reckless(FIDELITY, OPERATOR).history["energy"][-1] > energies[-1] + 1e-3
+
+
+def test_the_band_gap_proves_the_band_energy():
+    method = closest_point(MESH, 0.15)
+    loose = replace(method, tolerance=1e-2)(FIDELITY, OPERATOR)
+    tight = replace(method, tolerance=1e-6)(FIDELITY, OPERATOR)
+    scale = method.energy.fidelity(FIDELITY).scale
+    fall = loose.metrics["band_energy"] - tight.metrics["band_energy"]
+    assert -1e-6 * scale <= fall <= loose.metrics["band_gap"] * scale
+    assert tight.metrics["band_gap"] <= 1e-6 < loose.metrics["band_gap"] <= 1e-2
+
+
+def test_a_limit_reached_is_told():
+    for method in (replace(closest_point(MESH, 0.2), iteration_limit=3), replace(level_set(MESH, 0.2), step_limit=10)):
+        solution = method(FIDELITY, OPERATOR)
+        assert not solution.converged and "limit" in solution.reason
+
+
+def test_a_model_runs_on_them_and_they_start_from_a_solution():
+    image = Image(NOISY, labels={"cap": CAP})
+    intrinsic = ConvexChanVese(length=3.0).run(image, OPERATOR, primal_dual)
+    for method in (closest_point(MESH, 0.1), level_set(MESH, 0.1)):
+        solution = ConvexChanVese(length=3.0).run(image, OPERATOR, method)
+        assert solution.metrics["c1"] == pytest.approx(intrinsic.metrics["c1"], abs=0.02)
+        assert solution.metrics["dice cap"] > intrinsic.metrics["dice cap"] - 0.02
+        assert solution.metrics["memory_bytes"] > 100 * solution.metrics["node_count"]
+
+
+def test_non_convex_chan_vese_moves_a_small_curve_to_the_cap():
+    height = MESH.vertices[:, 2]
+    initial = 0.5 - np.arccos(np.clip(height, -1, 1))
+    scheme = replace(level_set(MESH, 0.15), regularisation=0.1, tolerance=1e-3)
+    solution = LevelSetChanVese(scheme, mu=1 / (3 * MESH.edge_length))(NOISY, OPERATOR, initial)
+    assert solution.converged
+    assert OPERATOR.mass @ ((initial > 0) == CAP) / OPERATOR.mass.sum() < 0.92
+    assert OPERATOR.mass @ (solution.segmentation == CAP) / OPERATOR.mass.sum() > 0.98
+    assert solution.metrics["c1"] == pytest.approx(1, abs=0.1) and solution.metrics["c2"] == pytest.approx(0, abs=0.1)
+    with pytest.raises(ValueError, match="mu is 0"):
+        LevelSetChanVese(scheme, mu=0.0)(NOISY, OPERATOR, initial)
+
+
+def test_results_are_the_same_to_the_byte():
+    first, second = (level_set(MESH, 0.2)(FIDELITY, OPERATOR).values for _ in range(2))
+    assert first.tobytes() == second.tobytes()
+    assert isinstance(level_set(MESH, 0.2), LevelSet)

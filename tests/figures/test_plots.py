@@ -1,0 +1,114 @@
+"""Plots: measured orders, labels that do not meet, left-out points, and bytes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from surfexp.figures.axes import add_axes, label_lines, logarithmic, spread
+from surfexp.figures.convergence_plot import convergence_plot
+from surfexp.figures.interval_plot import interval_plot
+from surfexp.figures.order_plot import convergence_order, order_plot
+from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.figures.typography import canvas
+
+ITERATIONS = np.arange(1.0, 101.0)
+SMALL = (400, 260)
+
+
+@given(st.floats(0.5, 6.0), st.floats(1e-3, 1e3), st.integers(2, 7))
+def test_order_of_a_power_is_its_exponent(order: float, factor: float, count: int) -> None:
+    h = 0.5 ** np.arange(count)
+    assert convergence_order(h, factor * h**order) == pytest.approx(order, rel=1e-9)
+
+
+def test_order_is_that_of_the_finer_half_in_any_sequence() -> None:
+    h = 0.5 ** np.arange(6.0)
+    errors = np.where(h > 0.2, 1.0, h**3)
+    shuffled = np.random.default_rng(0).permutation(6)
+    assert convergence_order(h[shuffled], errors[shuffled]) == pytest.approx(3.0)
+    figure = order_plot(h, {"P2": errors}, size=SMALL)
+    assert figure.metrics == {"order P2": pytest.approx(3.0)}
+
+
+@given(arrays(float, st.integers(1, 12), elements=st.floats(0.0, 100.0)), st.floats(0.1, 20.0))
+def test_labels_are_spread_as_little_as_possible(positions: np.ndarray, spacing: float) -> None:
+    result = spread(positions, spacing)
+    ordered = np.sort(result)
+    assert (np.diff(ordered) >= spacing * (1.0 - 1e-9) - 1e-9).all()
+    assert result.mean() == pytest.approx(positions.mean(), abs=1e-8)
+    order = np.argsort(positions, kind="stable")
+    assert (np.diff(result[order]) >= 0.0).all()
+    if (np.diff(np.sort(positions)) >= spacing).all():
+        assert np.allclose(result, positions)
+
+
+def test_labels_are_inside_the_figure_and_apart() -> None:
+    with canvas(600, 400) as figure:
+        axes = add_axes(figure, "", "x", "y")
+        axes.plot([0.0, 1.0], [0.0, 1.0])
+        names = ["one", "a much longer name", "three"]
+        label_lines(axes, [(name, 1.0, 0.5 + 0.001 * k, "black") for k, name in enumerate(names)])
+        boxes = [text.get_window_extent() for text in figure.texts]
+        right = axes.bbox.x1
+    assert all(box.x1 <= 600 and box.x0 >= right for box in boxes)
+    assert all(low.y1 <= high.y0 for low, high in pairwise(boxes))
+
+
+def test_logarithmic_axes_have_ticks_within_two_decades() -> None:
+    with canvas(*SMALL) as figure:
+        axes = add_axes(figure, "", "x", "y")
+        axes.plot([0.11, 0.9], [1e-9, 1.0])
+        logarithmic(axes)
+        figure.canvas.draw()
+        seen = [text.get_text() for text in axes.get_xticklabels() if text.get_text()]
+    assert {"0.2", "0.5"} <= set(seen)
+
+
+def test_points_that_are_not_positive_are_left_out_and_counted() -> None:
+    gaps = ITERATIONS**-1.0
+    gaps[[3, 50]] = 0.0, np.nan
+    figure = convergence_plot({"a": (ITERATIONS, gaps), "b": (ITERATIONS, -gaps)}, rates=(1, 2), size=SMALL)
+    assert figure.notes == ("102 points that are not positive are left out.",)
+    assert convergence_plot({"a": (ITERATIONS, ITERATIONS**-1.0)}, size=SMALL).notes == ()
+
+
+def test_every_plot_is_drawn_the_same_again() -> None:
+    band = np.stack([ITERATIONS, 0.9 * ITERATIONS, 1.1 * ITERATIONS], axis=1)
+    for plot in (
+        lambda: convergence_plot({"one": (np.array([7.0]), np.array([0.1]))}, rates=(1,), size=SMALL),
+        lambda: order_plot(np.array([1.0, 0.5]), {"P1": np.array([1.0, 0.2])}, size=SMALL),
+        lambda: sweep_plot(ITERATIONS, {"a": band, "b": ITERATIONS}, x_label="x", y_label="y", log="xy", size=SMALL),
+        lambda: interval_plot({"a": (1, 0, 2), "b": (2, 2, 2)}, x_label="x", reference=0.0, title="t", width=400),
+    ):
+        first, second = plot().pixels, plot().pixels
+        assert first.std() > 5.0 and first.shape[1] == 400 and (first == second).all()
+
+
+def test_sweep_keeps_gaps_and_refuses_other_lengths() -> None:
+    y = np.where(ITERATIONS == 100.0, np.nan, ITERATIONS)
+    assert sweep_plot(ITERATIONS, {"a": y}, x_label="x", y_label="y", size=SMALL).pixels.std() > 5.0
+    with pytest.raises(ValueError, match=r"'a' has shape \(7,\), expected \(100,\) or \(100, 3\)"):
+        sweep_plot(ITERATIONS, {"a": np.zeros(7)}, x_label="x", y_label="y")
+
+
+@pytest.mark.parametrize(
+    "empty",
+    [
+        lambda: convergence_plot({}),
+        lambda: convergence_plot({"a": (ITERATIONS, 0.0 * ITERATIONS)}),
+        lambda: order_plot(ITERATIONS, {}),
+        lambda: sweep_plot(ITERATIONS, {"a": np.nan * ITERATIONS}, x_label="", y_label=""),
+        lambda: interval_plot({}, x_label=""),
+    ],
+)
+def test_plots_of_nothing_are_refused(empty) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(ValueError, match="at least 1"):
+        empty()
+    with pytest.raises(ValueError, match="positive numbers"):
+        convergence_order(np.array([1.0, 0.5]), np.array([1.0, 0.0]))

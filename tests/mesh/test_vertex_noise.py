@@ -1,0 +1,35 @@
+"""Noise on vertices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.cube import cube
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.noise import add_vertex_noise
+
+
+def test_noise_has_its_standard_deviation_and_seed() -> None:
+    clean = cube(40)
+    noisy, again, other = (add_vertex_noise(clean, 0.1, seed) for seed in (1, 1, 2))
+    shift = noisy.mesh.vertices - clean.mesh.vertices
+    assert shift.std(axis=0) == pytest.approx(0.1, rel=0.03)
+    assert (noisy.mesh.vertices == again.mesh.vertices).all()
+    assert not np.allclose(noisy.mesh.vertices, other.mesh.vertices)
+    assert (noisy.scalars["side"] == clean.scalars["side"]).all()
+    assert "0.1 (seed 1, direction: all)" in noisy.notes[0]
+
+
+def test_normal_noise_moves_along_the_normals_only() -> None:
+    sphere = icosphere(4)
+    shift = add_vertex_noise(sphere, 0.02, 5, "normal").mesh.vertices - sphere.mesh.vertices
+    assert np.cross(shift, sphere.mesh.vertex_normals) == pytest.approx(0.0, abs=1e-15)
+    assert (shift * sphere.mesh.vertex_normals).sum(axis=1).std() == pytest.approx(0.02, rel=0.05)
+
+
+def test_bad_options_are_named() -> None:
+    with pytest.raises(ValueError, match=r"sigma = -0\.1"):
+        add_vertex_noise(cube(2), -0.1)
+    with pytest.raises(ValueError, match="'up'"):
+        add_vertex_noise(cube(2), 0.1, direction="up")  # type: ignore[arg-type]

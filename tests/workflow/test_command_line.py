@@ -1,0 +1,226 @@
+"""The command as a person uses it: exit codes, one-line errors, sharing, reruns, failures, interruption, tracking."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+TOYS = Path(__file__).with_name("toy_plugins.py")
+ROOT = Path(__file__).resolve().parent.parent.parent
+CHAIN = """# @package _global_
+experiment: chain
+target: pairing
+title: A toy
+surface: toy_triangle
+feature: toy_boundary
+pairing:
+  name: toy_distance
+  inputs:
+    source: {feature: toy_eigenfunction, weighted: {name: toy_flux, inputs: {weight: {feature: toy_boundary}}}}
+    target: {feature: {name: toy_boundary, shift: 1.0}}
+"""
+
+pytestmark = pytest.mark.xdist_group("end_to_end")
+
+
+def surfexp(*arguments: str, code: int = 0, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "surfexp.workflow.command_line", *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=300)
+    assert done.returncode == code, (done.returncode, done.stdout, done.stderr)
+    return done
+
+
+@pytest.fixture
+def laboratory(working_folder: Path) -> Path:
+    (working_folder / "plugins" / "pairing").mkdir(parents=True)
+    shutil.copy(TOYS, working_folder / "plugins" / "pairing" / "toys.py")
+    (working_folder / "conf" / "experiment").mkdir(parents=True)
+    (working_folder / "conf" / "experiment" / "chain.yaml").write_text(CHAIN)
+    return working_folder
+
+
+def runs(folder: Path) -> dict[str, tuple[str, dict[str, str], dict[str, float]]]:
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(f"sqlite:///{folder / 'results' / 'mlflow.db'}")
+    experiment = client.get_experiment_by_name("chain")
+    assert experiment is not None
+    found = client.search_runs([experiment.experiment_id])
+    return {run.data.tags["leaf"]: (run.info.status, run.data.tags, run.data.metrics) for run in found}
+
+
+def store_bytes(folder: Path) -> dict[str, bytes]:
+    store = folder / "results" / "store"
+    return {str(file.relative_to(store)): file.read_bytes() for file in store.rglob("*.*") if not file.name.startswith(".")}
+
+
+def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> None:
+    first = surfexp("run", "experiment=chain")
+    assert "toy_distance" in first.stdout and "results/chain/report.html" in first.stdout
+    assert set(status for status, _, _ in runs(laboratory).values()) == {"FINISHED"} and len(runs(laboratory)) == 2
+    before = store_bytes(laboratory)
+
+    again = surfexp("run", "experiment=chain")
+    assert "nothing to compute" in again.stdout and len(runs(laboratory)) == 2 and store_bytes(laboratory) == before
+    nothing = subprocess.run(
+        [sys.executable, "-m", "snakemake", "-n", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"],
+        capture_output=True, text=True, timeout=300,
+    )  # fmt: skip
+    assert "Nothing to be done" in nothing.stdout + nothing.stderr, nothing.stdout + nothing.stderr
+
+    surfexp("run", "experiment=chain", "surface.size=2.0")
+    assert len(runs(laboratory)) == 3
+    planned = surfexp("plan", "experiment=chain", "surface.size=2.0,3.0,4.0").stdout
+    assert "3 configurations: 18 stages without sharing, 15 with sharing" in planned
+    surfexp("run", "experiment=chain", "surface.size=2.0,3.0,4.0")
+    log = max((laboratory / "results" / "logs").glob("*.snakemake.log"), key=lambda path: path.stat().st_mtime)
+    assert log.read_text().count("localrule") == 11  # 15 less those of size 2, plus the rule all
+
+    toys = laboratory / "plugins" / "pairing" / "toys.py"
+    good = toys.read_text()
+    toys.write_text(good.replace('raise ValueError(f"surface', 'x = ValueError(f"surface').replace(
+        "value = float(np.abs(source.values - target.values).max())", 'raise ValueError("planted failure")'))
+    failed = surfexp("run", "experiment=chain", code=1)
+    assert "pairing/toy_distance: planted failure" in failed.stderr and "Traceback" not in failed.stderr
+    assert sorted(status for status, _, _ in runs(laboratory).values()).count("FAILED") == 2  # the leaf and its parent
+    toys.write_text(good)
+    surfexp("run", "experiment=chain")
+    assert {status for status, _, _ in runs(laboratory).values()} == {"FINISHED"}
+    assert len(runs(laboratory)) == 5
+
+
+def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:
+    command = [sys.executable, "-m", "snakemake", "-c2", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert {status for status, _, _ in runs(laboratory).values()} == {"FINISHED"}
+    assert (laboratory / "results" / "chain" / "report.html").exists()
+    plain = store_bytes(laboratory)
+    shutil.rmtree(laboratory / "results")
+    surfexp("run", "experiment=chain")
+    assert store_bytes(laboratory) == plain
+
+
+@pytest.mark.parametrize("victim", ["surfexp.workflow.command_line", "snakemake", "surfexp.workflow.stage"])
+def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim: str) -> None:
+    surfexp("run", "experiment=chain")
+    undisturbed = store_bytes(laboratory)
+    shutil.rmtree(laboratory / "results")
+    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and process.poll() is None:
+        pids = subprocess.run(["pgrep", "-f", f"{victim}.*{laboratory.name if victim != 'surfexp.workflow.command_line' else 'chain'}"],
+                              capture_output=True, text=True).stdout.split()
+        started = list((laboratory / "results" / "store").glob("*/*/record.json"))
+        if pids and started:
+            for pid in pids:
+                if victim != "surfexp.workflow.command_line" or int(pid) == process.pid:
+                    try:
+                        os.kill(int(pid), signal.SIGKILL)
+                    except ProcessLookupError:
+                        continue
+            break
+        time.sleep(0.02)
+    process.wait(timeout=120)
+    surfexp("run", "experiment=chain")
+    assert store_bytes(laboratory) == undisturbed
+
+
+def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
+    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
+    both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    outputs = [process.communicate(timeout=300) for process in both]
+    assert [process.returncode for process in both] == [0, 0], outputs
+    assert any("in use by another run" in error for _, error in outputs)
+    assert len(runs(laboratory)) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["rnu"], "unknown command 'rnu'; did you mean 'run'?"),
+        (["run", "solver=primal_daul"], "unknown solver 'primal_daul'; did you mean 'primal_dual'?"),
+        (["run", "experiment=quickstrat"], "unknown experiment 'quickstrat'; did you mean 'quickstart'?"),
+        (["run", "+nosuch=1"], "unknown configuration key 'nosuch'"),
+        (["run", "experiment=chain", "surface.size=-1"], "surface/toy_triangle.size = -1: Input should be greater than 0"),
+        (["run", "experiment=chain", "surface.szie=1"], "unknown option of surface 'szie'; did you mean 'size'?"),
+        (["run", "experiment=chain", "surface=file"], "surface/file.path is required; set surface.path=VALUE"),
+        (["run", "experiment=chain", "surface=file", "surface.path=no.ply"], "file 'no.ply' does not exist"),
+        (["info", "solver/primal_daul"], "did you mean 'primal_dual'?"),
+        (["list", "solvers"], "unknown stage kind 'solvers'; did you mean 'solver'?"),
+        (["table", "nothing"], "unknown finished experiment"),
+        (["run", "results=/proc/none"], "/proc/none: No such file or directory; choose another results folder"),
+    ],
+)
+def test_mistakes_end_with_code_2_and_one_line(laboratory: Path, arguments: list[str], message: str) -> None:
+    done = surfexp(*arguments, code=2)
+    assert message in done.stderr, done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1, done.stderr
+
+
+def test_a_broken_plugin_file_is_named_with_its_line_and_the_rest_works(laboratory: Path) -> None:
+    (laboratory / "plugins" / "solver").mkdir()
+    (laboratory / "plugins" / "solver" / "crooked.py").write_text("x = 1\ndef f(:\n")
+    done = surfexp("list", "solver")
+    assert "crooked.py, line 2" in done.stderr and "primal_dual" in done.stdout
+    assert "crooked.py, line 2" in surfexp("run", "solver=crooked", code=2).stderr
+
+
+def test_two_plugins_of_one_name_are_refused_naming_both_files(laboratory: Path) -> None:
+    (laboratory / "plugins" / "operator").mkdir()
+    original = (ROOT / "plugins" / "operator" / "fem.py").read_text()
+    (laboratory / "plugins" / "operator" / "fem.py").write_text(original)
+    assert "fem" in surfexp("list", "operator").stdout  # the same path and content twice is one plugin
+    (laboratory / "plugins" / "operator" / "fem.py").write_text(original + "\nOTHER = 1\n")
+    error = surfexp("list", code=2).stderr
+    assert "operator/fem is defined twice" in error and error.count("fem.py") == 2
+
+
+def test_help_and_catalogue(laboratory: Path) -> None:
+    for name in ("list", "info", "table", "report", "ui", "clean", "new", "view", "mesh", "doctor"):
+        assert "usage: surfexp" in surfexp(name, "--help").stdout
+    assert "primal_dual" in surfexp("run", "--help").stdout and "toy_triangle" in surfexp("run", "--help").stdout
+    listed = surfexp("info", "surface/toy_triangle").stdout
+    assert "size" in listed and "> 0" in listed and "side length" in listed
+    assert "chain" in surfexp("list", "experiment").stdout
+
+
+def test_a_new_plugin_is_listed_and_its_test_passes(laboratory: Path) -> None:
+    surfexp("new", "solver", "my_method")
+    assert "my_method" in surfexp("list", "solver").stdout
+    done = subprocess.run([sys.executable, "-m", "pytest", "-q", "tests"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    assert "exists" in surfexp("new", "solver", "my_method", code=2).stderr
+
+
+def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
+    surfexp("run", "experiment=chain")
+    kept = store_bytes(laboratory)
+    surfexp("run", "experiment=chain", "surface.size=2.0")
+    surfexp("run", "experiment=chain")
+    surfexp("clean", "--yes")
+    assert store_bytes(laboratory) == kept
+    surfexp("clean", "--all", "--yes")
+    assert not (laboratory / "results" / "store").exists()
+
+
+def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path) -> None:
+    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 60
+    while not list(laboratory.glob("results/store/*/*/record.json")) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert process.returncode == 130 and "interrupted" in error and "Traceback" not in error, error
+    surfexp("run", "experiment=chain")
+    assert json.loads(next(laboratory.glob("results/store/pairing/*/record.json")).read_text())
