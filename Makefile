@@ -20,8 +20,7 @@ lint: .venv/ready
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	@echo "framework (surfexp/workflow): $$(cat surfexp/workflow/*.py surfexp/workflow/*.smk | grep -c '[^[:space:]]') lines of at most 1000, blank ones not counted"
-	@test $$(cat surfexp/workflow/*.py surfexp/workflow/*.smk | grep -c '[^[:space:]]') -le 1000
+	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
 
 ui: .venv/ready
 	$(BIN)/surfexp ui

@@ -12,7 +12,9 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 ROOT = Path(__file__).resolve().parent.parent
-_state = hashlib.sha256(b"".join(path.read_bytes() for path in sorted((ROOT / "surfexp").rglob("*.py")))).hexdigest()[:20]
+_state = hashlib.sha256(b"".join(path.read_bytes() for path in sorted((ROOT / "surfexp").rglob("*.py")))).hexdigest()[
+    :20
+]
 os.environ["NUMBA_CACHE_DIR"] = str(ROOT / "results" / "cache" / "numba" / f"tests-{_state}")
 
 

@@ -17,7 +17,9 @@ from surfexp.workflow.registry import Options, register
 
 
 class Parcellation(Options):
-    views: list[str] = Field(["left", "right"], description="directions of view")
+    views: list[str] = Field(["lateral", "medial"], description="directions of view")
+    colormap: str = Field("PuOr_r", description="matplotlib's name of the colour map of the image")
+    line_width: float = Field(3.0, gt=0, le=20, description="width of the red line in pixels")
     width: int = Field(1600, ge=200, le=8000, description="pixels across")
 
 
@@ -26,10 +28,10 @@ def parcellation_figure(
     options: Parcellation, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
     """The image in colour with the boundary of the segmented regions in red, from several sides (figure 2.8)."""
-    scale = ColorScale(label=image.name, unit=image.unit, colormap="RdBu_r")
+    scale = ColorScale(label=image.name, unit=image.unit, colormap=options.colormap)
     level = solver.metrics.get("threshold", 0.5)
     field = image.values if solver.model == "threshold" else solver.values
-    contours = (Contours(field, levels=(level,)),)
+    contours = (Contours(field, levels=(level,), width=options.line_width),)
     views = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in options.views]
     length = solver.metrics.get("perimeter")
     caption = (

@@ -15,10 +15,12 @@ class MeanCurvature(Options):
 
 @register("image", "mean_curvature")
 def mean_curvature_image(options: MeanCurvature, *, surface: Surface) -> Image:
-    """Mean curvature with FreeSurfer's sign (positive in sulci), clipped at a percentile; FreeSurfer's sulc and curv maps become labels."""
+    """Mean curvature, positive in sulci, clipped at a percentile; FreeSurfer's maps, where there are any, are labels."""
     curvature = -mean_curvature(surface.mesh)
     bound = float(np.percentile(np.abs(curvature), options.clip))
     labels = {name: surface.scalars[name] > 0 for name in ("sulc", "curv") if name in surface.scalars}
     unit = f"1/{surface.unit}" if surface.unit else ""
     notes = (f"mean curvature is clipped at ±{bound:.3g} {unit}, the {options.clip:g}th percentile of its size",)
-    return Image(np.clip(curvature, -bound, bound), "mean curvature (positive in sulci)", unit, labels=labels, notes=notes)
+    return Image(
+        np.clip(curvature, -bound, bound), "mean curvature (positive in sulci)", unit, labels=labels, notes=notes
+    )

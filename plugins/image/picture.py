@@ -20,7 +20,9 @@ class Picture(Options):
     )
     front: tuple[float, float, float] = Field((-1.0, 0.0, 0.0), description="direction from which it is seen upright")
     up: tuple[float, float, float] = Field((0.0, 0.0, 1.0), description="the picture's upward direction")
-    width: float | None = Field(None, gt=0, description="width in the plane of the projection; default: covers the surface")
+    width: float | None = Field(
+        None, gt=0, description="width in the plane of the projection; default: covers the surface"
+    )
     noise: float = Field(0.0, ge=0, description="standard deviation of the Gaussian noise, of 0..255")
     seed: int = Field(0, ge=0, description="seed of the noise")
 

@@ -11,7 +11,9 @@ from surfexp.workflow.registry import Options, register
 
 class Fsaverage5(Options):
     hemisphere: Literal["left", "right"] = Field("left", description="hemisphere of the brain")
-    sheet: Literal["pial", "white", "inflated", "sphere"] = Field("white", description="which of the four nested surfaces")
+    sheet: Literal["pial", "white", "inflated", "sphere"] = Field(
+        "white", description="which of the four nested surfaces"
+    )
 
 
 @register("surface", "fsaverage5")

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from surfexp.baselines.narrow_band import NarrowBand
+from surfexp.baselines.narrow_band import Indices, NarrowBand
 from surfexp.baselines.transport import transported
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.variational.separable_quadratic import SeparableQuadratic
@@ -21,11 +21,11 @@ FLOOR = 1e-4
 class BandEnergy:
     """sum_k w_k |D u|_k + sum_k m_k h(u_k), the level-set form of int_M |grad u| + h(u).
 
-    Integrals over the surface become integrals over the band with delta(d) = (1 + cos(pi d / b)) / (2 b), |d| < b. Its integral
-    is 1, also as a sum over grid planes, for b is a whole number of steps (Peskin 2002); and b is at least one step less than
-    the band's radius, so that no difference D that counts lacks a neighbour. Nodes farther out get the weight FLOOR delta(0):
-    they follow the others. The mass m_k = (3 w_k + sum_axis w_{k - axis}) / 6 is the one for which
-    sum_k w_k |D u|^2 <= 12 / step^2 sum_k m_k u_k^2.
+    Integrals over the surface become integrals over the band with delta(d) = (1 + cos(pi d / b)) / (2 b), |d| < b. Its
+    integral is 1, also as a sum over grid planes, for b is a whole number of steps (Peskin 2002); and b is at least one
+    step less than the band's radius, so that no difference D that counts lacks a neighbour. Nodes farther out get the
+    weight FLOOR delta(0): they follow the others. The mass m_k = (3 w_k + sum_axis w_{k - axis}) / 6 is the one for
+    which sum_k w_k |D u|^2 <= 12 / step^2 sum_k m_k u_k^2.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class BandEnergy:
 
 
 @njit(cache=True, nogil=True)
-def _total_variation(forward, cells, h, values):  # type: ignore[no-untyped-def]
+def _total_variation(forward: Indices, cells: Floats, h: float, values: Floats) -> float:
     total = 0.0
     for i in range(len(values)):
         square = 0.0
@@ -101,7 +101,9 @@ def _total_variation(forward, cells, h, values):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _projected_load(forward, normals, cells, h, regularisation, values, load):  # type: ignore[no-untyped-def]
+def _projected_load(
+    forward: Indices, normals: Floats, cells: Floats, h: float, regularisation: float, values: Floats, load: Floats
+) -> float:
     total = 0.0
     for i in range(len(values)):
         a, b, c = forward[i]
@@ -127,7 +129,9 @@ def _projected_load(forward, normals, cells, h, regularisation, values, load):  
 
 
 @njit(cache=True, nogil=True)
-def _dual_ascent(forward, cells, h, step, values, dual, load):  # type: ignore[no-untyped-def]
+def _dual_ascent(
+    forward: Indices, cells: Floats, h: float, step: float, values: Floats, dual: Floats, load: Floats
+) -> None:
     for i in range(len(values)):
         square = 0.0
         for axis in range(3):

@@ -23,11 +23,11 @@ CHECK_INTERVAL = 20
 class ClosestPoint:
     """Chambolle and Pock's iteration for sum w |D u| + H(u) on a narrow band, as a method for convex models.
 
-    By the closest-point principle (Ruuth and Merriman 2008) the gradient in space of a function that is constant along normals
-    is its gradient on the surface, so no projection is needed. The data are extended by closest points; the full
-    gradient then keeps the minimiser nearly constant along normals (`normal_variation` says how nearly), and the problem on the
-    band is convex with a duality gap of its own, on which the iteration stops. It is accelerated where H is strongly
-    convex.
+    By the closest-point principle (Ruuth and Merriman 2008) the gradient in space of a function that is constant along
+    normals is its gradient on the surface, so no projection is needed. The data are extended by closest points; the
+    full gradient then keeps the minimiser nearly constant along normals (`normal_variation` says how nearly), and the
+    problem on the band is convex with a duality gap of its own, on which the iteration stops. It is accelerated where H
+    is strongly convex.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ class ClosestPoint:
     ) -> Solution:
         """Solve on the band and interpolate to the vertices; `start` gives values at the vertices to begin with.
 
-        The certificate on the band does not carry over to the surface: the solution has only its energy under `operator`,
-        and the gap of the band among its metrics.
+        The certificate on the band does not carry over to the surface: the solution has only its energy under
+        `operator`, and the gap of the band among its metrics.
         """
         energy, problem = self.energy, self.energy.fidelity(fidelity)
         values = problem.initial() if start is None else energy.band.extend(start.values)

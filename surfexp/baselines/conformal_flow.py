@@ -27,9 +27,9 @@ def conformal_flow(
 ) -> Floats:
     """Let a surface flow to the round sphere with the stiffness of the start and the mass of the moment.
 
-    (M_t + s Q) x_{t+1} = M_t x_t, centred and rescaled to the area of the unit sphere after each step (Kazhdan, Solomon and
-    Ben-Chen 2012). It ends when the surface is round and its conformality defect, Dirichlet energy / area - 1, changes by
-    less than `tolerance` times itself in a step; a Moebius transformation then centres the areas.
+    (M_t + s Q) x_{t+1} = M_t x_t, centred and rescaled to the area of the unit sphere after each step (Kazhdan, Solomon
+    and Ben-Chen 2012). It ends when the surface is round and its conformality defect, Dirichlet energy / area - 1,
+    changes by less than `tolerance` times itself in a step; a Moebius transformation then centres the areas.
 
     Parameters
     ----------

@@ -18,8 +18,8 @@ def disk_map(mesh: TriangleMesh, boundary: Literal["free", "circle"] = "free") -
     mesh : TriangleMesh
     boundary : {"free", "circle"}
         "free" is the least-squares conformal map (Levy et al. 2002): angles are kept, the outline follows, two boundary
-        vertices are held. "circle" is the harmonic map with the boundary on the unit circle by arc length: one-to-one where the
-        cotangents are positive, with angles lost near the boundary.
+        vertices are held. "circle" is the harmonic map with the boundary on the unit circle by arc length: one-to-one
+        where the cotangents are positive, with angles lost near the boundary.
 
     Returns
     -------

@@ -28,7 +28,7 @@ class GridInterpolation:
 
     def __call__(self, values: Floats) -> Floats:
         """Interpolate (k,) values at the nodes; returns (q,)."""
-        return _interpolate(self.starts, self.fractions, values)  # type: ignore[no-any-return]
+        return _interpolate(self.starts, self.fractions, values)
 
     @property
     def memory(self) -> int:
@@ -76,7 +76,7 @@ def grid_interpolation(band: NarrowBand, points: Floats, degree: int) -> GridInt
 
 
 @njit(cache=True, nogil=True)
-def _lagrange_weights(t, weights):  # type: ignore[no-untyped-def]
+def _lagrange_weights(t: float, weights: Floats) -> None:
     """Weights of the nodes 0, 1 or -1, 0, 1, 2 at t."""
     if len(weights) == 2:
         weights[0], weights[1] = 1.0 - t, t
@@ -88,7 +88,7 @@ def _lagrange_weights(t, weights):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True)
-def _interpolate(starts, fractions, values):  # type: ignore[no-untyped-def]
+def _interpolate(starts: Indices, fractions: Floats, values: Floats) -> Floats:
     width = 2 if starts.shape[1] == 4 else 4
     along_x, along_y, along_z = np.empty(width), np.empty(width), np.empty(width)
     result = np.empty(len(starts))

@@ -22,9 +22,9 @@ from surfexp.variational.solution import Solution
 class LevelSet:
     """Gradient descent of sum w sqrt(|P D u|^2 + eps^2) + H(u) on a narrow band, as a method for convex models.
 
-    The gradient on the surface is the projection P = 1 - n n^T of the gradient in space (Bertalmio, Cheng, Osher and Sapiro
-    2001). A step is explicit in the total variation and exact in the data term; it is 1.8/L of the bound 2/L at which
-    the iteration becomes unstable, L = 12 / (step^2 eps). The band is re-extended along normals at intervals.
+    The gradient on the surface is the projection P = 1 - n n^T of the gradient in space (Bertalmio, Cheng, Osher and
+    Sapiro 2001). A step is explicit in the total variation and exact in the data term. Its size is 1.8/L, where 2/L is
+    the bound of stability and L = 12 / (grid step^2 eps). The band is re-extended along normals at intervals.
 
     Parameters
     ----------
@@ -35,9 +35,10 @@ class LevelSet:
         From the band to the closest points of its own nodes.
     regularisation : float
         eps in units of (spread of the values) / (edge length of the mesh).
-    extension_interval : int
-        Time between two extensions, in units of the time in which the data term alone would carry a value across the spread.
-        A fixed number of the small steps of a fine grid would let the error of the interpolation outrun the descent.
+    extension_interval : float
+        Time between two extensions, in units of the time in which the data term alone would carry a value across the
+        spread. A fixed number of the small steps of a fine grid would let the error of the interpolation outrun the
+        descent.
     tolerance : float
         Stop when the energy falls by less than this share of it between two extensions.
     step_limit : int
@@ -78,13 +79,13 @@ class LevelSet:
         converged = False
         for iteration in range(self.step_limit + 1):
             length = energy.projected_load(values, eps, load)
-            if iteration % interval == 0:
+            if iteration % interval == 0 or iteration == self.step_limit:
                 rows.append((iteration, length + problem.value(values)))
                 fall = (rows[-2][1] - rows[-1][1]) / max(abs(rows[-1][1]), problem.scale) if iteration else np.inf
                 if self.progress is not None:
                     self.progress(iteration, fall)
-                if abs(fall) <= self.tolerance:
-                    converged = True
+                converged = iteration % interval == 0 and abs(fall) <= self.tolerance
+                if converged or iteration == self.step_limit:
                     break
             values = problem.prox(values - step * load / energy.mass, step)
             if (iteration + 1) % interval == 0:

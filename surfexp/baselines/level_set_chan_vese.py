@@ -22,15 +22,15 @@ CROSSING = 10.0
 class LevelSetChanVese:
     """Descent of (2.9), TV(H(phi)) + mu int (c1 - I)^2 H(phi) + (c2 - I)^2 (1 - H(phi)), by explicit steps on the band.
 
-    phi_t = delta(phi) [div(P grad phi / |P grad phi|_eps) - mu (c1 - I)^2 + mu (c2 - I)^2] with
-    H(phi) = 1/2 + arctan(phi / w) / pi, delta = H', and c1, c2 the means of the two regions at each step (divided by their area).
-    phi is the level-set function of the curve, positive inside.
+    phi_t = delta(phi) [div(P grad phi / |P grad phi|_eps) - mu (c1 - I)^2 + mu (c2 - I)^2] with H(phi) = 1/2 +
+    arctan(phi / w) / pi, delta = H', and c1, c2 the means of the two regions at each step (divided by their area). phi
+    is the level-set function of the curve, positive inside.
 
     Parameters
     ----------
     level_set : LevelSet
-        Band and stencils, regularisation (here a slope, without unit), tolerance and step limit; the unit of its extension
-        interval is the time in which the data term alone would move the curve by ten widths.
+        Band and stencils, regularisation (here a slope, without unit), tolerance and step limit; the unit of its
+        extension interval is the time in which the data term alone would move the curve by ten widths.
     mu : float
         Weight, in 1 / (unit of the image^2 * unit of length).
     width : float
@@ -80,13 +80,14 @@ class LevelSetChanVese:
             inside = 0.5 + np.arctan(phi / width) / np.pi
             means = _means(mass, phi > 0, data, means)
             slope = self.mu * ((means[0] - data) ** 2 - (means[1] - data) ** 2)
-            if iteration % interval == 0:
+            if iteration % interval == 0 or iteration == scheme.step_limit:
                 misfit = self.mu * mass @ (data - means[1]) ** 2
                 rows.append(
                     (iteration, energy.total_variation(inside) + float(mass @ (slope * inside)) + float(misfit))
                 )
-                if iteration and abs(rows[-2][1] - rows[-1][1]) <= scheme.tolerance * abs(rows[-1][1]):
-                    converged = True
+                fall = rows[-2][1] - rows[-1][1] if iteration else np.inf
+                converged = iteration % interval == 0 and abs(fall) <= scheme.tolerance * abs(rows[-1][1])
+                if converged or iteration == scheme.step_limit:
                     break
             delta = width / (np.pi * (width**2 + phi**2))
             phi = phi - step * delta * (load / mass + slope)

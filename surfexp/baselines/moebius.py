@@ -41,8 +41,8 @@ def centre_of_mass(points: Floats, masses: Floats) -> Floats:
 def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_limit: int = 200) -> Floats:
     """Move masses on the unit sphere by Moebius transformations until their centre of mass is the origin.
 
-    Newton's method with the step halved until the centre of mass comes nearer (Baden, Crane and Kazhdan 2018). Among the conformal
-    maps of a surface to the sphere that one is unique up to rotation.
+    Newton's method with the step halved until the centre of mass comes nearer (Baden, Crane and Kazhdan 2018). Among
+    the conformal maps of a surface to the sphere that one is unique up to rotation.
 
     Parameters
     ----------
@@ -72,8 +72,8 @@ def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_
             step *= 0.5
             if np.linalg.norm(step) < 1e-14:
                 raise ValueError(
-                    f"centre of mass stays {np.linalg.norm(mean):.2g} from the origin, at most {tolerance:g} is wanted; "
-                    "the map crowds the surface into a point"
+                    f"centre of mass stays {np.linalg.norm(mean):.2g} from the origin, at most {tolerance:g} is "
+                    "wanted; the map crowds the surface into a point"
                 )
             moved = invert(points, step)
         points = moved / np.linalg.norm(moved, axis=1, keepdims=True)

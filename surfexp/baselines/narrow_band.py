@@ -12,7 +12,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
 Indices = NDArray[np.int32]
 LARGEST_GRID = 10**9
@@ -187,7 +187,15 @@ def _padding(radius: float) -> int:
 
 
 @njit(cache=True, nogil=True)
-def _mark_candidates(vertices, faces, normals, origin, step, radius, marked):  # type: ignore[no-untyped-def]
+def _mark_candidates(
+    vertices: Floats,
+    faces: Integers,
+    normals: Floats,
+    origin: Floats,
+    step: float,
+    radius: float,
+    marked: NDArray[np.bool_],
+) -> None:
     """Mark the grid points in the box around each face, grown by the radius, that lie so near to its plane."""
     low, high = np.empty(3, np.int64), np.empty(3, np.int64)
     for f in range(faces.shape[0]):

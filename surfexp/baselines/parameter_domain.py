@@ -31,8 +31,8 @@ class ParameterDomain:
     to_vertices : (n, k) csr_array
         Interpolates back.
     keeps_faces : bool
-        Whether the faces of the domain are those of the mesh, in the same order, so that a dual field on the domain, given
-        in frames along the first sides, is one on the surface.
+        Whether the faces of the domain are those of the mesh, in the same order, so that a dual field on the domain,
+        given in frames along the first sides, is one on the surface.
     name : str
     metrics : dict of str to float
     """
@@ -71,8 +71,8 @@ class Parametrized:
     ) -> Solution:
         """Solve on the domain and interpolate to the vertices, then measure the result on the surface.
 
-        `start` is an earlier solution at the vertices. Where the domain keeps the faces, the dual field of the domain is
-        feasible on the surface too and certifies the energy there; else there is no certificate. `domain_energy` and
+        `start` is an earlier solution at the vertices. Where the domain keeps the faces, the dual field of the domain
+        is feasible on the surface too and certifies the energy there; else there is no certificate. `domain_energy` and
         `domain_gap` among the metrics are those of the solver.
         """
         domain = self.domain
@@ -107,10 +107,10 @@ class Parametrized:
 
 
 def conformal_operator(mesh: TriangleMesh, image: TriangleMesh) -> SurfaceOperator:
-    """Return the operator of an image of a surface whose lengths are those of the surface as far as the map is conformal.
+    """Return the operator of the image of a surface with the lengths of the surface, as far as the map is conformal.
 
-    Areas are those A of the surface and gradients those of the image times the length scale sqrt(A_image / A) of the face, so
-    that the total variation is sum_T sqrt(A A_image) |G_image f|, the conformal factor as weights.
+    Areas are those A of the surface and gradients those of the image times the length scale sqrt(A_image / A) of the
+    face, so that the total variation is sum_T sqrt(A A_image) |G_image f|, the conformal factor as weights.
 
     Parameters
     ----------

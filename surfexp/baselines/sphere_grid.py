@@ -14,9 +14,9 @@ from surfexp.operators.fem import fem
 def sphere_grid_domain(mesh: TriangleMesh, positions: Floats, columns: int = 512, rows: int = 256) -> ParameterDomain:
     """Resample a surface on a regular grid of its spherical image.
 
-    Every grid point takes its values from the spherical triangle in which it lies, every vertex takes its result from the
-    grid triangle in which it lies, and the area of a grid triangle on the surface follows from the conformal factors at
-    its corners. Detail between grid points is lost: `grid_separation` says how much.
+    Every grid point takes its values from the spherical triangle in which it lies, every vertex takes its result from
+    the grid triangle in which it lies, and the area of a grid triangle on the surface follows from the conformal
+    factors at its corners. Detail between grid points is lost: `grid_separation` says how much.
 
     Parameters
     ----------

@@ -15,9 +15,9 @@ from surfexp.operators.fem import fem
 def spherical_map(mesh: TriangleMesh) -> Floats:
     """Map a closed genus-0 surface to the unit sphere, angles kept as far as the mesh lets them.
 
-    Solves Laplace(z) = (d/dx - i d/dy) delta_p with linear elements and the cotangent matrix, the singular point p inside
-    the most regular face; stereographic projection takes the plane to the sphere, scaled so that half of the area lies on
-    each hemisphere, and a Moebius transformation puts the centre of mass at the origin.
+    Solves Laplace(z) = (d/dx - i d/dy) delta_p with linear elements and the cotangent matrix, the singular point p
+    inside the most regular face; stereographic projection takes the plane to the sphere, scaled so that half of the
+    area lies on each hemisphere, and a Moebius transformation puts the centre of mass at the origin.
 
     Parameters
     ----------
@@ -55,15 +55,16 @@ def check_sphere(mesh: TriangleMesh) -> None:
     """
     if not mesh.is_closed or mesh.component_count != 1 or mesh.genus != 0:
         raise ValueError(
-            f"surface has {len(mesh.boundary_loops)} boundary loops, {mesh.component_count} components and genus {mesh.genus}, "
-            "a spherical map needs 0, 1 and 0; use disk_map for an open patch and patchwise for a higher genus"
+            f"surface has {len(mesh.boundary_loops)} boundary loops, {mesh.component_count} components and genus "
+            f"{mesh.genus}, a spherical map needs 0, 1 and 0; take disk_map for a patch, patchwise for a higher genus"
         )
 
 
 def inverse_stereographic(plane: np.ndarray) -> Floats:
     """Points (2 x, 2 y, 1 - |z|^2) / (1 + |z|^2) of the unit sphere for complex (n,) z = x + i y.
 
-    The plane is seen from the pole at infinity (0, 0, -1), so that a counter-clockwise triangle stays one seen from outside.
+    The plane is seen from the pole at infinity (0, 0, -1), so that a counter-clockwise triangle stays one seen from
+    outside.
     """
     square = np.abs(plane) ** 2
     return np.stack([2.0 * plane.real, 2.0 * plane.imag, 1.0 - square], axis=1) / (1.0 + square)[:, None]

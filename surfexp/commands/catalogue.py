@@ -35,7 +35,9 @@ def command(name: str, arguments: list[str]) -> int:
         _rows(console, [(name, _title(file)) for name, file in experiments().items()])
     elif given.kind is None:
         counts = Counter(kind for kind, _ in registry.PLUGINS)
-        _rows(console, [(kind, f"{counts[kind]} plugins") for kind in KINDS] + [("experiment", f"{len(experiments())}")])
+        _rows(
+            console, [(kind, f"{counts[kind]} plugins") for kind in KINDS] + [("experiment", f"{len(experiments())}")]
+        )
     elif given.kind in KINDS:
         _rows(console, [(p.name, p.summary) for (k, _), p in sorted(registry.PLUGINS.items()) if k == given.kind])
     else:
@@ -68,7 +70,9 @@ def _info(wanted: str, console: Console) -> None:
     console.print(f"{kind}/{name}: {method.summary}")
     for role, item in method.inputs.items():
         allowed = f" ({', '.join(method.accepts[item.kind])})" if item.kind in method.accepts else ""
-        console.print(f"  input {role}: {item.kind}{'' if item.shape == 'one' else f' ({item.shape})'}{allowed}", markup=False)
+        console.print(
+            f"  input {role}: {item.kind}{'' if item.shape == 'one' else f' ({item.shape})'}{allowed}", markup=False
+        )
     table = Table("option", "default", "values", "meaning")
     for option, field in method.options.model_fields.items():
         default = "required" if field.is_required() else repr(field.get_default(call_default_factory=True))
@@ -83,5 +87,10 @@ def domain(field: FieldInfo) -> str:
     text = getattr(annotation, "__name__", None) if isinstance(annotation, type) else None
     text = text or str(annotation).replace("typing.", "").replace("pathlib.", "").replace("Literal", "one of ")
     signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "min_length": "length ≥", "max_length": "length ≤"}
-    bounds = [f"{sign} {getattr(rule, name)}" for rule in field.metadata for name, sign in signs.items() if hasattr(rule, name)]
+    bounds = [
+        f"{sign} {getattr(rule, name)}"
+        for rule in field.metadata
+        for name, sign in signs.items()
+        if hasattr(rule, name)
+    ]
     return ", ".join([text, *bounds])

@@ -10,7 +10,18 @@ import shutil
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-NEEDED = ("numpy", "scipy", "numba", "libigl", "cholespy", "robust_laplacian", "hydra-core", "snakemake", "mlflow", "pydantic")
+NEEDED = (
+    "numpy",
+    "scipy",
+    "numba",
+    "libigl",
+    "cholespy",
+    "robust_laplacian",
+    "hydra-core",
+    "snakemake",
+    "mlflow",
+    "pydantic",
+)
 OPTIONAL = {
     "open3d": "more mesh formats, point clouds, the viewer: pip install 'surfexp[open3d]' and the system package libusb-1.0-0",
     "cvxpy": "the conic referee solver: pip install 'surfexp[conic]'",
@@ -22,7 +33,9 @@ def command(name: str, arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder to examine")
     given = parser.parse_args(arguments)
-    print(f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors")
+    print(
+        f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors"
+    )
     missing = 0
     for package in NEEDED:
         try:
@@ -40,5 +53,7 @@ def command(name: str, arguments: list[str]) -> int:
     free = shutil.disk_usage(folder).free / 1e9
     print(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {given.results}")
     writable = os.access(folder, os.W_OK)
-    print(f"  {'ok      ' if writable else 'READ-ONLY'} {folder.resolve()} {'' if writable else ': choose results=FOLDER'}")
+    print(
+        f"  {'ok      ' if writable else 'READ-ONLY'} {folder.resolve()} {'' if writable else ': choose results=FOLDER'}"
+    )
     return 1 if missing or not writable else 0

@@ -13,7 +13,9 @@ def command(name: str, arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
     parser.add_argument("action", choices=["check", "repair"])
     parser.add_argument("file", type=Path)
-    parser.add_argument("--output", type=Path, help="where the repaired mesh goes; default: NAME-repaired.ply beside it")
+    parser.add_argument(
+        "--output", type=Path, help="where the repaired mesh goes; default: NAME-repaired.ply beside it"
+    )
     parser.add_argument("--largest-component", action="store_true", help="keep the largest component only")
     given = parser.parse_args(arguments)
     from surfexp.mesh.reading import read_mesh

@@ -47,7 +47,9 @@ def test_{name}_is_registered_with_documented_options() -> None:
 
 def command(name: str, arguments: list[str]) -> int:
     """Write `plugins/KIND/NAME.py` and `tests/test_KIND_NAME.py` in the working folder."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__, epilog="example: surfexp new solver my_method")
+    parser = argparse.ArgumentParser(
+        f"surfexp {name}", description=__doc__, epilog="example: surfexp new solver my_method"
+    )
     parser.add_argument("kind", help=f"one of: {', '.join(KINDS)}")
     parser.add_argument("name", help="the field's word for the method, e.g. split_bregman")
     given = parser.parse_args(arguments)

@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.commands.progress import follow
 from surfexp.commands.views import print_tables, wide_console
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.kinds import KINDS
@@ -39,7 +40,7 @@ def _run(plan: Plan) -> None:
     console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
     failure = None
     try:
-        run(plan)
+        run(plan, follow)
     except StageFailure as error:
         failure = error
     print_tables(plan, results, console)
@@ -54,7 +55,9 @@ def _show(plan: Plan) -> None:
     results = Path(plan.settings.results)
     missing = Counter(node.kind for node in unfinished(plan, results))
     unique = Counter(node.kind for node in plan.stored)
-    table = Table("stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left")
+    table = Table(
+        "stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left"
+    )
     for kind in unique:
         table.add_row(kind, str(unique[kind]), str(unique[kind] - missing[kind]), str(missing[kind]))
     console = Console(highlight=False)

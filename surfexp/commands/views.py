@@ -10,6 +10,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.report.claims import as_markdown, judge
 from surfexp.report.page import write_report
 from surfexp.report.table import comparisons, format_number, rows_of, short_name
 from surfexp.workflow.errors import UserError, unknown
@@ -25,10 +26,15 @@ def command(name: str, arguments: list[str]) -> int:
         parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")
         return _dashboard(parser.parse_args(arguments))
     parser.add_argument("experiment", nargs="?", default="quickstart")
+    if name == "report":
+        parser.add_argument("--claims", action="store_true", help="print the verdicts on published claims as Markdown")
     given = parser.parse_args(arguments)
     plan = latest_plan(given.results, given.experiment)
     if name == "table":
         print_tables(plan, given.results, wide_console())
+    elif given.claims:
+        verdicts = judge(plan.settings.claims, rows_of(plan, given.results.resolve()))
+        print(as_markdown(given.experiment, plan.settings.title, verdicts))
     else:
         print(write_report(plan, given.results.resolve()) / "report.html")
     return 0

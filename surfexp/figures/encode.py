@@ -35,16 +35,22 @@ def encode_png(pixels: NDArray[np.uint8]) -> bytes:
     exact = _png(picture)
     if len(exact) <= LIGHT_BYTES:
         return exact
-    dithered = picture.quantize(palette=_palette(pixels), dither=PillowImage.Dither.FLOYDSTEINBERG)
+    dithered = _dithered(picture, pixels)
     return min(exact, _png(dithered), key=len) if _looks_same(dithered, pixels) else exact
 
 
-def _palette(pixels: NDArray[np.uint8]) -> PillowImage.Image:
-    """A picture that carries 255 colours near those of the pixels, and white, so that paper stays clean."""
+def _dithered(picture: PillowImage.Image, pixels: NDArray[np.uint8]) -> PillowImage.Image:
+    """The picture in 255 colours near its own, and white, so that paper stays clean."""
     sparse = PillowImage.fromarray(np.ascontiguousarray(pixels[::THINNING, ::THINNING]))
     palette = sparse.quantize(255, method=PillowImage.Quantize.MEDIANCUT, kmeans=1)
-    palette.putpalette([*(palette.getpalette() or [])[: 3 * 255], 255, 255, 255])
-    return palette
+    colors = [*(palette.getpalette() or []), *[255] * 768][: 3 * 255] + [255] * 3
+    palette.putpalette(colors)
+    indices = np.array(picture.quantize(palette=palette, dither=PillowImage.Dither.FLOYDSTEINBERG))
+    # Pillow looks colours up in cells four levels wide, in which white may meet its neighbours
+    indices[(pixels == 255).all(axis=2)] = 255
+    dithered = PillowImage.fromarray(indices)
+    dithered.putpalette(colors)
+    return dithered
 
 
 def _looks_same(picture: PillowImage.Image, pixels: NDArray[np.uint8]) -> bool:

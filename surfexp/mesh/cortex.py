@@ -9,6 +9,7 @@ from numba import njit
 
 from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
 from surfexp.mesh.remeshing import remesh
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -77,4 +78,4 @@ def cortex(form: Literal["smooth", "folded"] = "folded", count: int = 39994, see
     sphere = fibonacci_sphere(count).mesh
     radii = -_radius_excess(sphere.vertices, waves, phases, depth, width)
     mesh = remesh(sphere.vertices * (1.0 + radii[:, None]) * SEMIAXES, sphere.faces, implicit, count)
-    return Surface(mesh, name=f"{form} cortex-like surface")
+    return with_metrics(Surface(mesh, name=f"{form} cortex-like surface"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.rectangle import grid_faces
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.stl import weld
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -45,7 +46,7 @@ def cube(cells: int = 32, side: float = 2.0, rotation: tuple[float, float, float
     vertices, faces = weld(np.concatenate(corners))
     mesh = TriangleMesh(0.5 * side * vertices @ rotation_matrix(rotation).T, faces)
     sides = np.argmax(np.concatenate([vertices, -vertices], axis=1), axis=1).astype(float)
-    return Surface(mesh, name="cube", scalars={"side": sides})
+    return with_metrics(Surface(mesh, name="cube", scalars={"side": sides}))
 
 
 def rotation_matrix(degrees: tuple[float, float, float]) -> np.ndarray:

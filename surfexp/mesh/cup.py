@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.implicit_surface import mesh_implicit, smooth_intersection, smooth_union
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -41,4 +42,4 @@ def cup(count: int = 25075) -> Surface:
         raise ValueError(f"cup has count = {count}; at least 2000 vertices are needed to resolve wall and handle")
     spacing = min(5.8 / np.sqrt(count), 0.07)
     mesh = mesh_implicit(cup_function, [-1.1, -1.1, -1.4], [2.0, 1.1, 1.4], spacing, count)
-    return Surface(mesh, name="cup")
+    return with_metrics(Surface(mesh, name="cup"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
 
@@ -45,7 +46,7 @@ def disk(rings: int = 30, radius: float = 1.0) -> Surface:
     rho, angle = ring_coordinates(rings)
     vertices = radius * np.stack([rho * np.cos(angle), rho * np.sin(angle), np.zeros_like(rho)], axis=1)
     mesh = TriangleMesh(vertices, ring_faces(rings))
-    return Surface(mesh, name="disk", coordinates=np.stack([radius * rho, angle], axis=1))
+    return with_metrics(Surface(mesh, name="disk", coordinates=np.stack([radius * rho, angle], axis=1)))
 
 
 def ring_coordinates(rings: int) -> tuple[np.ndarray, np.ndarray]:

@@ -160,13 +160,16 @@ def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
     n = len(vertices)
     start, star = vertex_stars(faces, n)
     locked, gained = np.zeros(len(faces), np.bool_), np.zeros(n, np.bool_)
-    valence = start[1:] - start[:-1]
+    # how many faces a vertex can lose: three must stay around it, on the boundary one
+    spare = start[1:] - start[:-1] - 3
+    for edge in boundary_edges(faces, n):
+        spare[edge[0]] += 2
     flipped, count = faces.copy(), 0
     for f in range(len(faces)):
         for k in range(3):
             a, b, c = faces[f, k], faces[f, (k + 1) % 3], faces[f, (k + 2) % 3]
             g, d = across(faces, start, star, f, a, b)
-            if g < f or locked[f] or locked[g] or min(valence[a], valence[b]) <= 3 or (gained[c] and gained[d]):
+            if g < f or locked[f] or locked[g] or min(spare[a], spare[b]) <= 0 or (gained[c] and gained[d]):
                 continue
             angles = cosine(difference(vertices, c, a), difference(vertices, c, b)) + cosine(
                 difference(vertices, d, a), difference(vertices, d, b)
@@ -180,6 +183,6 @@ def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
             flipped[f] = a, d, c
             flipped[g] = d, b, c
             locked[f] = locked[g] = gained[c] = gained[d] = True
-            valence[a], valence[b] = valence[a] - 1, valence[b] - 1
+            spare[a], spare[b] = spare[a] - 1, spare[b] - 1
             count += 1
     return flipped, count

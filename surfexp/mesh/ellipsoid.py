@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -21,4 +22,4 @@ def ellipsoid(levels: int = 4, semiaxes: tuple[float, float, float] = (1.0, 1.3,
         raise ValueError(f"ellipsoid has semiaxes {semiaxes}; all have to be positive")
     sphere = icosphere(levels)
     mesh = TriangleMesh(sphere.mesh.vertices * np.array(semiaxes), sphere.mesh.faces)
-    return Surface(mesh, name="ellipsoid", coordinates=sphere.coordinates)
+    return with_metrics(Surface(mesh, name="ellipsoid", coordinates=sphere.coordinates))

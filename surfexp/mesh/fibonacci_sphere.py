@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from surfexp.mesh.icosphere import GOLDEN, spherical_coordinates
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -38,4 +39,6 @@ def fibonacci_sphere(count: int = 2562, jitter: float = 0.0, seed: int = 0, radi
     faces = ConvexHull(points).simplices.astype(np.int64)
     inward = np.linalg.det(points[faces]) < 0
     faces[inward] = faces[inward][:, [0, 2, 1]]
-    return Surface(TriangleMesh(radius * points, faces), name="sphere", coordinates=spherical_coordinates(points))
+    return with_metrics(
+        Surface(TriangleMesh(radius * points, faces), name="sphere", coordinates=spherical_coordinates(points))
+    )

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from surfexp.mesh.gifti import read_gifti_arrays
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 
@@ -41,7 +42,7 @@ def fsaverage5(hemisphere: Hemisphere = "left", surface: str = "pial") -> Surfac
         raise ValueError(f"fsaverage5 surface {surface!r} is unknown, choose one of {', '.join(SURFACES)}")
     vertices, faces = read_gifti_arrays(_packaged(f"{SURFACES[surface]}_{hemisphere}"))
     scalars = {name: _map(f"{stem}_{hemisphere}") for name, stem in MAPS.items()}
-    return Surface(TriangleMesh(vertices, faces), f"fsaverage5 {surface}, {hemisphere}", "mm", scalars)
+    return with_metrics(Surface(TriangleMesh(vertices, faces), f"fsaverage5 {surface}, {hemisphere}", "mm", scalars))
 
 
 def _map(stem: str) -> Floats:

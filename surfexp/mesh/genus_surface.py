@@ -6,6 +6,7 @@ import numpy as np
 
 from surfexp.mesh.implicit_surface import mesh_implicit, smooth_union
 from surfexp.mesh.remeshing import Implicit
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -41,7 +42,7 @@ def genus_surface(genus: int = 2, count: int = 8000) -> Surface:
         )
     half = 0.5 * DISTANCE * (genus - 1) + MAJOR + MINOR + 0.1
     mesh = mesh_implicit(row_of_tori(genus), [-half, -1.55, -0.55], [half, 1.55, 0.55], _spacing(genus, count), count)
-    return Surface(mesh, name={1: "torus", 2: "double torus"}.get(genus, f"genus-{genus} surface"))
+    return with_metrics(Surface(mesh, name={1: "torus", 2: "double torus"}.get(genus, f"genus-{genus} surface")))
 
 
 def half_double_torus(count: int = 31247) -> Surface:
@@ -57,7 +58,7 @@ def half_double_torus(count: int = 31247) -> Surface:
     half = 0.5 * DISTANCE + MAJOR + MINOR + 0.1
     spacing = _spacing(1, count)
     mesh = mesh_implicit(row_of_tori(2), [-half, -1.55, 0.0], [half, 1.55, 0.55], spacing, count, open_floor=True)
-    return Surface(mesh, name="half double torus")
+    return with_metrics(Surface(mesh, name="half double torus"))
 
 
 def _spacing(handles: int, count: int) -> float:

@@ -6,6 +6,7 @@ import numpy as np
 
 from surfexp.mesh.implicit_surface import mesh_implicit
 from surfexp.mesh.round_cones import round_cones
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -55,4 +56,4 @@ def hand(count: int = 58875) -> Surface:
         raise ValueError(f"hand has count = {count}; at least 4000 vertices are needed to tell the fingers apart")
     spacing = max(4.0 / np.sqrt(count), 0.018)
     mesh = mesh_implicit(hand_function, [-0.9, -0.6, 0.0], [1.2, 0.5, 2.8], min(spacing, 0.04), count, open_floor=True)
-    return Surface(mesh, name="hand")
+    return with_metrics(Surface(mesh, name="hand"))

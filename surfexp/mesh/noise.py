@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -31,4 +32,5 @@ def add_vertex_noise(
     else:
         shift = mesh.vertex_normals * random.normal(0.0, sigma, (len(mesh.vertices), 1))
     note = f"vertices carry Gaussian noise of standard deviation {sigma:g} (seed {seed}, direction: {direction})"
-    return replace(surface, mesh=TriangleMesh(mesh.vertices + shift, mesh.faces), notes=(*surface.notes, note))
+    moved = TriangleMesh(mesh.vertices + shift, mesh.faces)
+    return with_metrics(replace(surface, mesh=moved, notes=(*surface.notes, note)))

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 
@@ -65,7 +66,7 @@ def surface_of_revolution(
     coordinates = np.stack([np.repeat(station[1:-1], columns), angle.ravel() % (2.0 * np.pi)], axis=1)
     coordinates = np.concatenate([coordinates, [[0.0, 0.0], [arc[-1], 0.0]]])
     name = profile if isinstance(profile, str) else "surface of revolution"
-    return Surface(TriangleMesh(vertices, _faces(rows, columns)), name=name, coordinates=coordinates)
+    return with_metrics(Surface(TriangleMesh(vertices, _faces(rows, columns)), name=name, coordinates=coordinates))
 
 
 def _faces(rows: int, columns: int) -> np.ndarray:

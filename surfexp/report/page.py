@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, select_autoescape
 
 from surfexp.figures.encode import encode_png
+from surfexp.report.claims import judge
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.workflow import store
 from surfexp.workflow.plan import Plan
@@ -28,6 +28,7 @@ def write_report(plan: Plan, results: Path) -> Path:
         groups=[(group, _figures_of(group, figures)) for group in groups],
         failures=[row for row in rows if row.failure],
         best=_best,
+        verdicts=judge(plan.settings.claims, rows),
         stages=len(plan.stored),
         requested=plan.requested,
     )
@@ -74,8 +75,3 @@ def _best(group: Comparison, name: str, row: Row) -> bool:
     if name.startswith(HIGHER_IS_BETTER):
         return row.metrics[name] == max(values)
     return name.startswith(LOWER_IS_BETTER) and row.metrics[name] == min(values)
-
-
-def remove_report(results: Path, experiment: str) -> None:
-    """Remove the views of an experiment; its stored results stay."""
-    shutil.rmtree(results / experiment, ignore_errors=True)

@@ -113,4 +113,10 @@ def format_number(value: float | None) -> str:
 def short_name(parameter: str) -> str:
     """Heading of a parameter's column: the stage for a plugin's name, the option otherwise."""
     stage, _, option = parameter.rpartition(".")
-    return stage if option == "name" else parameter if "[" in parameter else f"{stage.split('.')[-1]} {option}".replace("_", " ")
+    return (
+        stage
+        if option == "name"
+        else parameter
+        if "[" in parameter
+        else f"{stage.split('.')[-1]} {option}".replace("_", " ")
+    )

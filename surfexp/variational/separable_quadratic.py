@@ -55,11 +55,11 @@ class SeparableQuadratic:
 
     @cached_property
     def step(self) -> float:
-        """1/mu, or 0.1 / mean a where some a_i are 0, or 0.05 / mean|r| for a linear term."""
+        """1/mu; 2 % of the box times the edge length where some a_i are 0; 0.05 / mean|r| for a linear term."""
         if self.strong_convexity > 0:
             return 1.0 / self.strong_convexity
         if self.weight.any():
-            return float(0.1 / self.weight.mean())
+            return float(0.02 * (self.upper - self.lower) * np.sqrt(self.mass.mean())) or 1.0
         return float(0.05 / max(np.abs(self.slope).mean(), 1e-300))
 
     def value(self, values: Floats) -> float:

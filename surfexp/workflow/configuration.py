@@ -34,6 +34,7 @@ class Settings(BaseModel):
     columns: list[str] = Field([], description="metrics of the table, in order; empty: all")
     figures: list[Any] = Field([], description="figure plugins drawn for each variant: a name, or name and options")
     objective: str | None = Field(None, description="metric that an optimising sweeper minimises")
+    claims: list[Any] = Field([], description="published claims, each judged from the rows of the report")
     axes: dict[str, Any] = Field({}, description="named collections: axis, then label, then a partial configuration")
     variants: list[Any] = Field([], description="partial configurations, each with its own grid; their union is run")
     grid: dict[str, list[Any]] = Field({}, description="dotted option to list of values; every combination is run")

@@ -66,7 +66,9 @@ def code_digest(file: Path) -> str:
 def numba_state(file: Path, code: str) -> str:
     """Name of the compilation cache of a plugin: one for all plugins of this package, one each for those of others."""
     package = Path(__file__).resolve().parent.parent
-    own = digest([sorted(_meaning(path) for path in package.rglob("*.py")), package_version("numba"), sys.version_info[:2]])
+    own = digest(
+        [sorted(_meaning(path) for path in package.rglob("*.py")), package_version("numba"), sys.version_info[:2]]
+    )
     return own if file.parent.parent == package.parent / "plugins" else digest([own, code])
 
 

@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -26,9 +25,9 @@ from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Node, Plan, make_plan, read_plan
-from surfexp.workflow.progress import follow
 from surfexp.workflow.stage import event_path, read_event
 
+PLAIN = (bool, int, float, str, list, dict, type(None))
 HELD = "SURFEXP_HOLDS_RESULTS"
 _locks: list[int] = []
 
@@ -78,8 +77,8 @@ def prepare_hydra() -> None:
     configurations = ConfigStore.instance()
     for (kind, name), method in registry.PLUGINS.items():
         fields = method.options.model_fields
-        defaults = {key: "???" if item.is_required() else item.get_default(call_default_factory=True) for key, item in fields.items()}
-        plain = {key: value if isinstance(value, bool | int | float | str | list | dict | None) else str(value) for key, value in defaults.items()}
+        defaults = {key: "???" if item.is_required() else item.get_default() for key, item in fields.items()}
+        plain = {key: value if isinstance(value, PLAIN) else str(value) for key, value in defaults.items()}
         configurations.store(group=kind, name=name, node={"name": name, **plain}, provider="surfexp")
     sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.
     for extension in (PlanLauncher, ConfigurationFolders):
@@ -115,25 +114,26 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
 
     prepare_hydra()
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
-        repository = GlobalHydra.instance().config_loader().repository
-        stages, rest = split_overrides([f"{key}={value}" for key, value in config.items()], repository)
+        loader: Any = GlobalHydra.instance().config_loader()
+        stages, rest = split_overrides([f"{key}={value}" for key, value in config.items()], loader.repository)
         plan = make_plan(expand(_plain(compose("config", overrides=rest)), stages))
     path = plan.write(Path(plan.settings.results).resolve())
     return path, read_plan(path)
 
 
-def run(plan: Plan, cores: int | None = None) -> None:
-    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed."""
+def run(plan: Plan, follow: Callable[[subprocess.Popen[bytes], list[Node], Path], None]) -> None:
+    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed.
+
+    `follow` shows the stages of the running Snakemake process and returns when it has ended.
+    """
     results = Path(plan.settings.results).resolve()
     hold_results(results, wait=True)
     path = plan.write(results)
     missing = unfinished(plan, results)
-    leaves = {leaf.key for leaf in plan.leaves}
-    forced = sorted(leaves) if plan.settings.timing else []
-    if missing or forced:
+    if missing or plan.settings.timing:
         for node in missing:
             event_path(results, node.kind, node.key).unlink(missing_ok=True)
-        _snakemake(plan, path, results, missing, forced)
+        _snakemake(plan, path, results, missing, follow)
     finish(path)
     failures = [read_event(results, node.kind, node.key).get("failure") for node in plan.stored]
     left = unfinished(plan, results)
@@ -147,13 +147,13 @@ def unfinished(plan: Plan, results: Path) -> list[Node]:
     return [node for node in plan.stored if not store.is_done(results, node.kind, node.key)]
 
 
-def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: list[str]) -> None:
+def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], follow: Any) -> None:
     rules = Path(__file__).with_name("rules.smk")
     profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
     command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
-    if forced:
+    if plan.settings.timing:
         command += ["--forcerun", plan.settings.target]
     log = results / "logs" / f"{path.stem}.snakemake.log"
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -188,12 +188,7 @@ def hold_results(results: Path, wait: bool = False) -> None:
         if not wait:
             raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
         print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
-        while True:
-            try:
-                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                break
-            except BlockingIOError:
-                time.sleep(0.2)
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
     _locks.append(descriptor)
 
 
@@ -244,7 +239,9 @@ def _objective(plan: Plan, results: Path) -> float | None:
     name = plan.settings.objective
     if name is None:
         return None
-    values = [read_event(results, plan.nodes[leaf.key].kind, leaf.key).get("metrics", {}).get(name) for leaf in plan.leaves]
+    values = [
+        read_event(results, plan.nodes[leaf.key].kind, leaf.key).get("metrics", {}).get(name) for leaf in plan.leaves
+    ]
     if any(value is None for value in values):
         raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")
     return float(sum(values) / len(values))

@@ -60,7 +60,9 @@ def _encode(value: Any, path: str, arrays: dict[str, Any]) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         cls = type(value)
         kind = next((kind.name for kind in KINDS.values() if kind.result is cls), None)
-        fields = {f.name: _encode(getattr(value, f.name), f"{path}/{f.name}", arrays) for f in dataclasses.fields(value)}
+        fields = {
+            f.name: _encode(getattr(value, f.name), f"{path}/{f.name}", arrays) for f in dataclasses.fields(value)
+        }
         return {"class": kind or f"{cls.__module__}:{cls.__qualname__}", "fields": fields}
     if issparse(value):
         matrix = value.tocsr()

@@ -50,7 +50,12 @@ def record(plan: Plan, results: Path, views: Path) -> None:
         run = by_leaf.get(leaf.key) or next((run for run in same if run.info.status == "FAILED"), None)
         if run is not None and run.data.tags.get("state") == state:
             continue
-        tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "mlflow.parentRunId": parent.info.run_id}
+        tags = {
+            "leaf": leaf.key,
+            "configuration": leaf.configuration,
+            "current": "true",
+            "mlflow.parentRunId": parent.info.run_id,
+        }
         run = run or client.create_run(identity, run_name=_label(leaf), tags=tags)
         _fill(client, run.info.run_id, leaf, upstream, events[leaf.key], {**tags, **_versions(), "state": state})
         for old in same:

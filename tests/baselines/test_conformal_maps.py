@@ -29,7 +29,7 @@ def rates(errors):
 
 
 def test_a_sphere_comes_back_as_a_moebius_map():
-    """Centred, that is a rotation: angles of the linear map converge with order 1, after the flow they are the same at once."""
+    """Centred, that is a rotation: angles of the linear map converge with order 1, the flow mends them at once."""
     angles, distances = [], []
     for levels in (2, 3, 4):
         mesh = icosphere(levels).mesh

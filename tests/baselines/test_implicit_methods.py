@@ -1,4 +1,4 @@
-"""The level-set and the closest-point method against exact and intrinsic solutions, and their iterations by themselves."""
+"""The level-set and the closest-point method against exact and intrinsic solutions, and their iterations."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from surfexp.mesh.icosphere import icosphere
 
 
 def distance_to_triangles(points, mesh):
-    """Brute force, independent of any tree: the least distance to the inside, the sides and the corners of each face."""
+    """Brute force, independent of any tree: the least distance to the inside and the sides of each face."""
     best = np.full(len(points), np.inf)
     for face in mesh.faces:
         a, b, c = mesh.vertices[face]

@@ -162,7 +162,7 @@ def test_one_planar_patch_is_the_intrinsic_problem():
     flat = TriangleMesh(half.vertices[used], faces.reshape(-1, 3))
     labels = np.zeros(len(flat.faces), dtype=np.int64)
     assert not seam_vertices(flat, labels).any()
-    operator, image, fidelity = problem(flat)
+    operator, _, fidelity = problem(flat)
     solution = Parametrized(patchwise_domain(flat, labels), partial(primal_dual, tolerance=1e-7))(fidelity, operator)
     assert solution.relative_gap < 1e-6
 

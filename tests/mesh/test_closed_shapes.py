@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -63,6 +65,9 @@ def test_topology_and_validity(shape: tuple[Surface, int, int]) -> None:
     assert surface.mesh.is_closed == (loops == 0)
     assert validate(surface.mesh.vertices, surface.mesh.faces).ok
     assert loops or volume(surface.mesh) > 0
+    assert (surface.metrics["genus"], surface.metrics["boundary_loops"]) == (genus, loops)
+    assert surface.metrics["vertices"] == len(surface.mesh.vertices)
+    assert 0 < surface.metrics["minimum_angle"] == surface.mesh.minimum_angle <= 60
 
 
 def test_gauss_bonnet(shape: tuple[Surface, int, int]) -> None:
@@ -71,7 +76,7 @@ def test_gauss_bonnet(shape: tuple[Surface, int, int]) -> None:
 
 
 def rates(errors: list[float]) -> list[float]:
-    return [float(np.log2(coarse / fine)) for coarse, fine in zip(errors[:-1], errors[1:], strict=True)]
+    return [float(np.log2(coarse / fine)) for coarse, fine in pairwise(errors)]
 
 
 FAMILIES = {

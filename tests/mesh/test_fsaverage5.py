@@ -27,7 +27,9 @@ def test_every_surface_is_closed_of_genus_zero_and_outward(hemisphere: str, surf
 def test_curvature_is_positive_in_sulci() -> None:
     cortex = fsaverage5("left", "white")
     mesh = cortex.mesh
-    normal_curvature = -(igl.cotmatrix(mesh.vertices, np.array(mesh.faces)) @ mesh.vertices) / mesh.vertex_areas[:, None]
+    normal_curvature = (
+        -(igl.cotmatrix(mesh.vertices, np.array(mesh.faces)) @ mesh.vertices) / mesh.vertex_areas[:, None]
+    )
     outward = 0.5 * (normal_curvature * mesh.vertex_normals).sum(axis=1)
     assert np.corrcoef(outward, cortex.scalars["curv"])[0, 1] < -0.7
     assert np.corrcoef(cortex.scalars["sulc"], cortex.scalars["curv"])[0, 1] > 0.7
@@ -46,5 +48,7 @@ def test_unknown_names_are_refused() -> None:
 
 
 def test_nilearn_is_not_imported() -> None:
-    code = "import sys; from surfexp.mesh.fsaverage5 import fsaverage5; fsaverage5(); assert 'nilearn' not in sys.modules"
+    code = (
+        "import sys; from surfexp.mesh.fsaverage5 import fsaverage5; fsaverage5(); assert 'nilearn' not in sys.modules"
+    )
     subprocess.run([sys.executable, "-c", code], check=True)

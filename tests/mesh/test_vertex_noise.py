@@ -18,6 +18,7 @@ def test_noise_has_its_standard_deviation_and_seed() -> None:
     assert (noisy.mesh.vertices == again.mesh.vertices).all()
     assert not np.allclose(noisy.mesh.vertices, other.mesh.vertices)
     assert (noisy.scalars["side"] == clean.scalars["side"]).all()
+    assert noisy.metrics["minimum_angle"] == noisy.mesh.minimum_angle < clean.metrics["minimum_angle"]
     assert "0.1 (seed 1, direction: all)" in noisy.notes[0]
 
 

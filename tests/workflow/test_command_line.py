@@ -32,7 +32,7 @@ pytestmark = pytest.mark.xdist_group("end_to_end")
 
 
 def surfexp(*arguments: str, code: int = 0, **environment: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "surfexp.workflow.command_line", *arguments]
+    command = [sys.executable, "-m", "surfexp.commands.command_line", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=300)
     assert done.returncode == code, (done.returncode, done.stdout, done.stderr)
     return done
@@ -59,13 +59,15 @@ def runs(folder: Path) -> dict[str, tuple[str, dict[str, str], dict[str, float]]
 
 def store_bytes(folder: Path) -> dict[str, bytes]:
     store = folder / "results" / "store"
-    return {str(file.relative_to(store)): file.read_bytes() for file in store.rglob("*.*") if not file.name.startswith(".")}
+    return {
+        str(file.relative_to(store)): file.read_bytes() for file in store.rglob("*.*") if not file.name.startswith(".")
+    }
 
 
 def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> None:
     first = surfexp("run", "experiment=chain")
     assert "toy_distance" in first.stdout and "results/chain/report.html" in first.stdout
-    assert set(status for status, _, _ in runs(laboratory).values()) == {"FINISHED"} and len(runs(laboratory)) == 2
+    assert {status for status, _, _ in runs(laboratory).values()} == {"FINISHED"} and len(runs(laboratory)) == 2
     before = store_bytes(laboratory)
 
     again = surfexp("run", "experiment=chain")
@@ -86,8 +88,11 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
 
     toys = laboratory / "plugins" / "pairing" / "toys.py"
     good = toys.read_text()
-    toys.write_text(good.replace('raise ValueError(f"surface', 'x = ValueError(f"surface').replace(
-        "value = float(np.abs(source.values - target.values).max())", 'raise ValueError("planted failure")'))
+    toys.write_text(
+        good.replace('raise ValueError(f"surface', 'x = ValueError(f"surface').replace(
+            "value = float(np.abs(source.values - target.values).max())", 'raise ValueError("planted failure")'
+        )
+    )
     failed = surfexp("run", "experiment=chain", code=1)
     assert "pairing/toy_distance: planted failure" in failed.stderr and "Traceback" not in failed.stderr
     assert sorted(status for status, _, _ in runs(laboratory).values()).count("FAILED") == 2  # the leaf and its parent
@@ -98,7 +103,16 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
 
 
 def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:
-    command = [sys.executable, "-m", "snakemake", "-c2", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"]
+    command = [
+        sys.executable,
+        "-m",
+        "snakemake",
+        "-c2",
+        "--snakefile",
+        str(ROOT / "Snakefile"),
+        "--config",
+        "experiment=chain",
+    ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
     assert {status for status, _, _ in runs(laboratory).values()} == {"FINISHED"}
@@ -109,21 +123,21 @@ def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -
     assert store_bytes(laboratory) == plain
 
 
-@pytest.mark.parametrize("victim", ["surfexp.workflow.command_line", "snakemake", "surfexp.workflow.stage"])
+@pytest.mark.parametrize("victim", ["surfexp.commands.command_line", "snakemake", "surfexp.workflow.stage"])
 def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim: str) -> None:
     surfexp("run", "experiment=chain")
     undisturbed = store_bytes(laboratory)
     shutil.rmtree(laboratory / "results")
-    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and process.poll() is None:
-        pids = subprocess.run(["pgrep", "-f", f"{victim}.*{laboratory.name if victim != 'surfexp.workflow.command_line' else 'chain'}"],
-                              capture_output=True, text=True).stdout.split()
+        pattern = "surfexp.commands.command_line.*chain" if victim.endswith("line") else f"{victim}.*{laboratory.name}"
+        pids = subprocess.run(["pgrep", "-f", pattern], capture_output=True, text=True).stdout.split()
         started = list((laboratory / "results" / "store").glob("*/*/record.json"))
         if pids and started:
             for pid in pids:
-                if victim != "surfexp.workflow.command_line" or int(pid) == process.pid:
+                if victim != "surfexp.commands.command_line" or int(pid) == process.pid:
                     try:
                         os.kill(int(pid), signal.SIGKILL)
                     except ProcessLookupError:
@@ -136,7 +150,7 @@ def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim:
 
 
 def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
-    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
     outputs = [process.communicate(timeout=300) for process in both]
     assert [process.returncode for process in both] == [0, 0], outputs
@@ -151,7 +165,10 @@ def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
         (["run", "solver=primal_daul"], "unknown solver 'primal_daul'; did you mean 'primal_dual'?"),
         (["run", "experiment=quickstrat"], "unknown experiment 'quickstrat'; did you mean 'quickstart'?"),
         (["run", "+nosuch=1"], "unknown configuration key 'nosuch'"),
-        (["run", "experiment=chain", "surface.size=-1"], "surface/toy_triangle.size = -1: Input should be greater than 0"),
+        (
+            ["run", "experiment=chain", "surface.size=-1"],
+            "surface/toy_triangle.size = -1: Input should be greater than 0",
+        ),
         (["run", "experiment=chain", "surface.szie=1"], "unknown option of surface 'szie'; did you mean 'size'?"),
         (["run", "experiment=chain", "surface=file"], "surface/file.path is required; set surface.path=VALUE"),
         (["run", "experiment=chain", "surface=file", "surface.path=no.ply"], "file 'no.ply' does not exist"),
@@ -214,8 +231,10 @@ def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
 
 
 def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path) -> None:
-    command = [sys.executable, "-m", "surfexp.workflow.command_line", "run", "experiment=chain"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     deadline = time.monotonic() + 60
     while not list(laboratory.glob("results/store/*/*/record.json")) and time.monotonic() < deadline:
         time.sleep(0.02)

@@ -16,7 +16,9 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     folder = tmp_path / f"thirdparty_{tmp_path.name}"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
-    (folder / "method.py").write_text('"""Doc."""\nfrom . import helper\nimport numpy\n\ndef f(x):\n    return helper.g(x)\n')
+    (folder / "method.py").write_text(
+        '"""Doc."""\nfrom . import helper\nimport numpy\n\ndef f(x):\n    return helper.g(x)\n'
+    )
     (folder / "helper.py").write_text(f"from {folder.name}.deep import h\n\ndef g(x):\n    return h(x)\n")
     (folder / "deep.py").write_text("def h(x):\n    return x + 1\n")
     (folder / "unreached.py").write_text("y = 1\n")

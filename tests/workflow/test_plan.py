@@ -60,7 +60,9 @@ def test_every_output_is_of_its_own_kind(tmp_path: Path) -> None:
 
 
 def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
-    members = {name: {"surface": {"name": "toy_triangle", "size": size}} for name, size in (("small", 1.0), ("large", 4.0))}
+    members = {
+        name: {"surface": {"name": "toy_triangle", "size": size}} for name, size in (("small", 1.0), ("large", 4.0))
+    }
     configuration = {
         "target": "pairing",
         "axes": {"subject": members},
@@ -93,7 +95,10 @@ def test_unused_options_do_not_change_a_key_and_used_ones_do() -> None:
     ("change", "message"),
     [
         ({"feature": "toy_boundry"}, r"feature plugin 'toy_boundry'; did you mean 'toy_boundary'"),
-        ({"feature": {"name": "toy_boundary", "shfit": 1}}, r"option of feature/toy_boundary 'shfit'; did you mean 'shift'"),
+        (
+            {"feature": {"name": "toy_boundary", "shfit": 1}},
+            r"option of feature/toy_boundary 'shfit'; did you mean 'shift'",
+        ),
         ({"surface": {"name": "toy_triangle", "size": -1.0}}, r"surface/toy_triangle.size = -1.0: .*greater than 0"),
         ({"surface": None}, r"no surface is configured, wanted by feature/toy_boundary; choose surface="),
         ({"expriment": "x"}, r"configuration key 'expriment'; did you mean 'experiment'"),

@@ -11,7 +11,10 @@ from importlib import import_module
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
-    "run": ("run", "run an experiment or a sweep, e.g. surfexp run experiment=quickstart solver=primal_dual,split_bregman"),
+    "run": (
+        "run",
+        "run an experiment or a sweep, e.g. surfexp run experiment=quickstart solver=primal_dual,split_bregman",
+    ),
     "plan": ("run", "what a run would do: stages, what is shared, what is done (same arguments as run)"),
     "list": ("catalogue", "the plugins of a kind, or the experiments: surfexp list [KIND | experiment]"),
     "info": ("catalogue", "options of a plugin with bounds, choices and meaning: surfexp info KIND/NAME"),

@@ -28,7 +28,9 @@ def follow(process: subprocess.Popen[bytes], nodes: list[Node], results: Path) -
             for node in nodes:
                 if node.key not in reported and event_path(results, node.kind, node.key).exists():
                     reported.add(node.key)
-                    console.print(f"[{len(reported)}/{len(nodes)}] {node.kind}/{node.plugin}", markup=False, highlight=False)
+                    console.print(
+                        f"[{len(reported)}/{len(nodes)}] {node.kind}/{node.plugin}", markup=False, highlight=False
+                    )
             if not running:
                 return
             time.sleep(0.1)
@@ -49,5 +51,7 @@ def _view(nodes: list[Node], results: Path) -> Group:
         except OSError:
             continue
     waiting = Counter(node.kind for node in nodes if node.key not in done | failed)
-    state = f"{len(done)} done, {len(lines)} running, {sum(waiting.values()) - len(lines)} waiting, {len(failed)} failed"
+    state = (
+        f"{len(done)} done, {len(lines)} running, {sum(waiting.values()) - len(lines)} waiting, {len(failed)} failed"
+    )
     return Group(ProgressBar(total=len(nodes), completed=len(done) + len(failed)), Text(state), *lines)

@@ -1,0 +1,18 @@
+"""An ellipsoid."""
+
+from pydantic import Field
+
+from surfexp.mesh.ellipsoid import ellipsoid
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class Ellipsoid(Options):
+    levels: int = Field(4, ge=0, le=8, description="subdivisions of the icosahedron")
+    semiaxes: tuple[float, float, float] = Field((1.0, 1.3, 0.8), description="semiaxes along x, y, z")
+
+
+@register("surface", "ellipsoid")
+def ellipsoid_surface(options: Ellipsoid) -> Surface:
+    """Icosphere stretched to three semiaxes."""
+    return ellipsoid(**dict(options))

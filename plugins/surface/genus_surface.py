@@ -1,0 +1,18 @@
+"""A row of joined tori."""
+
+from pydantic import Field
+
+from surfexp.mesh.genus_surface import genus_surface
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class GenusSurface(Options):
+    genus: int = Field(2, ge=1, le=8, description="number of holes")
+    count: int = Field(8000, ge=3000, le=400000, description="number of vertices")
+
+
+@register("surface", "genus_surface")
+def genus_surface_surface(options: GenusSurface) -> Surface:
+    """Closed surface of a given genus: a row of joined tori."""
+    return genus_surface(**dict(options))

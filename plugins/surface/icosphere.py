@@ -1,0 +1,18 @@
+"""The sphere with nearly equilateral triangles."""
+
+from pydantic import Field
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class Icosphere(Options):
+    levels: int = Field(4, ge=0, le=8, description="subdivisions of the icosahedron")
+    radius: float = Field(1.0, gt=0, description="radius")
+
+
+@register("surface", "icosphere")
+def icosphere_surface(options: Icosphere) -> Surface:
+    """Sphere of 10 * 4^levels + 2 vertices, all exactly on it."""
+    return icosphere(**dict(options))

@@ -1,0 +1,143 @@
+"""One contract for every registered plugin: documented options with bounds, the same bytes twice, a result of its kind."""
+
+from __future__ import annotations
+
+import typing
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+from pydantic_core import PydanticUndefined
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.writing import write_mesh
+from surfexp.workflow import registry, stage, store
+from surfexp.workflow.configuration import expand
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.plan import make_plan
+
+registry.load_all(Path("/nonexistent"))
+PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
+
+SMALL = {
+    ("surface", "cup"): {"vertices": 2500},
+    ("surface", "hand"): {"count": 4000},
+    ("surface", "cortex"): {"count": 10000},
+    ("surface", "genus_surface"): {"count": 3000},
+    ("surface", "torus"): {"n_u": 40, "n_v": 16},
+    ("surface", "icosphere"): {"levels": 2},
+}
+CONTEXT = {
+    "surface": {"name": "icosphere", "levels": 3},
+    "image": {"name": "picture", "noise": 30.0},
+    "operator": "fem",
+    "model": "rof",
+    "solver": {"name": "primal_dual", "tolerance": 1e-3},
+}
+NEEDS_OPEN3D = {("surface", "point_cloud")}
+
+
+def configuration(kind: str, name: str, folder: Path) -> dict[str, typing.Any]:
+    method = registry.plugin(kind, name)
+    chosen: dict[str, typing.Any] = {"name": name, **SMALL.get((kind, name), {})}
+    if "path" in method.options.model_fields and method.options.model_fields["path"].is_required():
+        if kind == "surface":
+            write_mesh(folder / "sphere.ply", icosphere(3).mesh)
+            chosen["path"] = str(folder / "sphere.ply")
+        else:
+            np.save(folder / "values.npy", np.linspace(0.0, 255.0, 642))
+            chosen["path"] = str(folder / "values.npy")
+    context = {**CONTEXT, kind: chosen, "target": kind}
+    for needed, names in method.accepts.items():
+        context[needed] = names[0]
+    return context
+
+
+def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[str, bytes]]:
+    plan = make_plan(expand(context))
+    path = plan.write(results)
+    for key, node in plan.nodes.items():
+        if KINDS[node.kind].stored:
+            assert stage.run_stage(path, key) == 0, stage.read_event(results, node.kind, key)["failure"]
+    files = {str(file.relative_to(results / "store")): file.read_bytes() for file in (results / "store").rglob("*.*")}
+    return plan.leaves[0].key, files
+
+
+@pytest.mark.parametrize(("kind", "name"), PLUGINS)
+def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
+    method = registry.plugin(kind, name)
+    assert method.summary.endswith(".") and len(method.summary) > 20
+    for option, field in method.options.model_fields.items():
+        assert field.description, f"{kind}/{name}.{option} has no description"
+        number = field.annotation in (int, float, int | None, float | None)
+        bounded = any(hasattr(rule, bound) for rule in field.metadata for bound in ("ge", "gt", "le", "lt"))
+        free = {"azimuth"}
+        assert not number or bounded or option in free, f"{kind}/{name}.{option} is a number without bound"
+        if field.default is not PydanticUndefined and number and bounded:
+            with pytest.raises(ValidationError):
+                method.options(**{option: float("nan")})
+
+
+@pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
+def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
+    if (kind, name) in NEEDS_OPEN3D:
+        pytest.importorskip("open3d", exc_type=ImportError)
+    context = configuration(kind, name, tmp_path)
+    key, first = compute(context, tmp_path / "a")
+    _, second = compute(context, tmp_path / "b")
+    assert first == second
+    result = store.load(tmp_path / "a", kind, key)
+    assert isinstance(result, KINDS[kind].result)
+    event = stage.read_event(tmp_path / "a", kind, key)
+    assert all(np.isfinite(value) for value in event["metrics"].values()), event["metrics"]
+
+
+def solve(context: dict[str, typing.Any], results: Path) -> str:
+    plan = make_plan(expand(context))
+    path = plan.write(results)
+    for key, node in plan.nodes.items():
+        if KINDS[node.kind].stored and stage.run_stage(path, key):
+            return str(stage.read_event(results, node.kind, key)["failure"])
+    return ""
+
+
+def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "short.npy", np.zeros(10))
+    values = np.linspace(0, 1, 642)
+    values[3] = np.nan
+    np.save(tmp_path / "nan.npy", values)
+    for name, message in (("short", "has 10 values, the surface has 642 vertices"), ("nan", "1 values of 642")):
+        context = {**CONTEXT, "image": {"name": "file", "path": str(tmp_path / f"{name}.npy")}, "target": "image"}
+        assert message in solve(context, tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda v, f: (np.where(np.arange(len(v))[:, None] == 5, np.nan, v), f), "no repair is possible"),
+        (lambda v, f: (v, f[:0]), "no repair is possible"),
+        (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp mesh repair"),
+        (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp mesh repair"),
+        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp mesh repair"),
+        (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp mesh repair"),
+    ],
+)
+def test_defective_meshes_are_refused_with_the_remedy(
+    spoil: typing.Callable[..., tuple[np.ndarray, np.ndarray]], message: str, tmp_path: Path
+) -> None:
+    mesh = icosphere(3).mesh
+    vertices, faces = spoil(mesh.vertices.copy(), mesh.faces.copy())
+    lines = [f"v {x} {y} {z}" for x, y, z in vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+    (tmp_path / "bad.obj").write_text("\n".join(lines))
+    context = {**CONTEXT, "surface": {"name": "file", "path": str(tmp_path / "bad.obj")}, "target": "surface"}
+    failure = solve(context, tmp_path / "results")
+    assert failure and (message in failure or "no face" in failure or "nan" in failure.lower()), failure
+
+
+def test_a_truncated_file_is_refused_by_name(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "sphere.ply", icosphere(3).mesh)
+    content = (tmp_path / "sphere.ply").read_bytes()
+    (tmp_path / "sphere.ply").write_bytes(content[: len(content) // 2])
+    context = {**CONTEXT, "surface": {"name": "file", "path": str(tmp_path / "sphere.ply")}, "target": "surface"}
+    assert "sphere.ply" in solve(context, tmp_path / "results")

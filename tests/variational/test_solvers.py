@@ -1,0 +1,186 @@
+"""What belongs to one solver: limits, refusals, bias, tangency, and the printed schemes with their known defects."""
+
+import importlib.util
+from functools import partial
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.fem import fem
+from surfexp.operators.vertex_averaged import vertex_averaged
+from surfexp.variational.chambolle_dual import chambolle_dual
+from surfexp.variational.conic import conic
+from surfexp.variational.duality_gap import certify
+from surfexp.variational.fista_dual import fista_dual
+from surfexp.variational.gradient_descent import gradient_descent
+from surfexp.variational.image import Image
+from surfexp.variational.newton import newton
+from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.published_chambolle import published_chambolle
+from surfexp.variational.published_split_bregman import published_split_bregman
+from surfexp.variational.separable_quadratic import SeparableQuadratic, convex_chan_vese, inpainting, rof
+from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.vector_pair import VectorPair, shrink
+
+from . import independent_certificate as independent
+
+ALL = [primal_dual, split_bregman, chambolle_dual, fista_dual, gradient_descent, newton]
+
+
+def denoising(surface: Surface, image: Image) -> SeparableQuadratic:
+    operator = fem(surface.mesh)
+    return rof(operator.mass, image.values, 0.9 / (40.0 * operator.edge_length))
+
+
+def segmenting(surface: Surface, image: Image, length: float = 2.0) -> SeparableQuadratic:
+    operator = fem(surface.mesh)
+    slope = ((255 - image.values) ** 2 - image.values**2) / 255**2 / (length * operator.edge_length)
+    return convex_chan_vese(operator.mass, slope)
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_iteration_limit_is_said_and_the_result_is_certified(surface: Surface, image: Image, method: object) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    seen: list[tuple[int, float]] = []
+    options = {"iteration_limit": 3, "tolerance": 1e-12, "progress": lambda k, gap: seen.append((k, gap))}
+    solution = method(fidelity, operator, **options)  # type: ignore[operator]
+    assert not solution.converged and solution.reason == "iteration limit" and solution.iterations == 3
+    assert seen[-1] == (3, solution.relative_gap)
+    mass, load = independent.lumped(surface.mesh), independent.load_of(surface.mesh, operator, solution.dual)
+    mu = fidelity.strong_convexity
+    deviation = solution.values - image.values
+    energy = independent.total_variation(surface.mesh, solution.values) + 0.5 * mu * mass @ deviation**2
+    independent.check(solution, energy, float(image.values @ load - load @ (load / mass) / (2 * mu)))
+    assert solution.error_bound == pytest.approx(np.sqrt(2 * (energy - solution.lower_bound) / mu))
+
+
+def test_error_bound_holds(surface: Surface, image: Image) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    exact = newton(fidelity, operator).values
+    for limit in (10, 30, 100):
+        solution = primal_dual(fidelity, operator, iteration_limit=limit, tolerance=0.0)
+        assert np.sqrt(operator.mass @ (solution.values - exact) ** 2) <= solution.error_bound
+
+
+def test_gradient_descent_is_biased_by_its_smoothing(surface: Surface, image: Image) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    best = newton(fidelity, operator).energy
+    excess = []
+    for smoothing in (400.0, 100.0):
+        solution = gradient_descent(fidelity, operator, smoothing=smoothing, tolerance=1e-9, iteration_limit=4000)
+        excess.append(solution.energy - best)
+        assert 0 < solution.energy - solution.lower_bound <= smoothing * operator.areas.sum()
+    assert excess[1] < 0.5 * excess[0]
+
+
+def test_what_a_solver_cannot_solve_is_refused(surface: Surface, image: Image) -> None:
+    operator, averaged = fem(surface.mesh), vertex_averaged(surface.mesh)
+    hole = inpainting(operator.mass, image.values, image.known, 1.0)
+    for method in (chambolle_dual, fista_dual, newton):
+        with pytest.raises(ValueError, match="use primal_dual or split_bregman"):
+            method(hole, operator)
+    for method in (fista_dual, gradient_descent, newton):
+        with pytest.raises(ValueError, match="use operator fem"):
+            method(denoising(surface, image), averaged)
+    for method in (published_split_bregman, published_chambolle):
+        with pytest.raises(ValueError, match="not inpainting"):
+            method(hole, operator)
+    colours = rof(operator.mass, np.ones((operator.vertex_count, 3)), 1.0)
+    for method in (primal_dual, split_bregman, chambolle_dual):
+        with pytest.raises(ValueError, match="use operator fem"):
+            method(colours, averaged)
+    with pytest.raises(ValueError, match=r"relaxation is 2\.0"):
+        split_bregman(hole, operator, relaxation=2.0)
+    with pytest.raises(ValueError, match="tau is 1"):
+        published_chambolle(denoising(surface, image), operator, tau=1.0)
+    with pytest.raises(ValueError, match="inner is 'lu'"):
+        published_split_bregman(denoising(surface, image), operator, inner="lu")  # type: ignore[arg-type]
+
+
+def test_conic_agrees_or_names_what_is_missing(surface: Surface, image: Image) -> None:
+    operator = fem(surface.mesh)
+    if importlib.util.find_spec("cvxpy") is None or importlib.util.find_spec("clarabel") is None:
+        with pytest.raises(ImportError, match=r"surfexp\[conic\]"):
+            conic(denoising(surface, image), operator)
+        return
+    for fidelity in (denoising(surface, image), segmenting(surface, image, 0.5)):
+        ours, theirs = primal_dual(fidelity, operator, tolerance=1e-6), conic(fidelity, operator)
+        assert theirs.converged
+        assert ours.energy - theirs.energy <= 1e-6 * fidelity.gap_scale(ours.energy)
+
+
+def test_remark_2_3_1_fields_stay_tangent(surface: Surface, image: Image) -> None:
+    """Exact for fields on faces; with the printed vertex gradient V and b leave the tangent plane."""
+    mesh, parts = surface.mesh, {}
+    for operator, normals in ((fem(mesh), mesh.face_normals), (vertex_averaged(mesh), mesh.vertex_normals)):
+        pair, field = VectorPair(operator), 0.0
+        for _ in range(3):
+            ahead = pair.gradient(image.values) + field
+            shorter = shrink(ahead, 50.0)
+            field = ahead - shorter
+        if operator.frames is not None and operator.consistent:
+            field = np.einsum("fa,fax->fx", field, operator.frames)
+        parts[operator.name] = np.abs((field * normals).sum(axis=1)).max() / np.linalg.norm(field, axis=1).max()
+    assert parts["fem"] <= 1e-12 and parts["vertex_averaged"] > 1e-3
+
+
+@pytest.mark.parametrize("method", [primal_dual, split_bregman, chambolle_dual])
+def test_printed_pair_is_audited_under_the_consistent_energy(surface: Surface, image: Image, method: object) -> None:
+    fidelity, operator, averaged = denoising(surface, image), fem(surface.mesh), vertex_averaged(surface.mesh)
+    solution = method(fidelity, averaged, iteration_limit=300)  # type: ignore[operator]
+    sound = primal_dual(fidelity, operator, tolerance=1e-5)
+    assert any("no energy gap of its own" in note for note in solution.notes)
+    assert solution.relative_gap > 0.01 and solution.lower_bound == pytest.approx(sound.energy, rel=1e-4)
+    load = independent.load_of(surface.mesh, operator, solution.dual)
+    again = certify(fidelity, operator, solution.values, load)
+    assert again.energy == pytest.approx(solution.energy) and again.lower_bound == pytest.approx(solution.lower_bound)
+    assert solution.error_bound > np.sqrt(operator.mass @ (solution.values - sound.values) ** 2) - sound.error_bound
+
+
+def test_limit_of_the_printed_pair_depends_on_lambda_and_that_of_the_sound_one_does_not(
+    surface: Surface, image: Image
+) -> None:
+    fidelity, operator, averaged = denoising(surface, image), fem(surface.mesh), vertex_averaged(surface.mesh)
+    base = fidelity.strong_convexity * operator.edge_length**2
+    distances = []
+    for which, method in ((averaged, published_split_bregman), (operator, split_bregman)):
+        options = {"inner": "direct"} if method is published_split_bregman else {}
+        low, high = (
+            method(fidelity, which, penalty=k * base, tolerance=1e-7, iteration_limit=2000, **options).values
+            for k in (0.5, 5.0)
+        )
+        distances.append(np.sqrt(operator.mass @ (low - high) ** 2 / operator.mass.sum()))
+    assert distances[0] > 7.0 and distances[1] < 0.2
+
+
+def test_the_better_the_printed_poisson_step_is_solved_the_worse_the_answer(surface: Surface, image: Image) -> None:
+    truth = image.labels["bright"]
+    mass, operator = fem(surface.mesh).mass, vertex_averaged(surface.mesh)
+    fidelity = segmenting(surface, image, 1.0)
+    accuracy = []
+    for inner, sweeps in (("gauss_seidel", 1), ("gauss_seidel", 50), ("direct", 1)):
+        run = partial(published_split_bregman, inner=inner, sweeps=sweeps, iteration_limit=100)
+        accuracy.append(mass @ ((run(fidelity, operator).values > 0.5) == truth) / mass.sum())
+    best = mass @ ((primal_dual(fidelity, fem(surface.mesh)).values > 0.5) == truth) / mass.sum()
+    assert best >= accuracy[0] > accuracy[1] and accuracy[0] > accuracy[2]
+
+
+def test_conjugate_gradients_and_sweeps_tend_to_the_direct_solve(surface: Surface, image: Image) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    runs = {
+        name: published_split_bregman(fidelity, operator, inner=name, sweeps=200, laplacian="(1.19)", iteration_limit=20)
+        for name in ("direct", "cg", "gauss_seidel")
+    }
+    for run in runs.values():
+        assert np.abs(run.values - runs["direct"].values).max() <= 1e-4
+
+
+def test_printed_dual_segmentation_is_biased_by_theta(surface: Surface, image: Image) -> None:
+    fidelity, operator = segmenting(surface, image, 0.5), fem(surface.mesh)
+    best = primal_dual(fidelity, operator, tolerance=1e-6)
+    size, excess = np.abs(fidelity.slope).mean(), []
+    for factor in (1.0, 10.0):
+        run = published_chambolle(fidelity, operator, theta=factor * size, tolerance=1e-9, iteration_limit=1500)
+        excess.append((run.energy - best.lower_bound) / fidelity.scale)
+    assert excess[0] > 2 * excess[1] > 0
