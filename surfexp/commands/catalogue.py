@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
+from importlib.metadata import entry_points
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -46,8 +48,10 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def experiments() -> dict[str, Path]:
-    """Experiment name to YAML file, of the package and of the working folder."""
-    folders = (registry.package_folder("surfexp.conf"), Path("conf"))
+    """Experiment name to YAML file, of the package, of installed plugin packages and of the working folder."""
+    installed = {point.module.split(".")[0] for point in entry_points(group="surfexp.plugins")}
+    others = [registry.package_folder(f"{name}.conf") for name in sorted(installed) if find_spec(f"{name}.conf")]
+    folders = (registry.package_folder("surfexp.conf"), *others, Path("conf"))
     return {file.stem: file for folder in folders for file in sorted((folder / "experiment").glob("*.yaml"))}
 
 

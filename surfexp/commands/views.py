@@ -58,7 +58,8 @@ def wide_console() -> Console:
 def print_tables(plan: Plan, results: Path, console: Console) -> None:
     """One table a comparison; a row that reached its iteration limit is red."""
     for group in comparisons(rows_of(plan, results.resolve())):
-        table = Table(title=group.title, title_justify="left", header_style="bold")
+        console.print(f"\n[bold]{group.title}[/bold]", soft_wrap=True)
+        table = Table(header_style="bold")
         for name in group.varying:
             table.add_column(short_name(name), overflow="fold")
         for name in group.metric_names:

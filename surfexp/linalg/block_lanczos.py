@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh, solve_triangular
 
+from surfexp.linalg.block_products import subtract_two
 from surfexp.mesh.triangle_mesh import Floats
 
 BLOCK = 8
@@ -82,6 +83,7 @@ class BlockLanczos:
         start = multiply_mass(self._random.normal(size=(size, BLOCK)))
         solve(start)
         self._next, self._mass_next, _ = self._orthonormalise(self._purge(self._purge(start)))
+        self._before = np.zeros_like(self._next)
         self._coupling = np.zeros((BLOCK, BLOCK))
 
     def extend(self) -> None:
@@ -89,15 +91,12 @@ class BlockLanczos:
         first, last = self._locked + self.dimension, self._locked + self.dimension + BLOCK
         self._basis[:, first:last] = self._next
         self._write_coupling()
-        block, mass_block = self._basis[:, first:last], self._mass_next
+        block, mass_block = self._next, self._mass_next
         new = mass_block.copy()
         self._solve(new)
-        if self.dimension:
-            new -= self._basis[:, first - BLOCK : first] @ self._coupling.T
         diagonal = mass_block.T @ new
-        new -= block @ diagonal
+        subtract_two(new, self._before, np.ascontiguousarray(self._coupling.T), block, diagonal)
         correction = mass_block.T @ new
-        new -= block @ correction
         diagonal += correction
         here = slice(self.dimension, self.dimension + BLOCK)
         self._projected[here, here] = 0.5 * (diagonal + diagonal.T)
@@ -105,6 +104,9 @@ class BlockLanczos:
         self._since += 1
         if self._since >= self._period and first:
             self._reorthogonalise(new, mass_block, first)
+        else:
+            new -= block @ correction
+        self._before = block
         self._next, self._mass_next, self._coupling = self._orthonormalise(new)
 
     def ritz(self) -> RitzPairs:
@@ -154,10 +156,11 @@ class BlockLanczos:
         if drift > DRIFT_LIMIT:
             self._period = max(1, self._period - 1)
         common = self._basis[:, :older] @ overlap.T
-        block = self._basis[:, older : older + BLOCK]
+        block = self._next
         block -= common[:, :BLOCK]
+        self._basis[:, older : older + BLOCK] = block
         new -= common[:, BLOCK:]
-        new -= block @ (self._multiply_mass(np.ascontiguousarray(block)).T @ new)
+        new -= block @ (self._multiply_mass(block).T @ new)
         self._since = 0
 
     def _purge(self, block: Floats) -> Floats:

@@ -7,7 +7,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 from surfexp.mesh.triangle_mesh import Floats
-from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measured
+from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 
 
@@ -46,7 +46,7 @@ def arpack(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-
     unpermuted = np.empty((n, k), order="F")
     unpermuted[pencil.order] = vectors[:, :k]
     return measured(
-        *(stiffness, mass, unpermuted, "arpack"),
+        *(measure(stiffness, mass, unpermuted), unpermuted, "arpack"),
         inertia=((edge, pencil.counts[edge]),),
         complete=pencil.counts[edge] == k and not notes,
         notes=notes,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
-from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measured
+from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measure, measured
 
 
 def dense(stiffness: csr_array, mass: csr_array, k: int) -> EigenSystem:
@@ -17,8 +17,9 @@ def dense(stiffness: csr_array, mass: csr_array, k: int) -> EigenSystem:
     if k < n and values[k] - values[k - 1] <= SMALLEST_GAP * abs(values[k]):
         notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues",)
     below = int((values < edge).sum())
+    lowest = vectors[:, :k].copy(order="F")
     return measured(
-        *(stiffness, mass, vectors[:, :k].copy(order="F"), "dense"),
+        *(measure(stiffness, mass, lowest), lowest, "dense"),
         inertia=((edge, below),),
         complete=True,
         notes=notes,

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from surfexp.mesh.triangle_mesh import Floats
 
 SMALLEST_GAP = 1e-6
-SINGLE_BLOCK = 64
+COLUMNS_AT_ONCE = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,31 +51,45 @@ class EigenSystem:
     notes: tuple[str, ...] = ()
 
 
-def rayleigh_quotients(stiffness: csr_array, mass: csr_array, vectors: Floats) -> tuple[Floats, Floats]:
-    """Return x^T A x / x^T B x of each column, and |A x - lambda B x| / |B x| with that lambda (2-norms)."""
-    values, errors = np.empty(vectors.shape[1]), np.empty(vectors.shape[1])
-    for some in _column_blocks(vectors.shape[1]):
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """What a set of vectors is worth; rows in any order.
+
+    Parameters
+    ----------
+    values : (k,) float64
+        Rayleigh quotients x^T A x / x^T B x.
+    errors : (k,) float64
+        |A x - lambda B x| / |B x| (2-norms).
+    orthogonality : float
+        Largest entry of |X^T B X - I|.
+    """
+
+    values: Floats
+    errors: Floats
+    orthogonality: float
+
+    @property
+    def residuals(self) -> Floats:
+        """Errors over the values, or over the mean spacing where that is larger."""
+        return self.errors / np.maximum(np.abs(self.values), mean_spacing(self.values))
+
+
+def measure(stiffness: csr_array, mass: csr_array, vectors: Floats) -> Measurement:
+    """Measure B-normalised vectors, some columns at a time."""
+    count = vectors.shape[1]
+    values, errors, worst = np.empty(count), np.empty(count), 0.0
+    for start in range(0, count, COLUMNS_AT_ONCE):
+        some = slice(start, min(start + COLUMNS_AT_ONCE, count))
         block = np.ascontiguousarray(vectors[:, some])
         mass_block, error = mass @ block, stiffness @ block
-        values[some] = np.einsum("ij,ij->j", block, error) / np.einsum("ij,ij->j", block, mass_block)
-        error -= mass_block * values[some]
-        errors[some] = _column_norms(error) / _column_norms(mass_block)
-    return values, errors
-
-
-def relative_residuals(values: Floats, errors: Floats) -> Floats:
-    """Return errors over the values, or over the mean spacing where that is larger."""
-    return errors / np.maximum(np.abs(values), mean_spacing(values))
-
-
-def orthogonality_defect(mass: csr_array, vectors: Floats) -> float:
-    """Return the largest entry of |X^T B X - I|."""
-    worst = 0.0
-    for some in _column_blocks(vectors.shape[1]):
-        gram = (mass @ np.ascontiguousarray(vectors[:, some])).T @ vectors[:, some.start :]
+        gram = mass_block.T @ vectors[:, start:]
+        values[some] = np.einsum("ij,ij->j", block, error) / gram.diagonal()
         gram[np.arange(len(gram)), np.arange(len(gram))] -= 1.0
         worst = max(worst, float(np.abs(gram).max()))
-    return worst
+        error -= mass_block * values[some]
+        errors[some] = np.linalg.norm(error, axis=0) / np.linalg.norm(mass_block, axis=0)
+    return Measurement(values, errors, worst)
 
 
 def mean_spacing(values: Floats) -> float:
@@ -100,8 +114,7 @@ def fix_signs(vectors: Floats) -> Floats:
 
 
 def measured(
-    stiffness: csr_array,
-    mass: csr_array,
+    measurement: Measurement,
     vectors: Floats,
     method: str,
     inertia: tuple[tuple[float, int], ...] = (),
@@ -109,16 +122,16 @@ def measured(
     metrics: dict[str, float] | None = None,
     notes: tuple[str, ...] = (),
 ) -> EigenSystem:
-    """Take Rayleigh quotients as values, fix signs (in place), measure residuals, orthogonality and clusters."""
-    values, errors = rayleigh_quotients(stiffness, mass, vectors)
+    """Sort measured vectors by value, fix their signs (in place), mark the clusters, and wrap all up."""
+    values, residuals = measurement.values, measurement.residuals
     order = np.argsort(values, kind="stable")
     if (np.diff(order) != 1).any():
-        values, errors, vectors = values[order], errors[order], np.asfortranarray(vectors[:, order])
+        values, residuals, vectors = values[order], residuals[order], np.asfortranarray(vectors[:, order])
     return EigenSystem(
         values=values,
         vectors=fix_signs(vectors),
-        residuals=relative_residuals(values, errors),
-        orthogonality=orthogonality_defect(mass, vectors),
+        residuals=residuals,
+        orthogonality=measurement.orthogonality,
         complete=complete,
         inertia=inertia,
         clusters=clusters(values),
@@ -126,11 +139,3 @@ def measured(
         metrics=metrics or {},
         notes=notes,
     )
-
-
-def _column_blocks(count: int) -> list[slice]:
-    return [slice(start, min(start + SINGLE_BLOCK, count)) for start in range(0, count, SINGLE_BLOCK)]
-
-
-def _column_norms(block: Floats) -> Floats:
-    return np.sqrt(np.einsum("ij,ij->j", block, block))

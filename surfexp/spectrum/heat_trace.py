@@ -120,7 +120,8 @@ def hear_geometry(values: Floats, condition: Condition = "closed", area: float |
     sizes = columns.max(axis=0)
     found = dict(zip(powers, np.linalg.lstsq(columns / sizes, scaled, rcond=None)[0] / sizes, strict=True))
     length = 0.0 if condition == "closed" else float(SIGNS[condition] * 2.0 / np.sqrt(np.pi) * found[0.5])
-    return HeardGeometry(float(found.get(0.0, area)), length, float(found[1.0]) / (4.0 * np.pi))
+    heard = float(found[0.0]) if area is None else area
+    return HeardGeometry(heard, length, float(found[1.0]) / (4.0 * np.pi))
 
 
 def _check(condition: str) -> None:

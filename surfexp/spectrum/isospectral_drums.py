@@ -55,7 +55,7 @@ def tile_mesh(divisions: int, grading: float = 1.0) -> tuple[Floats, Integers]:
     """
     if divisions < 1 or grading < 1:
         raise ValueError(f"tile has divisions = {divisions}, grading = {grading}; both must be at least 1")
-    index = {}
+    index: dict[tuple[int, int], int] = {}
     for i in range(divisions + 1):
         for j in range(divisions + 1 - i):
             index[i, j] = len(index)

@@ -9,7 +9,7 @@ from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import LinearOperator, spilu
 from scipy.sparse.linalg import lobpcg as scipy_lobpcg
 
-from surfexp.spectrum.eigensystem import EigenSystem, measured
+from surfexp.spectrum.eigensystem import EigenSystem, measure, measured
 
 ITERATIONS = 400
 GUARDS = 6
@@ -32,7 +32,8 @@ def lobpcg(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-
             *(stiffness, start, mass, preconditioner), tol=tolerance * shift, maxiter=ITERATIONS, largest=False
         )
     order = np.argsort(values)[:k]
-    system = measured(*(stiffness, mass, np.asfortranarray(vectors[:, order]), "lobpcg"))
+    lowest = np.asfortranarray(vectors[:, order])
+    system = measured(measure(stiffness, mass, lowest), lowest, "lobpcg")
     late = int((system.residuals > tolerance).sum())
     notes: tuple[str, ...] = ("without a factorisation nothing proves that no eigenvalue is missing",)
     if late:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
+from surfexp.linalg.block_products import LANES, multiply_lanes
 from surfexp.linalg.ldlt import LDLT
 from surfexp.linalg.ldlt_symbolic import analyse, permuted
 from surfexp.mesh.triangle_mesh import Floats
@@ -56,7 +57,8 @@ class ShiftedPencil:
         """Return B X, C-ordered."""
         if self._diagonal is not None:
             return np.multiply(self._diagonal, block, order="C")
-        return self.mass @ np.ascontiguousarray(block)
+        block = np.ascontiguousarray(block)
+        return multiply_lanes(self.mass, block) if block.shape[1] == LANES else self.mass @ block
 
     def factor(self, shift: float) -> tuple[float, LDLT]:
         """Factorise A - s B at the shift, or near it where the pivots are bad there.

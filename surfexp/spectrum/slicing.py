@@ -12,7 +12,7 @@ from surfexp.linalg.block_lanczos import BLOCK
 from surfexp.linalg.ldlt import LDLT
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.counting_function import guess_eigenvalue
-from surfexp.spectrum.eigensystem import EigenSystem, mean_spacing, measured, rayleigh_quotients, relative_residuals
+from surfexp.spectrum.eigensystem import EigenSystem, Measurement, mean_spacing, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_slice import SliceRequest, SpectrumSlice, solve_slice
 
@@ -82,7 +82,7 @@ def slicing(
             progress(found, max(0.0, 1.0 - found / k))
         if not part.complete or not len(part.values):
             break
-    return _assemble(pencil, stiffness, mass, k, tolerance, slices)
+    return _assemble(pencil, k, tolerance, slices)
 
 
 def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> tuple[float, LDLT]:
@@ -100,23 +100,21 @@ def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> 
 
 def _assemble(
     pencil: ShiftedPencil,
-    stiffness: sparray,
-    mass: sparray,
     k: int,
     tolerance: float,
     slices: list[SpectrumSlice],
 ) -> EigenSystem:
     values = np.concatenate([part.values for part in slices])
     vectors = np.concatenate([part.vectors for part in slices], axis=1) if len(slices) > 1 else slices[0].vectors
-    total, values, vectors = len(values), values[:k], vectors[:, :k]
-    polishes = polish(pencil, values, vectors, tolerance)
-    notes = _notes(values, total, k, slices)
+    total, vectors = len(values), vectors[:, :k]
+    measurement, polishes = polish(pencil, vectors, tolerance)
+    notes = _notes(total, k, slices)
     unpermuted = np.empty_like(vectors, order="F")
     unpermuted[pencil.order] = vectors
     complete = all(part.complete for part in slices) and total >= k
     edges = [part.edge for part in slices if part.edge < np.inf]
     return measured(
-        *(stiffness, mass, unpermuted, "slicing"),
+        *(measurement, unpermuted, "slicing"),
         inertia=tuple((edge, pencil.counts[edge]) for edge in edges),
         complete=complete,
         metrics={
@@ -130,7 +128,7 @@ def _assemble(
     )
 
 
-def _notes(values: Floats, total: int, k: int, slices: list[SpectrumSlice]) -> tuple[str, ...]:
+def _notes(total: int, k: int, slices: list[SpectrumSlice]) -> tuple[str, ...]:
     notes = []
     if total > k:
         notes.append(f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {total} contains all of it")
@@ -140,30 +138,37 @@ def _notes(values: Floats, total: int, k: int, slices: list[SpectrumSlice]) -> t
     return tuple(notes)
 
 
-def polish(pencil: ShiftedPencil, values: Floats, vectors: Floats, tolerance: float) -> int:
-    """Improve, in place, the lowest pairs that miss the tolerance, by inverse iteration below 0; returns the rounds.
+def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float) -> tuple[Measurement, int]:
+    """Improve, in place, the lowest pairs while some miss the tolerance; return the measurement and how often.
 
-    They are the farthest from the shift, and relative to their own size the least accurate.
+    They are the farthest from the shift and, relative to their own size, the least accurate: one block inverse iteration
+    just below 0 and a Rayleigh-Ritz step mend them.
     """
+    measurement = measure(pencil.stiffness, pencil.mass, vectors)
     factors = None
     for done in range(POLISHES):
-        residuals = relative_residuals(*rayleigh_quotients(pencil.stiffness, pencil.mass, vectors))
-        bad = np.flatnonzero(residuals > 0.5 * tolerance)
+        bad = np.flatnonzero(measurement.residuals > tolerance)
         if not len(bad):
-            return done
-        count = min(-(-(int(bad[-1]) + 1) // BLOCK) * BLOCK + BLOCK, vectors.shape[1])
+            return measurement, done
         if factors is None:
-            factors = pencil.factor(-0.5 * mean_spacing(values))[1]
-        improved = np.asfortranarray(pencil.multiply_mass(vectors[:, :count]))
-        for first in range(0, count, BLOCK):
-            block = np.zeros((pencil.size, BLOCK))
-            width = min(BLOCK, count - first)
-            block[:, :width] = improved[:, first : first + width]
-            factors.solve_in_order(block)
-            improved[:, first : first + width] = block[:, :width]
-        improved /= np.linalg.norm(improved, axis=0)
+            factors = pencil.factor(-0.5 * mean_spacing(measurement.values))[1]
+        count = min((int(bad[-1]) // BLOCK + 2) * BLOCK, vectors.shape[1])
+        improved = inverse_iteration(pencil, factors, vectors[:, :count])
         projected = improved.T @ (pencil.stiffness @ np.ascontiguousarray(improved))
         gram = improved.T @ pencil.multiply_mass(improved)
-        values[:count], rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))
+        rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
         vectors[:, :count] = improved @ rotation
-    return POLISHES
+        measurement = measure(pencil.stiffness, pencil.mass, vectors)
+    return measurement, POLISHES
+
+
+def inverse_iteration(pencil: ShiftedPencil, factors: LDLT, vectors: Floats) -> Floats:
+    """Return (A - s B)^-1 B X with columns of length 1."""
+    result = np.empty_like(vectors, order="F")
+    for first in range(0, vectors.shape[1], BLOCK):
+        some = slice(first, min(first + BLOCK, vectors.shape[1]))
+        block = np.zeros((pencil.size, BLOCK))
+        block[:, : some.stop - first] = pencil.multiply_mass(vectors[:, some])
+        factors.solve_in_order(block)
+        result[:, some] = block[:, : some.stop - first]
+    return np.asarray(result / np.linalg.norm(result, axis=0))

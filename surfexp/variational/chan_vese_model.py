@@ -12,7 +12,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.accuracy import segmentation_metrics
 from surfexp.variational.convex_chan_vese_model import ConvexChanVese, Mask
 from surfexp.variational.face_sweeps import smoothed_normals
-from surfexp.variational.fidelity import Progress
+from surfexp.variational.fidelity import Method, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
@@ -40,8 +40,17 @@ class ChanVese:
     iteration_limit: int = 2000
     tolerance: float = 1e-6
 
-    def run(self, image: Image, operator: SurfaceOperator, progress: Progress | None = None) -> Solution:
-        """Return phi, with {phi > 0} in `segmentation`; `progress` is given the relative fall of the energy."""
+    def run(
+        self,
+        image: Image,
+        operator: SurfaceOperator,
+        method: Method | None = None,
+        progress: Progress | None = None,
+    ) -> Solution:
+        """Return phi, with {phi > 0} in `segmentation`.
+
+        The descent is the model's own and `method` is not used; `progress` is given the relative fall of the energy.
+        """
         model = ConvexChanVese(self.length, self.mu)
         model.check(image, operator)
         start = model.first_region(image, operator) if self.initial is None else self.initial

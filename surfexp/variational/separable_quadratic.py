@@ -58,6 +58,8 @@ class SeparableQuadratic:
         """1/mu; 2 % of the box times the edge length where some a_i are 0; 0.05 / mean|r| for a linear term."""
         if self.strong_convexity > 0:
             return 1.0 / self.strong_convexity
+        if self.weight.any() and self.is_quadratic:
+            return float(1.0 / self.weight.mean())
         if self.weight.any():
             return float(0.02 * (self.upper - self.lower) * np.sqrt(self.mass.mean())) or 1.0
         return float(0.05 / max(np.abs(self.slope).mean(), 1e-300))

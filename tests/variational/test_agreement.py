@@ -51,9 +51,7 @@ def build(model: str, operator: SurfaceOperator, image: Image) -> Fidelity:
     return SimplexLabelling(operator.mass, np.sqrt(2.0) * costs)
 
 
-printed = partial(
-    published_split_bregman, laplacian="(1.19)", inner="direct", penalty=0.01, iteration_limit=5000
-)
+printed = partial(published_split_bregman, laplacian="(1.19)", inner="direct", penalty=0.01, iteration_limit=5000)
 MODELS = {
     "rof": [*anything, *strong, newton, printed],
     "vector rof": [*anything, *strong],

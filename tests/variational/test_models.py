@@ -117,7 +117,7 @@ def test_multiphase_with_two_regions_is_convex_chan_vese(surface: Surface, image
 
 
 def test_multiphase_separates_three_colours(surface: Surface) -> None:
-    u, v = surface.coordinates.T
+    u = surface.coordinates[:, 0]
     phase = np.digitize(np.sin(u), [-0.4, 0.4])
     colours = np.array([[0, 0, 100.0], [50, 100, 0], [100, 20, 20]])[phase]
     noisy = colours + np.random.default_rng(0).normal(0, 25, colours.shape)
@@ -192,7 +192,10 @@ def test_any_convex_fidelity_works_by_its_value_and_prox(surface: Surface) -> No
 @pytest.mark.parametrize(
     ("message", "act"),
     [
-        ("constant at 3.0", lambda s, i: ConvexChanVese().run(Image(np.full(len(i.values), 3.0)), fem(s.mesh), primal_dual)),
+        (
+            "constant at 3.0",
+            lambda s, i: ConvexChanVese().run(Image(np.full(len(i.values), 3.0)), fem(s.mesh), primal_dual),
+        ),
         ("length is 0", lambda s, i: ConvexChanVese(length=0).run(i, fem(s.mesh), primal_dual)),
         ("updates is 0", lambda s, i: ConvexChanVese(updates=0).run(i, fem(s.mesh), primal_dual)),
         ("noise 0.0", lambda s, i: ROF().run(Image(i.values), fem(s.mesh), primal_dual)),

@@ -169,7 +169,9 @@ def test_the_better_the_printed_poisson_step_is_solved_the_worse_the_answer(surf
 def test_conjugate_gradients_and_sweeps_tend_to_the_direct_solve(surface: Surface, image: Image) -> None:
     fidelity, operator = denoising(surface, image), fem(surface.mesh)
     runs = {
-        name: published_split_bregman(fidelity, operator, inner=name, sweeps=200, laplacian="(1.19)", iteration_limit=20)
+        name: published_split_bregman(
+            fidelity, operator, inner=name, sweeps=200, laplacian="(1.19)", iteration_limit=20
+        )
         for name in ("direct", "cg", "gauss_seidel")
     }
     for run in runs.values():

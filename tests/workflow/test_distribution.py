@@ -1,0 +1,103 @@
+"""The wheel alone runs from an empty folder, and a package of plugins installed beside it takes part."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+PLUGIN = '''"""A third party's surface."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.workflow.registry import Options, register
+
+
+class Tetrahedron(Options):
+    size: float = Field(1.0, gt=0, description="edge length of the cube around it")
+
+
+@register("surface", "tetrahedron")
+def tetrahedron(options: Tetrahedron) -> Surface:
+    """A tetrahedron from a third party."""
+    vertices = options.size * np.array([[0.0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]])
+    mesh = TriangleMesh(vertices, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
+    return Surface(mesh, "tetrahedron", metrics={"area": mesh.area})
+'''
+PROJECT = """[build-system]
+requires = ["setuptools"]
+build-backend = "setuptools.build_meta"
+[project]
+name = "thirdparty-surfaces"
+version = "1.0"
+[project.entry-points."surfexp.plugins"]
+tetrahedron = "thirdparty_surfaces.tetrahedron"
+[tool.setuptools]
+packages = ["thirdparty_surfaces", "thirdparty_surfaces.conf"]
+[tool.setuptools.package-data]
+"thirdparty_surfaces.conf" = ["**/*.yaml"]
+"""
+EXPERIMENT = """# @package _global_
+experiment: third
+title: A third party's experiment
+target: surface
+surface: tetrahedron
+"""
+
+
+def call(*command: str | Path, cwd: Path) -> str:
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, cwd=cwd, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.xdist_group("end_to_end")
+def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: Path) -> None:
+    source = tmp_path / "source"
+    ignored = shutil.ignore_patterns(".git", ".venv", "results", ".snakemake", "*.egg-info", "build", "__pycache__", ".*cache")
+    shutil.copytree(ROOT, source, ignore=ignored)
+    (source / "results").mkdir()
+    third = tmp_path / "third"
+    (third / "thirdparty_surfaces" / "conf" / "experiment").mkdir(parents=True)
+    (third / "pyproject.toml").write_text(PROJECT)
+    (third / "thirdparty_surfaces" / "__init__.py").write_text("")
+    (third / "thirdparty_surfaces" / "conf" / "__init__.py").write_text("")
+    (third / "thirdparty_surfaces" / "conf" / "experiment" / "third.yaml").write_text(EXPERIMENT)
+    (third / "thirdparty_surfaces" / "tetrahedron.py").write_text(PLUGIN)
+    for folder in (source, third):
+        call(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", tmp_path, ".", cwd=folder)
+
+    # a fresh environment that sees the dependencies of this one, but not this checkout
+    venv.create(tmp_path / "env", with_pip=True)
+    python = tmp_path / "env" / "bin" / "python"
+    site = Path(call(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=tmp_path).strip())
+    here = Path(call(sys.executable, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=tmp_path).strip())
+    for entry in here.iterdir():
+        if "surfexp" not in entry.name and not (site / entry.name).exists() and entry.suffix != ".pth":
+            os.symlink(entry, site / entry.name)
+    call(python, "-m", "pip", "install", "-q", "--no-deps", "--no-index", *tmp_path.glob("*.whl"), cwd=tmp_path)
+
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    surfexp = tmp_path / "env" / "bin" / "surfexp"
+    where = call(python, "-c", "import surfexp; print(surfexp.__file__)", cwd=empty)
+    assert str(tmp_path) in where and str(ROOT) not in where
+    assert "tetrahedron" in call(surfexp, "list", "surface", cwd=empty)
+    listed = call(surfexp, "list", "experiment", cwd=empty)
+    assert "quickstart" in listed and "third" in listed
+    assert "tetrahedron" in call(surfexp, "run", "--help", cwd=empty)
+    assert "surface size" in call(surfexp, "run", "experiment=third", "surface.size=1,2", cwd=empty)
+    options = ["surface=icosphere", "surface.levels=2", "solver=primal_dual", "operator=fem", "solver.tolerance=1e-2"]
+    printed = call(surfexp, "run", "image.picture=letters", "image=picture", "image.noise=20", "model=rof", *options, cwd=empty)
+    assert "report.html" in printed
+    assert (empty / "results" / "quickstart" / "report.html").exists()
