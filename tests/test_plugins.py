@@ -23,6 +23,7 @@ PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
     ("surface", "hand"): {"count": 4000},
+    ("surface", "half_double_torus"): {"count": 1500},
     ("surface", "cortex"): {"count": 10000},
     ("surface", "genus_surface"): {"count": 3000},
     ("surface", "torus"): {"n_u": 40, "n_v": 16},

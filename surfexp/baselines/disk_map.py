@@ -65,6 +65,4 @@ def _scaled(mesh: TriangleMesh, plane: Floats) -> Floats:
     a, b, c = (plane[mesh.faces[:, k]] for k in range(3))
     u, v = b - a, c - a
     area = 0.5 * float((u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum())
-    if area < 0:
-        plane = plane * [1.0, -1.0]
-    return plane * np.sqrt(mesh.area / abs(area))
+    return plane * np.sqrt(mesh.area / area)

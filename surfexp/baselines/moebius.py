@@ -6,6 +6,8 @@ import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats
 
+SMALLEST_STEP = 1e-13
+
 
 def invert(points: Floats, centre: Floats) -> Floats:
     """Apply the Moebius transformation of the unit sphere that belongs to a centre inside the ball.
@@ -38,7 +40,7 @@ def centre_of_mass(points: Floats, masses: Floats) -> Floats:
     return masses @ points / masses.sum()
 
 
-def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_limit: int = 200) -> Floats:
+def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_limit: int = 100) -> Floats:
     """Move masses on the unit sphere by Moebius transformations until their centre of mass is the origin.
 
     Newton's method with the step halved until the centre of mass comes nearer (Baden, Crane and Kazhdan 2018). Among
@@ -57,7 +59,7 @@ def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_
     Raises
     ------
     ValueError
-        If more than half of the mass sits at one point, so that nothing centres it.
+        If the limit is reached, or more than half of the mass sits at one point, so that nothing centres it.
     """
     shares = masses / masses.sum()
     for _ in range(iteration_limit):
@@ -68,13 +70,13 @@ def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_
         step = -np.linalg.solve(jacobian, mean)
         step *= min(1.0, 0.9 / float(np.linalg.norm(step)))
         moved = invert(points, step)
-        while np.linalg.norm(shares @ moved) >= np.linalg.norm(mean):
+        while np.linalg.norm(shares @ moved) >= np.linalg.norm(mean) and np.linalg.norm(step) > SMALLEST_STEP:
             step *= 0.5
-            if np.linalg.norm(step) < 1e-14:
-                raise ValueError(
-                    f"centre of mass stays {np.linalg.norm(mean):.2g} from the origin, at most {tolerance:g} is "
-                    "wanted; the map crowds the surface into a point"
-                )
             moved = invert(points, step)
+        if np.linalg.norm(step) <= SMALLEST_STEP:
+            break
         points = moved / np.linalg.norm(moved, axis=1, keepdims=True)
-    return points
+    raise ValueError(
+        f"centre of mass stays {np.linalg.norm(shares @ points):.2g} from the origin, at most {tolerance:g} is wanted; "
+        "the map crowds the surface into a point"
+    )

@@ -31,7 +31,7 @@ def command(name: str, arguments: list[str]) -> int:
             return 0 if report.ok else 2
         repaired = repair(vertices, faces, largest_component=given.largest_component)
     except ValueError as error:
-        raise UserError(f"{given.file}: {error}") from None
+        raise UserError(str(error)) from None
     output = given.output or given.file.with_name(f"{given.file.stem}-repaired.ply")
     write_mesh(output, repaired.mesh)
     print("\n".join([*(f"repaired: {change}" for change in repaired.changes), f"written: {output}"]))

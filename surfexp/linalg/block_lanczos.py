@@ -14,7 +14,10 @@ from surfexp.mesh.triangle_mesh import Floats
 BLOCK = 8
 REORTHOGONALISE_EVERY = 3
 DRIFT_LIMIT = 1e-9
+CAREFUL = 64
 DEPENDENT = 1e-11
+CANCELLED = 1e-6
+VANISHED = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +85,7 @@ class BlockLanczos:
         self.dimension = 0
         start = multiply_mass(self._random.normal(size=(size, BLOCK)))
         solve(start)
-        self._next, self._mass_next, _ = self._orthonormalise(self._purge(self._purge(start)))
+        self._next, self._mass_next, _ = self._orthonormalise(self._purge(self._purge(start)), 0.0)
         self._before = np.zeros_like(self._next)
         self._coupling = np.zeros((BLOCK, BLOCK))
 
@@ -95,6 +98,7 @@ class BlockLanczos:
         new = mass_block.copy()
         self._solve(new)
         diagonal = mass_block.T @ new
+        size = float(np.sqrt((self._coupling.T**2 + diagonal**2).sum(axis=0).max()))
         subtract_two(new, self._before, np.ascontiguousarray(self._coupling.T), block, diagonal)
         correction = mass_block.T @ new
         diagonal += correction
@@ -102,12 +106,12 @@ class BlockLanczos:
         self._projected[here, here] = 0.5 * (diagonal + diagonal.T)
         self.dimension += BLOCK
         self._since += 1
-        if self._since >= self._period and first:
+        if (self._since >= self._period or self.dimension <= CAREFUL) and first:
             self._reorthogonalise(new, mass_block, first)
         else:
             new -= block @ correction
         self._before = block
-        self._next, self._mass_next, self._coupling = self._orthonormalise(new)
+        self._next, self._mass_next, self._coupling = self._orthonormalise(new, size)
 
     def ritz(self) -> RitzPairs:
         """Return the eigenpairs of the projected operator, by increasing value."""
@@ -155,11 +159,11 @@ class BlockLanczos:
         self.drift = max(self.drift, drift)
         if drift > DRIFT_LIMIT:
             self._period = max(1, self._period - 1)
-        common = self._basis[:, :older] @ overlap.T
+        common = overlap @ self._basis[:, :older].T
         block = self._next
-        block -= common[:, :BLOCK]
+        block -= common[:BLOCK].T
         self._basis[:, older : older + BLOCK] = block
-        new -= common[:, BLOCK:]
+        new -= common[BLOCK:].T
         new -= block @ (self._multiply_mass(block).T @ new)
         self._since = 0
 
@@ -168,16 +172,20 @@ class BlockLanczos:
         known = self._basis[:, : self._locked + self.dimension]
         return np.ascontiguousarray(block - known @ (known.T @ self._multiply_mass(block)))
 
-    def _orthonormalise(self, block: Floats) -> tuple[Floats, Floats, Floats]:
-        """Return Q, B Q and R with block = Q R and Q^T B Q = I; dependent columns give way to random ones."""
+    def _orthonormalise(self, block: Floats, size: float) -> tuple[Floats, Floats, Floats]:
+        """Return Q, B Q and R with block = Q R and Q^T B Q = I; dependent columns give way to random ones.
+
+        A column is dependent also where little is left of the `size` that was taken off in orthogonalising it.
+        """
         factor = np.eye(BLOCK)
-        for _ in range(2):
+        for attempt in range(2):
             mass_block = self._multiply_mass(block)
             gram = block.T @ mass_block
             scale = np.sqrt(np.maximum(gram.diagonal(), np.finfo(float).tiny))
             correlation = gram / np.outer(scale, scale)
-            if np.linalg.eigvalsh(correlation)[0] < DEPENDENT:
-                return self._replace_dependent(block)
+            cancelled = not attempt and scale.min() < CANCELLED * size
+            if cancelled or np.linalg.eigvalsh(correlation)[0] < DEPENDENT:
+                return self._replace_dependent(block, size)
             upper = np.linalg.cholesky(0.5 * (correlation + correlation.T)).T * scale
             inverse = solve_triangular(upper, np.eye(BLOCK))
             block, mass_block = block @ inverse, mass_block @ inverse
@@ -186,23 +194,27 @@ class BlockLanczos:
                 break
         return block, mass_block, factor
 
-    def _replace_dependent(self, block: Floats) -> tuple[Floats, Floats, Floats]:
+    def _replace_dependent(self, block: Floats, size: float) -> tuple[Floats, Floats, Floats]:
         """Gram-Schmidt column by column; a column that vanishes is replaced by a random one, with a zero row in R."""
         result, factor = np.zeros_like(block), np.zeros((BLOCK, BLOCK))
-        largest = float(np.sqrt(np.max(np.sum(block * self._multiply_mass(block), axis=0))))
+        largest = max(size, float(self._norms(block).max()))
         for c in range(BLOCK):
             column = block[:, c : c + 1].copy()
-            for attempt in range(2):
-                for _ in range(2):
-                    part = result.T @ self._multiply_mass(column)
-                    column -= result @ part
-                    factor[:, c : c + 1] += part if attempt == 0 else 0.0
-                norm = float(np.sqrt((column * self._multiply_mass(column)).sum()))
-                if attempt or norm > 1e-10 * largest:
-                    break
-                column = self._random.normal(size=column.shape)
-                column = self._purge(self._purge(column))
-                norm = 0.0
-            result[:, c] = column[:, 0] / np.sqrt(float((column * self._multiply_mass(column)).sum()))
-            factor[c, c] = norm if attempt == 0 else 0.0
+            factor[:, c : c + 1] = result.T @ self._multiply_mass(column)
+            column -= result @ factor[:, c : c + 1]
+            norm = float(self._norms(column)[0])
+            if norm > VANISHED * largest:
+                factor[c, c] = norm
+            else:
+                column, norm = self._random.normal(size=column.shape), 1.0
+            # what is left of a nearly dependent column is mostly rounding, so it is made orthogonal to everything again
+            column /= norm
+            for _ in range(3):
+                column = self._purge(column)
+                column -= result @ (result.T @ self._multiply_mass(column))
+                column /= self._norms(column)
+            result[:, c] = column[:, 0]
         return result, self._multiply_mass(result), factor
+
+    def _norms(self, block: Floats) -> Floats:
+        return np.sqrt(np.einsum("ij,ij->j", block, self._multiply_mass(block)))

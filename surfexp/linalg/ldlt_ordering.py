@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.linalg.ldlt_bisection import bisect
 from surfexp.linalg.ldlt_leaf import order_leaf
-from surfexp.linalg.ldlt_separator import bisect, refine
+from surfexp.linalg.ldlt_separator import refine
 from surfexp.mesh.triangle_mesh import Integers
 
 LEAF_SIZE = 48

@@ -8,7 +8,7 @@ from numba import njit
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
 LANES = 8
-LARGE_PANEL = 2048
+LARGE_PANEL = 512
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"})

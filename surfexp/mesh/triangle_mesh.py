@@ -84,7 +84,7 @@ class TriangleMesh:
     @cached_property
     def vertex_areas(self) -> Floats:
         """(n,) a third of the area of the first ring (the lumped mass)."""
-        return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), len(self.vertices))
+        return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), len(self.vertices)).astype(np.float64)
 
     @cached_property
     def edge_length(self) -> float:

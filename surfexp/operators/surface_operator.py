@@ -52,7 +52,7 @@ class SurfaceOperator:
     @cached_property
     def mass(self) -> Floats:
         """(n,) lumped mass."""
-        return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), self.vertex_count)
+        return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), self.vertex_count).astype(np.float64)
 
     @cached_property
     def edge_length(self) -> float:

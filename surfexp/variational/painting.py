@@ -45,8 +45,8 @@ def paint(
         See `surfexp.variational.projections.project`. "planar" paints the far side too, mirrored.
     width, height : float, optional
         Size of the picture in the plane of the projection, about its origin (planar, cylindrical, spherical) or the
-        middle of the coordinates. One gives the other by the picture's proportions; without both, the smallest size
-        that covers the surface.
+        middle of the coordinates. One gives the other by the picture's proportions; without both, the picture is as high
+        as the surface (cylindrical, spherical) or just covers it (planar, coordinates).
     extension : "reflect", "wrap" or "edge"
         What lies beyond the picture: its mirror image, itself again, or its outermost pixels.
 
@@ -65,7 +65,10 @@ def paint(
     plane = project(surface, projection, front, up, centre, radius)
     lower, upper = plane.min(axis=0), plane.max(axis=0)
     middle = 0.5 * (lower + upper) if projection == "coordinates" else np.zeros(2)
-    width, height = _size(2.0 * np.maximum(upper - middle, middle - lower), picture.shape, width, height)
+    extent = 2.0 * np.maximum(upper - middle, middle - lower)
+    if projection in ("cylindrical", "spherical") and width is None and height is None:
+        height = float(extent[1])
+    width, height = _size(extent, picture.shape, width, height)
     rows, columns = picture.shape[:2]
     row = (0.5 - (plane[:, 1] - middle[1]) / height) * rows - 0.5
     column = (0.5 + (plane[:, 0] - middle[0]) / width) * columns - 0.5

@@ -50,7 +50,8 @@ def project(
     front, up : (3,)
         The side where the viewer stands and what is above there; only the part of `front` across `up` counts.
     centre : (3,), optional
-        Point of the axis or centre of the sphere; the middle of the bounding box unless given.
+        Point of the axis or centre of the sphere. Unless given, the origin where the surface lies around it, as
+        generated surfaces do, else the middle of the bounding box; "planar" always takes the latter.
     radius : float, optional
         The median distance of the vertices from the axis or centre unless given.
 
@@ -64,7 +65,11 @@ def project(
             raise ValueError(f"surface {surface.name!r} has no coordinates; choose planar, cylindrical or spherical")
         return surface.coordinates[:, :2]
     points = surface.mesh.vertices
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0)) if centre is None else np.array(centre, dtype=float)
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    middle = 0.5 * (lower + upper) if centre is None else np.array(centre, dtype=float)
+    if centre is None and projection != "planar" and (lower < 0).all() and (upper > 0).all():
+        # the middle of the box is off the axis as soon as a handle sticks out on one side
+        middle = np.zeros(3)
     x, y, z = view_frame(front, up) @ (points - middle).T
     if projection == "planar":
         return np.stack([x, y], axis=1)

@@ -78,6 +78,7 @@ def prepare_hydra() -> None:
     for (kind, name), method in registry.PLUGINS.items():
         fields = method.options.model_fields
         defaults = {key: "???" if item.is_required() else item.get_default() for key, item in fields.items()}
+        defaults = {key: list(value) if isinstance(value, tuple) else value for key, value in defaults.items()}
         plain = {key: value if isinstance(value, PLAIN) else str(value) for key, value in defaults.items()}
         configurations.store(group=kind, name=name, node={"name": name, **plain}, provider="surfexp")
     sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.

@@ -11,7 +11,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 def numbers(name, pattern, capsys):
     runpy.run_path(str(EXAMPLES / f"{name}.py"))
-    return [tuple(map(float, found)) for found in re.findall(pattern, capsys.readouterr().out)]
+    return [tuple(map(float, found.groups())) for found in re.finditer(pattern, capsys.readouterr().out)]
 
 
 def test_level_set_baseline(capsys):

@@ -39,6 +39,7 @@ def test_closest_points_are_exact_and_the_band_is_complete():
     )
     rebuilt = np.einsum("kc,kcd->kd", band.barycentric, mesh.vertices[band.corners])
     np.testing.assert_allclose(rebuilt, band.closest, atol=1e-12)
+    np.testing.assert_allclose(band.extend(mesh.vertices[:, 1].copy()), band.closest[:, 1], atol=1e-12)
 
 
 def test_distance_and_extension_on_the_sphere_converge():

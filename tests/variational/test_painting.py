@@ -52,7 +52,7 @@ def test_picture_is_upright_and_not_mirrored_on_the_front(projection: str, front
 def test_cup_wall_is_unrolled_without_distortion() -> None:
     surface = cup(4000)
     x, y, z = surface.mesh.vertices.T
-    plane = project(surface, "cylindrical", centre=(0, 0, 0), radius=1.0)
+    plane = project(surface, "cylindrical", radius=1.0)
     a, b = surface.mesh.edges.T
     wall = (np.hypot(x, y) > 0.99) & (x < -0.2) & (np.abs(z) < 0.9)
     both = wall[a] & wall[b]
@@ -63,8 +63,10 @@ def test_cup_wall_is_unrolled_without_distortion() -> None:
 
 
 def test_cameraman_on_the_cup_is_recognisable_from_the_front() -> None:
-    values = paint(cup(4000), picture("cameraman"), centre=(0, 0, 0), radius=1.0, width=2.5).values
-    vertices = cup(4000).mesh.vertices
+    surface = cup(4000)
+    image = paint(surface, picture("cameraman"))
+    values, vertices = image.values, surface.mesh.vertices
+    assert image.notes[0] == "painted by cylindrical projection, 2.6 x 2.6"
     # the coat is dark and left of the middle, the sky above bright: front is -x, so left is +y
     outside = (np.hypot(*vertices.T[:2]) > 0.99) & (vertices[:, 0] < -0.3)
     coat = outside & (np.abs(vertices[:, 1] - 0.55) < 0.15) & (np.abs(vertices[:, 2]) < 0.3)

@@ -1,0 +1,17 @@
+"""The open surface of figure 2.6."""
+
+from pydantic import Field
+
+from surfexp.mesh.genus_surface import half_double_torus
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class HalfDoubleTorus(Options):
+    count: int = Field(31247, ge=1500, le=400000, description="number of vertices")
+
+
+@register("surface", "half_double_torus")
+def half_double_torus_surface(options: HalfDoubleTorus) -> Surface:
+    """Half of a double torus, cut by a plane: open, three boundary loops (figure 2.6)."""
+    return half_double_torus(options.count)

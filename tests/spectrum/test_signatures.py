@@ -1,0 +1,70 @@
+"""Signatures: scale invariance, limits, and invariance under symmetry of the surface."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.elements_surface import surface_elements
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.pointwise_signatures import global_point_signature, wave_kernel_signature
+from surfexp.spectrum.shape_dna import shape_dna, weighted_distance
+
+
+def ellipsoid_system(scale: float, k: int = 60):
+    ball = icosphere(3).mesh
+    mesh = TriangleMesh(scale * ball.vertices * [1.3, 1.0, 0.7], ball.faces)
+    elements = surface_elements(mesh)
+    return eigenpairs(elements.stiffness, elements.mass, k), elements.area
+
+
+@pytest.mark.parametrize("normalisation", ["area", "volume", "first", "slope"])
+def test_normalised_shape_dna_does_not_know_the_size(normalisation: str) -> None:
+    signatures = []
+    for scale in (1.0, 7.3):
+        system, area = ellipsoid_system(scale)
+        signatures.append(shape_dna(system.values, normalisation, area, volume=scale**3))
+    assert len(signatures[0]) == 59
+    assert np.allclose(signatures[0], signatures[1], rtol=1e-9)
+    raw = [shape_dna(ellipsoid_system(scale)[0].values, "raw") for scale in (1.0, 7.3)]
+    assert np.allclose(raw[0], 7.3**2 * raw[1], rtol=1e-9)
+
+
+def test_weyl_limit_of_slope_and_area() -> None:
+    sphere = np.array([degree * (degree + 1.0) for degree in range(40) for _ in range(2 * degree + 1)])
+    assert shape_dna(sphere, "slope")[-1] == pytest.approx(len(sphere) - 1, rel=0.05)
+    assert shape_dna(sphere, "area", 4.0 * np.pi, reweighted=True)[-1] == pytest.approx(4.0 * np.pi, rel=0.05)
+
+
+def test_weighted_distance_is_a_metric_with_the_printed_weights() -> None:
+    a, b, c = np.random.default_rng(0).normal(size=(3, 30))
+    assert weighted_distance(a, b) <= weighted_distance(a, c) + weighted_distance(c, b)
+    assert weighted_distance(np.array([1.0, 4.0]), np.array([0.0, 0.0]), alpha=2.0) == pytest.approx(np.sqrt(2.0))
+    assert weighted_distance(a, b, alpha=0.0) == pytest.approx(np.linalg.norm(a - b))
+
+
+def test_point_signatures_keep_the_symmetry_of_the_ellipsoid() -> None:
+    system, _ = ellipsoid_system(1.0)
+    vertices = icosphere(3).mesh.vertices
+    mirror = np.array([np.linalg.norm(vertices - v * [1.0, 1.0, -1.0], axis=1).argmin() for v in vertices])
+    waves = wave_kernel_signature(system, 20)
+    assert np.allclose(waves, waves[mirror], atol=1e-7)
+    assert waves.std(axis=0).min() > 0.0
+    points = global_point_signature(system, 1.0)
+    assert np.allclose(np.abs(points), np.abs(points[mirror]), atol=1e-6)
+
+
+def test_printed_point_signature_diverges_and_the_biharmonic_one_does_not() -> None:
+    system, _ = ellipsoid_system(1.0, 150)
+    for power, growth in ((0.5, (0.05, 1.0)), (1.0, (0.0, 0.02))):
+        norms = (global_point_signature(system, power) ** 2).cumsum(axis=1).mean(axis=0)
+        assert growth[0] <= norms[-1] / norms[70] - 1.0 <= growth[1]
+
+
+def test_a_missing_size_is_named() -> None:
+    with pytest.raises(ValueError, match="needs a positive area"):
+        shape_dna(np.arange(5.0), "area")
+    with pytest.raises(ValueError, match="choose one of raw"):
+        shape_dna(np.arange(5.0), "mass")
