@@ -10,7 +10,9 @@ from pathlib import Path
 def lines_of_code(file: Path) -> int:
     """Lines of one Python file that hold code."""
     text = file.read_text()
-    lines = {number for number, line in enumerate(text.splitlines(), 1) if line.strip() and not line.strip().startswith("#")}
+    lines = {
+        number for number, line in enumerate(text.splitlines(), 1) if line.strip() and not line.strip().startswith("#")
+    }
     if file.suffix == ".py":
         for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and node.body:

@@ -20,6 +20,7 @@ from surfexp.workflow.plan import make_plan
 registry.load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
+SPHERE = {"name": "icosphere", "levels": 3}
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
     ("surface", "hand"): {"count": 4000},
@@ -28,9 +29,22 @@ SMALL = {
     ("surface", "genus_surface"): {"count": 3000},
     ("surface", "torus"): {"n_u": 40, "n_v": 16},
     ("surface", "icosphere"): {"levels": 2},
+    # plugins that take another stage of their own kind are told which
+    ("surface", "noisy"): {"sigma": 0.05, "inputs": {"clean": {"surface": SPHERE}}},
+    ("surface", "spherical_map"): {"inputs": {"original": {"surface": SPHERE}}},
+    ("image", "coordinates"): {"inputs": {"clean": {"surface": SPHERE}}},
+    ("image", "blurred"): {"inputs": {"original": {"image": "picture"}}},
+    ("image", "inpainting_domain"): {"inputs": {"original": {"image": "picture"}}},
+    ("solver", "conformal"): {"inputs": {"spherical": {"surface": SPHERE}}},
+    ("solver", "geometry_error"): {
+        "inputs": {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
+    },
+    ("solver", "energy_excess"): {"inputs": {"result": {"solver": "primal_dual"}}},
+    ("solver", "level_set"): {"points": 24},
+    ("solver", "closest_point"): {"points": 24},
 }
 CONTEXT = {
-    "surface": {"name": "icosphere", "levels": 3},
+    "surface": SPHERE,
     "image": {"name": "picture", "noise": 30.0},
     "operator": "fem",
     "model": "rof",

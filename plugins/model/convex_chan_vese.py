@@ -2,7 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.mesh.surface import Surface
 from surfexp.variational.convex_chan_vese_model import ConvexChanVese
+from surfexp.variational.initial_curves import disc_distance
 from surfexp.variational.model import Model
 from surfexp.workflow.registry import Options, register
 
@@ -12,11 +14,15 @@ class ConvexChanVeseOptions(Options):
     mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
     updates: int = Field(20, ge=1, le=1000, description="largest number of updates of the two means")
     divide_by_area: bool = Field(True, description="false: the printed means, integrals not divided by the area")
+    discs: int = Field(0, ge=0, le=10000, description="initial curve: circles about random vertices; 0: where I > mean")
+    radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
+    seed: int = Field(0, ge=0, description="seed of the initial circles")
 
 
 @register("model", "convex_chan_vese")
-def convex_chan_vese_model(options: ConvexChanVeseOptions) -> Model:
+def convex_chan_vese_model(options: ConvexChanVeseOptions, *, surface: Surface) -> Model:
     """min over 0 <= phi <= 1 of TV(phi) + mu int phi r, with c1, c2 updated to the means of the two regions (2.19)."""
-    return ConvexChanVese(
-        length=options.length, mu=options.mu, updates=options.updates, divide_by_area=options.divide_by_area
-    )
+    mesh, start = surface.mesh, None
+    if options.discs:
+        start = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed) > 0
+    return ConvexChanVese(options.length, options.mu, start, options.updates, options.divide_by_area)

@@ -32,6 +32,9 @@ def command(name: str, arguments: list[str]) -> int:
         repaired = repair(vertices, faces, largest_component=given.largest_component)
     except ValueError as error:
         raise UserError(str(error)) from None
+    if not repaired.changes:
+        print(f"{given.file}: nothing to repair")
+        return 0
     output = given.output or given.file.with_name(f"{given.file.stem}-repaired.ply")
     write_mesh(output, repaired.mesh)
     print("\n".join([*(f"repaired: {change}" for change in repaired.changes), f"written: {output}"]))

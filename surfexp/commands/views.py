@@ -67,7 +67,7 @@ def print_tables(plan: Plan, results: Path, console: Console) -> None:
         for row in group.rows:
             values = [str(row.parameters.get(name, "–")) for name in group.varying]
             if row.failure:
-                table.add_row(*values, f"failed: {row.failure}", style="red")
+                table.add_row(*values, "failed", style="red")
                 continue
             numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
             table.add_row(*values, *numbers, style="red" if row.metrics.get("converged", 1.0) == 0.0 else None)

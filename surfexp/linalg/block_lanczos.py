@@ -14,7 +14,6 @@ from surfexp.mesh.triangle_mesh import Floats
 BLOCK = 8
 REORTHOGONALISE_EVERY = 3
 DRIFT_LIMIT = 1e-9
-CAREFUL = 64
 DEPENDENT = 1e-11
 CANCELLED = 1e-6
 VANISHED = 1e-10
@@ -106,7 +105,7 @@ class BlockLanczos:
         self._projected[here, here] = 0.5 * (diagonal + diagonal.T)
         self.dimension += BLOCK
         self._since += 1
-        if (self._since >= self._period or self.dimension <= CAREFUL) and first:
+        if self._since >= self._period and first:
             self._reorthogonalise(new, mass_block, first)
         else:
             new -= block @ correction

@@ -74,9 +74,9 @@ class ShiftedPencil:
         ValueError
             If no shift nearby solves to a residual of 1e-9.
         """
-        tried = shift
+        step = 1e-3 * (abs(shift) or 1.0 / float(self.mass.sum()))
         for nudge in range(NUDGES):
-            tried = shift * (1.0 + 1e-3 * nudge * (-1) ** nudge) + (1e-300 if shift == 0 else 0.0)
+            tried = shift + step * nudge * (-1) ** nudge
             shifted = csr_array(
                 (self._stiffness_entries - tried * self._mass_entries, self._pattern.indices, self._pattern.indptr),
                 shape=self._pattern.shape,

@@ -91,7 +91,8 @@ def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: Sli
                 values, vectors = values[:split], vectors[:, :split]
         if (edge < np.inf and len(values) >= expected) or not len(new_values):
             break
-    return SpectrumSlice(values, vectors, edge, len(values) == expected, basis_size, drift)
+    complete = len(values) == expected and edge < np.inf and edge - values[-1] > pencil.doubts[edge]
+    return SpectrumSlice(values, vectors, edge, complete, basis_size, drift)
 
 
 def merge(values: Floats, vectors: Floats, new_values: Floats, new_vectors: Floats) -> tuple[Floats, Floats]:

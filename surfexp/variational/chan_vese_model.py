@@ -51,7 +51,7 @@ class ChanVese:
 
         The descent is the model's own and `method` is not used; `progress` is given the relative fall of the energy.
         """
-        model = ConvexChanVese(self.length, self.mu)
+        model = ConvexChanVese(self.length, self.mu, self.initial)
         model.check(image, operator)
         start = model.first_region(image, operator) if self.initial is None else self.initial
         phi = np.where(start, 1.0, -1.0)

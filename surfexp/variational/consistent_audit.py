@@ -16,7 +16,7 @@ from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.solution import Solution
 
 AUDIT_TOLERANCE = 1e-5
-AUDIT_LIMIT = 5000
+AUDIT_LIMIT = 3000
 NOTE = (
     "The printed gradient and divergence are not adjoint, so this iteration has no energy gap of its own; the gap given "
     "is that of its result under the face-based total variation, with the lower bound of a consistent solve."
@@ -55,7 +55,9 @@ def run_and_audit(
         if change <= tolerance:
             converged = True
             break
-    iterations, changes = (np.array(column) for column in zip(*rows, strict=True))
+    if not rows:
+        raise ValueError("iteration_limit is 0, must be at least 1")
+    iterations, changes = (np.array(column, dtype=np.float64) for column in zip(*rows, strict=True))
     solution = Solution(
         values=previous.copy(),
         energy=np.inf,

@@ -17,6 +17,7 @@ from surfexp.variational.separable_quadratic import check_positive, convex_chan_
 from surfexp.variational.solution import Solution
 
 Mask = NDArray[np.bool_]
+SETTLED = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,17 +60,23 @@ class ConvexChanVese:
         region = self.first_region(image, operator) if self.initial is None else self.initial
         extremes = float(image.values.max()), float(image.values.min())
         means, notes = self.means(image.values, operator.mass, region, extremes)
+        if abs(means[0] - means[1]) <= 1e-9 * spread:
+            raise ValueError(
+                f"both initial regions have the mean {means[0]:.6g}, it must differ: choose another initial"
+            )
         solution: Solution | None = None
-        settled = False
+        settled, iterations = False, 0
         for update in range(1, self.updates + 1):
             slope = self._slope(image.values, means, operator)
             solution = method(convex_chan_vese(operator.mass, slope), operator, solution)
+            iterations += solution.iterations
             new, notes = self.means(image.values, operator.mass, solution.values > 0.5, means)
-            settled = max(abs(new[0] - means[0]), abs(new[1] - means[1])) <= 1e-6 * spread
+            settled = max(abs(new[0] - means[0]), abs(new[1] - means[1])) <= SETTLED * spread
             if settled or abs(new[0] - new[1]) <= 1e-9 * spread or update == self.updates:
                 break
             means = new
         assert solution is not None
+        solution = replace(solution, iterations=iterations)
         return self._result(solution, slope, means, settled, update, notes, image, operator)
 
     def check(self, image: Image, operator: SurfaceOperator) -> None:
@@ -83,6 +90,10 @@ class ConvexChanVese:
             raise ValueError(
                 f"image {image.name!r} has shape {image.values.shape}, "
                 f"convex Chan-Vese needs one value at each of the {operator.vertex_count} vertices"
+            )
+        if self.initial is not None and len(self.initial) != operator.vertex_count:
+            raise ValueError(
+                f"initial has {len(self.initial)} entries, the surface has {operator.vertex_count} vertices"
             )
         if np.ptp(image.values) == 0:
             raise ValueError(f"image {image.name!r} is constant at {image.values[0]}, two regions need two values")
@@ -134,6 +145,7 @@ class ConvexChanVese:
             "c1": means[0],
             "c2": means[1],
             "updates": float(updates),
+            "iterations": float(solution.iterations),
             "threshold": threshold,
             "threshold_energy": energy,
             "perimeter": float(perimeters(operator, solution.values, np.array([threshold]))[0]),

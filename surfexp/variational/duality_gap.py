@@ -65,8 +65,6 @@ def run_to_gap(
 ) -> Solution:
     """Take iterates until the relative gap is at most `tolerance`, and certify the one that is returned.
 
-    Where the fidelity gives a primal field for a dual one, the better of that and the iterate's own is returned.
-
     Parameters
     ----------
     iterates : iterable of Iterate
@@ -83,22 +81,18 @@ def run_to_gap(
     rows: list[tuple[float, float, float]] = []
     converged = False
     for iterate in iterates:
-        values = iterate.values
-        certificate = certify(fidelity, operator, values, iterate.load)
-        other = fidelity.primal_from_dual(iterate.load)
-        if other is not None:
-            rival = certify(fidelity, operator, other, iterate.load)
-            if rival.energy < certificate.energy:
-                values, certificate = other, rival
+        certificate = certify(fidelity, operator, iterate.values, iterate.load)
         rows.append((iterate.iteration, certificate.energy, certificate.relative_gap))
         if progress is not None:
             progress(iterate.iteration, certificate.relative_gap)
         if certificate.relative_gap <= tolerance:
             converged = True
             break
-    iterations, energies, gaps = (np.array(column) for column in zip(*rows, strict=True))
+    if not rows:
+        raise ValueError("iteration_limit is 0, must be at least 1")
+    iterations, energies, gaps = (np.array(column, dtype=np.float64) for column in zip(*rows, strict=True))
     solution = Solution(
-        values=values.copy(),
+        values=iterate.values.copy(),
         energy=certificate.energy,
         dual=iterate.dual.copy(),
         iterations=int(iterations[-1]),

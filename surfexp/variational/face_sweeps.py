@@ -88,6 +88,7 @@ def bregman_update(
             pull[i, c] -= b + e
 
 
+@njit(cache=True, nogil=True)
 def face_steps(hats: Floats) -> Floats:
     """Return s_T = 1 / (3 c_T), c_T the largest eigenvalue of sum_k g_k g_k^T.
 
@@ -102,10 +103,15 @@ def face_steps(hats: Floats) -> Floats:
     -------
     (m,) float64
     """
-    gram = np.einsum("fka,fkb->fab", hats, hats)
-    trace = gram[:, 0, 0] + gram[:, 1, 1]
-    spread = np.hypot(gram[:, 0, 0] - gram[:, 1, 1], 2.0 * gram[:, 0, 1])
-    return 2.0 / (3.0 * (trace + spread))
+    steps = np.empty(len(hats))
+    for f in range(len(hats)):
+        xx, xy, yy = 0.0, 0.0, 0.0
+        for k in range(3):
+            xx += hats[f, k, 0] * hats[f, k, 0]
+            xy += hats[f, k, 0] * hats[f, k, 1]
+            yy += hats[f, k, 1] * hats[f, k, 1]
+        steps[f] = 2.0 / (3.0 * (xx + yy + np.sqrt((xx - yy) ** 2 + 4.0 * xy * xy)))
+    return steps
 
 
 @njit(cache=True, nogil=True)

@@ -15,6 +15,8 @@ from surfexp.variational.separable_quadratic import check_positive
 from surfexp.variational.simplex_labelling import SimplexLabelling
 from surfexp.variational.solution import Solution
 
+SETTLED = 1e-4
+
 
 @dataclass(frozen=True)
 class MultiphaseSegmentation:
@@ -55,12 +57,13 @@ class MultiphaseSegmentation:
             raise ValueError(f"regions is {self.regions}, must lie in 2..{distinct}, the distinct values of the image")
         means = _initial_means(channels, operator.mass, self.regions)
         solution: Solution | None = None
-        settled = False
+        settled, iterations = False, 0
         for update in range(1, self.updates + 1):
             solution = method(self._fidelity(channels, means, operator), operator, solution)
+            iterations += solution.iterations
             labels = solution.values.argmax(axis=1)
             new, notes = _means(channels, operator.mass, labels, means)
-            settled = bool(np.abs(new - means).max() <= 1e-6 * np.ptp(channels))
+            settled = bool(np.abs(new - means).max() <= SETTLED * np.ptp(channels))
             if settled or update == self.updates:
                 break
             means = new
@@ -72,10 +75,11 @@ class MultiphaseSegmentation:
         return replace(
             solution,
             segmentation=labels.astype(np.float64),
+            iterations=iterations,
             converged=solution.converged and settled,
             reason=solution.reason if settled else f"the means still change after {update} updates",
             metrics=solution.metrics
-            | {"updates": float(update)}
+            | {"updates": float(update), "iterations": float(iterations)}
             | {f"c{j + 1}": float(c[0]) for j, c in enumerate(means)}
             | scores,
             notes=(*solution.notes, *notes),

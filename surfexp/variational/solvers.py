@@ -46,7 +46,9 @@ def check_combination(solver: str, model: str, consistent: bool = True) -> None:
         raise ValueError(f"model {model!r} is unknown, choose one of {', '.join(known)}")
     able = [name for name, models in table.items() if model in models]
     if not able:
-        raise ValueError(f"model {model!r} needs a consistent operator such as fem, the printed one has no solver for it")
+        raise ValueError(
+            f"model {model!r} needs a consistent operator such as fem, the printed one has no solver for it"
+        )
     if solver not in able:
         where = "" if consistent else " with a vertex-averaged operator"
         raise ValueError(f"solver {solver!r} does not solve model {model!r}{where}, choose one of {', '.join(able)}")

@@ -63,6 +63,7 @@ def code_digest(file: Path) -> str:
     return digest([sorted(_meaning(path) for path in files), {name: package_version(name) for name in packages}])
 
 
+@cache
 def numba_state(file: Path, code: str) -> str:
     """Name of the compilation cache of a plugin: one for all plugins of this package, one each for those of others."""
     package = Path(__file__).resolve().parent.parent

@@ -33,10 +33,7 @@ def stage_kind(name: str, result: type, stored: bool = True) -> None:
 
 def kind_of(result: type) -> str:
     """Name of the kind whose result type this is; KeyError when it is none."""
-    for kind in KINDS.values():
-        if kind.result is result:
-            return kind.name
-    raise KeyError(result)
+    return {kind.result: kind.name for kind in KINDS.values()}[result]
 
 
 stage_kind("surface", Surface)

@@ -12,22 +12,23 @@ from pydantic import ValidationError
 
 from surfexp.workflow.configuration import Context, Settings, merge, one_line, settings_of, stage
 from surfexp.workflow.errors import UserError, unknown
-from surfexp.workflow.fingerprint import code_digest, digest, file_digest
+from surfexp.workflow.fingerprint import code_digest, digest, file_digest, numba_state
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.registry import Plugin, plugin
+from surfexp.workflow.registry import PLUGINS, Plugin, plugin
 
 Keys = str | list[str] | dict[str, str]
 
 
 @dataclass(frozen=True)
 class Node:
-    """One stage of a plan: a plugin, its checked options and the keys of its inputs by role."""
+    """One stage of a plan: a plugin, its code and compilation cache, its checked options, its inputs' keys by role."""
 
     key: str
     kind: str
     plugin: str
     file: str
     code: str
+    cache: str
     options: dict[str, Any]
     inputs: dict[str, Keys]
 
@@ -123,10 +124,12 @@ class _Resolver:
         """Resolve the stage of one kind in a context, its inputs first; return its key."""
         if context.get(kind) is None:
             wanted = f", wanted by {path[-1].split(' ')[0]}" if path else ""
-            names = ", ".join(sorted(name for of, name in _names() if of == kind)) or "none registered"
+            names = ", ".join(sorted(name for of, name in PLUGINS if of == kind)) or "none registered"
             raise UserError(f"no {kind} is configured{wanted}; choose {kind}= one of: {names}")
         configured = stage(context[kind])
-        method = plugin(kind, str(configured.pop("name", None) or _missing(kind)))
+        if not configured.get("name"):
+            raise UserError(f"{kind}: the plugin's name is missing; set {kind}=NAME")
+        method = plugin(kind, str(configured.pop("name")))
         overrides = configured.pop("inputs", None) or {}
         here = f"{kind}/{method.name} {digest([kind, context])}"
         if here in path:
@@ -171,18 +174,9 @@ class _Resolver:
         code = code_digest(method.file)
         content = {name: _content(value, method.options.model_fields[name]) for name, value in options.items()}
         key = digest([method.kind, method.name, content, inputs, code])
-        self.plan.nodes[key] = Node(key, method.kind, method.name, str(method.file), code, options, inputs)
+        where, cache = str(method.file), numba_state(method.file, code)
+        self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs)
         return key
-
-
-def _names() -> Iterable[tuple[str, str]]:
-    from surfexp.workflow.registry import PLUGINS
-
-    return PLUGINS
-
-
-def _missing(kind: str) -> str:
-    raise UserError(f"{kind}: the plugin's name is missing; set {kind}=NAME")
 
 
 def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:

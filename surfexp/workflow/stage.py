@@ -16,7 +16,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
     os.environ.setdefault(_variable, "1")
 
 from surfexp.workflow import registry, store  # noqa: E402
-from surfexp.workflow.fingerprint import numba_state  # noqa: E402
+from surfexp.workflow.fingerprint import code_digest  # noqa: E402
 from surfexp.workflow.kinds import KINDS  # noqa: E402
 from surfexp.workflow.plan import Keys, Node, read_plan  # noqa: E402
 
@@ -47,7 +47,7 @@ def run_stage(plan_path: Path, key: str) -> int:
     plan = read_plan(plan_path)
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
-    os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / numba_state(Path(node.file), node.code))
+    os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / node.cache)
     progress_path = results / "events" / node.kind / f"{key}.progress"
     _progress.update(path=progress_path, last=0.0)
     started, failure = time.perf_counter(), ""
@@ -56,6 +56,8 @@ def run_stage(plan_path: Path, key: str) -> int:
     history: dict[str, list[float]] = {}
     store.write_text(progress_path, "started")
     try:
+        if code_digest(Path(node.file)) != node.code:
+            raise RuntimeError("the code was edited after this run was planned; run the same command again")
         result = make(plan.nodes, key, results)
         store.save(results, node.kind, key, result)
         metrics, notes = dict(getattr(result, "metrics", {})), tuple(getattr(result, "notes", ()))

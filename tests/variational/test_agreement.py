@@ -93,8 +93,15 @@ def independent_energies(
     return energy, float(-(mass * second) @ fidelity.image - (mass @ second**2) / (2 * fidelity.mu))
 
 
-@pytest.mark.parametrize("operator_name", OPERATORS)
-@pytest.mark.parametrize("model", MODELS)
+QUICK = {("fem", model) for model in MODELS} | {("libigl", "chan-vese"), ("intrinsic_delaunay", "chan-vese")}
+PAIRS = [
+    pytest.param(name, model, marks=() if (name, model) in QUICK else pytest.mark.slow)
+    for name in OPERATORS
+    for model in MODELS
+]
+
+
+@pytest.mark.parametrize(("operator_name", "model"), PAIRS)
 def test_solvers_agree(surface: Surface, image: Image, operator_name: str, model: str) -> None:
     make: Callable[..., SurfaceOperator] = OPERATORS[operator_name]
     operator = make(surface.mesh)

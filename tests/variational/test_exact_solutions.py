@@ -18,15 +18,18 @@ from surfexp.variational.separable_quadratic import rof
 from surfexp.variational.split_bregman import split_bregman
 
 
-@pytest.mark.parametrize("method", [primal_dual, split_bregman, fista_dual, newton])
-def test_equilateral_triangle_shrinks_by_the_known_factor(method: Method) -> None:
-    """phi - mean = (1 - 3 sqrt 2 / (mu |e|)) e with e = I - mean."""
+@pytest.mark.parametrize(
+    ("method", "bound"), [(primal_dual, 1e-3), (split_bregman, 1e-8), (fista_dual, 1e-8), (newton, 1e-8)]
+)
+def test_equilateral_triangle_shrinks_by_the_known_factor(method: Method, bound: float) -> None:
+    """phi - mean = (1 - 3 sqrt 2 / (mu |e|)) e with e = I - mean; primal-dual iterations approach it like 1/k only."""
     mesh = TriangleMesh(np.array([[0, 0, 0], [1, 0, 0], [0.5, 0.75**0.5, 0]]), np.array([[0, 1, 2]]))
     operator, values, mu = fem(mesh), np.array([3.0, -1.0, 5.0]), 7.0
     deviation = values - values.mean()
     exact = values.mean() + (1 - 3 * 2**0.5 / (mu * np.linalg.norm(deviation))) * deviation
-    solution = method(rof(operator.mass, values, mu), operator, tolerance=1e-13)  # type: ignore[call-arg]
-    assert np.abs(solution.values - exact).max() <= 1e-8
+    limit = {"tolerance": -1.0, "iteration_limit": 12 if method is newton else 2000}
+    solution = method(rof(operator.mass, values, mu), operator, **limit)  # type: ignore[arg-type]
+    assert np.abs(solution.values - exact).max() <= bound
 
 
 def two_values(surface: Surface, radius: float, length: float, area: float, mu: float) -> tuple[np.ndarray, np.ndarray]:

@@ -48,6 +48,23 @@ def test_moreau_identity(fidelity: Fidelity, seed: int, step: float) -> None:
 
 @pytest.mark.parametrize("fidelity", FIDELITIES, ids=NAMES)
 @settings(deadline=None, max_examples=15)
+@given(seed=st.integers(0, 10**6), step=st.floats(0.05, 20.0), near=st.sampled_from([1e-4, 1e-2, 1.0]))
+def test_prox_is_the_minimiser(fidelity: Fidelity, seed: int, step: float, near: float) -> None:
+    """F(y) >= F(x) + |y - x|_m^2 / (2 step) for F = H + |. - v|_m^2 / (2 step), x = prox(v), y in the domain."""
+    rng = np.random.default_rng(seed)
+    v = rng.normal(size=fidelity.shape)
+    x = fidelity.prox(v, step)
+    y = x + near * (fidelity.prox(rng.normal(size=fidelity.shape), 1.0) - x)
+
+    def distance(a: np.ndarray, b: np.ndarray) -> float:
+        return float(weighted((a - b) ** 2).sum() / (2 * step))
+
+    least, other = fidelity.value(x) + distance(x, v), fidelity.value(y) + distance(y, v)
+    assert other - least >= distance(x, y) * (1 - 1e-6) - 1e-11 * (1 + abs(least))
+
+
+@pytest.mark.parametrize("fidelity", FIDELITIES, ids=NAMES)
+@settings(deadline=None, max_examples=15)
 @given(seed=st.integers(0, 10**6))
 def test_dual_value_is_a_lower_bound(fidelity: Fidelity, seed: int) -> None:
     rng = np.random.default_rng(seed)

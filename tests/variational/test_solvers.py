@@ -55,6 +55,23 @@ def test_iteration_limit_is_said_and_the_result_is_certified(surface: Surface, i
     assert solution.error_bound == pytest.approx(np.sqrt(2 * (energy - solution.lower_bound) / mu))
 
 
+def test_certificate_belongs_to_the_values_that_are_returned(surface: Surface, image: Image) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    for method in (primal_dual, split_bregman):
+        for limit in (10, 20, 30, 60, 120):
+            solution = method(fidelity, operator, iteration_limit=limit, tolerance=0.0)
+            load = independent.load_of(surface.mesh, operator, solution.dual)
+            again = certify(fidelity, operator, solution.values, load)
+            assert again.energy == pytest.approx(solution.energy, rel=1e-12)
+            assert again.lower_bound == pytest.approx(solution.lower_bound, rel=1e-12)
+
+
+def test_a_limit_of_zero_is_refused(surface: Surface, image: Image) -> None:
+    for operator in (fem(surface.mesh), vertex_averaged(surface.mesh)):
+        with pytest.raises(ValueError, match="iteration_limit is 0"):
+            primal_dual(denoising(surface, image), operator, iteration_limit=0)
+
+
 def test_error_bound_holds(surface: Surface, image: Image) -> None:
     fidelity, operator = denoising(surface, image), fem(surface.mesh)
     exact = newton(fidelity, operator).values

@@ -100,7 +100,9 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     surfexp("run", "experiment=chain")
     assert {status for status, _, _ in runs(laboratory).values()} == {"FINISHED"}  # the failed run was taken over
     assert len(runs(laboratory)) == 6
-    assert sum(tags.get("current") == "false" for _, tags, _ in runs(laboratory).values()) == 1  # that of the older code
+    assert (
+        sum(tags.get("current") == "false" for _, tags, _ in runs(laboratory).values()) == 1
+    )  # that of the older code
 
 
 def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -64,7 +63,9 @@ def call(*command: str | Path, cwd: Path) -> str:
 @pytest.mark.xdist_group("end_to_end")
 def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: Path) -> None:
     source = tmp_path / "source"
-    ignored = shutil.ignore_patterns(".git", ".venv", "results", ".snakemake", "*.egg-info", "build", "__pycache__", ".*cache")
+    ignored = shutil.ignore_patterns(
+        ".git", ".venv", "results", ".snakemake", "*.egg-info", "build", "__pycache__", ".*cache"
+    )
     shutil.copytree(ROOT, source, ignore=ignored)
     (source / "results").mkdir()
     third = tmp_path / "third"
@@ -75,16 +76,30 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     (third / "thirdparty_surfaces" / "conf" / "experiment" / "third.yaml").write_text(EXPERIMENT)
     (third / "thirdparty_surfaces" / "tetrahedron.py").write_text(PLUGIN)
     for folder in (source, third):
-        call(sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", tmp_path, ".", cwd=folder)
+        call(
+            sys.executable,
+            "-m",
+            "pip",
+            "wheel",
+            "-q",
+            "--no-deps",
+            "--no-build-isolation",
+            "-w",
+            tmp_path,
+            ".",
+            cwd=folder,
+        )
 
     # a fresh environment that sees the dependencies of this one, but not this checkout
     venv.create(tmp_path / "env", with_pip=True)
     python = tmp_path / "env" / "bin" / "python"
     site = Path(call(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=tmp_path).strip())
-    here = Path(call(sys.executable, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=tmp_path).strip())
+    here = Path(
+        call(sys.executable, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", cwd=tmp_path).strip()
+    )
     for entry in here.iterdir():
         if "surfexp" not in entry.name and not (site / entry.name).exists() and entry.suffix != ".pth":
-            os.symlink(entry, site / entry.name)
+            (site / entry.name).symlink_to(entry)
     call(python, "-m", "pip", "install", "-q", "--no-deps", "--no-index", *tmp_path.glob("*.whl"), cwd=tmp_path)
 
     empty = tmp_path / "empty"
@@ -98,6 +113,8 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     assert "tetrahedron" in call(surfexp, "run", "--help", cwd=empty)
     assert "surface size" in call(surfexp, "run", "experiment=third", "surface.size=1,2", cwd=empty)
     options = ["surface=icosphere", "surface.levels=2", "solver=primal_dual", "operator=fem", "solver.tolerance=1e-2"]
-    printed = call(surfexp, "run", "image.picture=letters", "image=picture", "image.noise=20", "model=rof", *options, cwd=empty)
+    printed = call(
+        surfexp, "run", "image.picture=letters", "image=picture", "image.noise=20", "model=rof", *options, cwd=empty
+    )
     assert "report.html" in printed
     assert (empty / "results" / "quickstart" / "report.html").exists()

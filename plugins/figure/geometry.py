@@ -1,0 +1,34 @@
+"""The picture of figure 2.7: clean, noisy and denoised surface."""
+
+from dataclasses import replace
+
+from pydantic import Field
+
+from surfexp.figures.figure import Figure
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class Geometry(Options):
+    azimuth: float = Field(-60.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
+    elevation: float = Field(25.0, ge=-90, le=90, description="height of view, degrees")
+    width: int = Field(1500, ge=200, le=8000, description="pixels across")
+
+
+@register("figure", "geometry")
+def geometry_figure(options: Geometry, *, clean: Surface, noisy: Surface, solver: Solution) -> Figure:
+    """Clean, noisy and denoised surface side by side, lit alike (figure 2.7)."""
+    view = (options.azimuth, options.elevation)
+    meshes = {"clean": clean.mesh, "noisy": noisy.mesh, "denoised": TriangleMesh(solver.values, noisy.mesh.faces)}
+    views = [SurfaceView(mesh, None, view, title=name) for name, mesh in meshes.items()]
+    numbers = solver.metrics
+    caption = (
+        f"{clean.name.capitalize()} by {solver.model.replace('_', ' ')}: normals off by "
+        f"{numbers['normal_error_before']:.1f} degrees before, {numbers['normal_error']:.1f} after. "
+        "Compare figure 2.7 of the dissertation."
+    )
+    return replace(surface_panel(views, width=options.width, caption=caption), title=f"{clean.name} · {solver.model}")

@@ -1,0 +1,24 @@
+"""Order of convergence under refinement."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.figures.figure import Figure
+from surfexp.figures.order_plot import order_plot
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class Order(Options):
+    errors: dict[str, str] = Field(description="metric of each line, by its label")
+    title: str = Field("", description="heading in the figure")
+    caption: str = Field("", description="sentence below the figure")
+
+
+@register("figure", "order")
+def order_figure(options: Order, *, solvers: dict[str, Solution]) -> Figure:
+    """Errors over the edge length along an axis of refinement, with the measured orders."""
+    results = list(solvers.values())
+    sizes = np.array([result.metrics["edge_length"] for result in results])
+    lines = {label: np.array([result.metrics[name] for result in results]) for label, name in options.errors.items()}
+    return order_plot(sizes, lines, title=options.title, caption=options.caption)

@@ -1,0 +1,21 @@
+"""A level function whose zero line is a circle on the sphere."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.variational.image import Image
+from surfexp.variational.initial_curves import angular_distance
+from surfexp.workflow.registry import Options, register
+
+
+class CapDistance(Options):
+    direction: tuple[float, float, float] = Field((0.0, 0.0, 1.0), description="axis of the cap")
+    angle: float = Field(63.0, gt=0, lt=180, description="half opening of the cap, degrees")
+
+
+@register("image", "cap_distance")
+def cap_distance_image(options: CapDistance, *, surface: Surface) -> Image:
+    """Angle from the border of a cap, positive inside: the signed distance on the unit sphere, for flows of curves."""
+    angles = angular_distance(surface.mesh, np.array(options.direction))
+    return Image(np.radians(options.angle) - angles, "distance from a circle", "rad")

@@ -1,0 +1,19 @@
+"""Total variation deblurring (2.7)."""
+
+from pydantic import Field
+
+from surfexp.variational.deblurring_model import Deblurring
+from surfexp.variational.model import Model
+from surfexp.workflow.registry import Options, register
+
+
+class DeblurringOptions(Options):
+    width: float = Field(2.0, gt=0, le=100, description="standard deviation of the blur in edge lengths")
+    w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
+    mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
+
+
+@register("model", "deblurring")
+def deblurring_model(options: DeblurringOptions) -> Model:
+    """min TV(phi) + mu/2 |K phi - I|^2, K a step of heat diffusion (2.7)."""
+    return Deblurring(**dict(options))

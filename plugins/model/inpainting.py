@@ -1,0 +1,18 @@
+"""Total variation inpainting (2.8)."""
+
+from pydantic import Field
+
+from surfexp.variational.inpainting_model import Inpainting
+from surfexp.variational.model import Model
+from surfexp.workflow.registry import Options, register
+
+
+class InpaintingOptions(Options):
+    w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
+    mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
+
+
+@register("model", "inpainting")
+def inpainting_model(options: InpaintingOptions) -> Model:
+    """min TV(phi) + mu/2 |phi - I|^2 over the known part of the image, values within its range (2.8)."""
+    return Inpainting(w=options.w, mu=options.mu)

@@ -1,0 +1,19 @@
+"""Segmentation into several regions."""
+
+from pydantic import Field
+
+from surfexp.variational.model import Model
+from surfexp.variational.multiphase_model import MultiphaseSegmentation
+from surfexp.workflow.registry import Options, register
+
+
+class Multiphase(Options):
+    regions: int = Field(3, ge=2, le=64, description="number of regions")
+    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
+    updates: int = Field(10, ge=1, le=1000, description="largest number of updates of the means")
+
+
+@register("model", "multiphase")
+def multiphase_model(options: Multiphase) -> Model:
+    """Convex relaxation of the segmentation into k regions, grey or coloured, with updated means."""
+    return MultiphaseSegmentation(**dict(options))

@@ -1,0 +1,36 @@
+"""Non-convex two-phase segmentation (2.9)."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.chan_vese_model import ChanVese
+from surfexp.variational.image import Image
+from surfexp.variational.initial_curves import disc_distance
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class ChanVeseOptions(Options):
+    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
+    mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
+    discs: int = Field(0, ge=0, le=10000, description="initial curve: circles about random vertices; 0: where I > mean")
+    radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
+    seed: int = Field(0, ge=0, description="seed of the initial circles")
+    tolerance: float = Field(
+        1e-6, gt=0, lt=1, description="relative fall of the energy over ten steps at which to stop"
+    )
+    iteration_limit: int = Field(2000, ge=1, description="most steps")
+
+
+@register("solver", "chan_vese")
+def chan_vese_solver(
+    options: ChanVeseOptions, *, surface: Surface, image: Image, operator: SurfaceOperator
+) -> Solution:
+    """Chan-Vese with a regularised Heaviside function by its own descent; a local minimum, no certificate (2.9)."""
+    mesh, start = surface.mesh, None
+    if options.discs:
+        start = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed) > 0
+    model = ChanVese(options.length, options.mu, start, options.iteration_limit, options.tolerance)
+    return model.run(image, operator, progress=report_progress)

@@ -1,0 +1,37 @@
+"""The parametrization baseline: the model solved on the sphere, with the conformal factor as weights."""
+
+from functools import partial
+
+from pydantic import Field
+
+from surfexp.baselines.parameter_domain import Parametrized, conformal_domain
+from surfexp.baselines.sphere_grid import sphere_grid_domain
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.model import Model
+from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class Conformal(Options):
+    columns: int = Field(0, ge=0, le=8192, description="points of a regular grid along the equator; 0: on the vertices")
+    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap on the parameter domain")
+    iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
+
+
+@register("solver", "conformal", accepts={"model": ("rof", "convex_chan_vese")})
+def conformal_solver(
+    options: Conformal, *, surface: Surface, spherical: Surface, image: Image, operator: SurfaceOperator, model: Model
+) -> Solution:
+    """Primal-dual steps on the spherical image of the surface, on its vertices or a grid of 2 : 1; measured on the surface."""
+    mesh, positions = surface.mesh, spherical.mesh.vertices
+    columns = options.columns
+    domain = (
+        sphere_grid_domain(mesh, positions, columns, columns // 2) if columns else conformal_domain(mesh, positions)
+    )
+    limits = {"tolerance": options.tolerance, "iteration_limit": options.iteration_limit}
+    method = partial(primal_dual, **limits, progress=report_progress)
+    return model.run(image, operator, Parametrized(domain, method))

@@ -1,0 +1,23 @@
+"""The independent referee: an interior-point solver for second-order cones."""
+
+from functools import partial
+
+from pydantic import Field
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.conic import conic
+from surfexp.variational.image import Image
+from surfexp.variational.model import Model
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class Conic(Options):
+    tolerance: float = Field(1e-6, gt=0, lt=1, description="relative gap at which the result counts as converged")
+
+
+@register("solver", "conic", accepts={"model": ("rof", "inpainting", "convex_chan_vese")})
+def conic_solver(options: Conic, *, image: Image, operator: SurfaceOperator, model: Model) -> Solution:
+    """CVXPY with CLARABEL, certified here; for small meshes (needs the extra [conic])."""
+    return model.run(image, operator, partial(conic, **dict(options), progress=report_progress))

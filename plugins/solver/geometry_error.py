@@ -1,0 +1,32 @@
+"""How far a denoised surface is from the clean one."""
+
+from dataclasses import replace
+
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.fem import fem
+from surfexp.variational.accuracy import restoration_metrics
+from surfexp.variational.image import Image
+from surfexp.variational.normal_filtering import normal_deviation
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class GeometryError(Options):
+    pass
+
+
+@register("solver", "geometry_error")
+def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, clean: Surface) -> Solution:
+    """Another solver's vertices as they are, with their distance and their normals measured against the clean surface."""
+    truth = clean.mesh
+    moved, before = TriangleMesh(result.values, truth.faces), TriangleMesh(noisy.mesh.vertices, truth.faces)
+    image = Image(before.vertices, clean=truth.vertices)
+    errors = [restoration_metrics(image, fem(truth), mesh.vertices)["rmse"] for mesh in (before, moved)]
+    metrics = {
+        "vertex_error_before": errors[0],
+        "vertex_error": errors[1],
+        "normal_error_before": normal_deviation(before, truth),
+        "normal_error": normal_deviation(moved, truth),
+    }
+    return replace(result, metrics=result.metrics | metrics)

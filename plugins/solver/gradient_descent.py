@@ -1,0 +1,29 @@
+"""Gradient descent on the regularised total variation."""
+
+from functools import partial
+
+from pydantic import Field
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.gradient_descent import gradient_descent
+from surfexp.variational.image import Image
+from surfexp.variational.model import Model
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class GradientDescent(Options):
+    tolerance: float = Field(1e-3, gt=0, lt=1, description="bound of the relative gap")
+    iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
+    smoothing: float | None = Field(
+        None, gt=0, description="eps in sqrt(|grad|^2 + eps^2), a gradient; default: 1 % of the mean gradient"
+    )
+
+
+@register("solver", "gradient_descent")
+def gradient_descent_solver(
+    options: GradientDescent, *, image: Image, operator: SurfaceOperator, model: Model
+) -> Solution:
+    """Explicit steps on the regularised total variation: what the fast methods are measured against."""
+    return model.run(image, operator, partial(gradient_descent, **dict(options), progress=report_progress))

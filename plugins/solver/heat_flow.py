@@ -1,0 +1,32 @@
+"""Heat flow on the surface."""
+
+from dataclasses import replace
+
+from pydantic import Field
+
+from surfexp.operators.calculus import total_variation
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.accuracy import restoration_metrics
+from surfexp.variational.image import Image
+from surfexp.variational.solution import Solution
+from surfexp.variational.surface_flows import heat_flow
+from surfexp.workflow.registry import Options, register
+
+
+class HeatFlow(Options):
+    width: float = Field(2.0, gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
+    steps: int = Field(10, ge=1, le=10000, description="implicit Euler steps")
+
+
+@register("solver", "heat_flow")
+def heat_flow_solver(options: HeatFlow, *, image: Image, operator: SurfaceOperator) -> Solution:
+    """The image after diffusing for a time, by implicit Euler steps: the linear filter beside total variation."""
+    time = 0.5 * (options.width * operator.edge_length) ** 2
+    values = heat_flow(operator, image.values, time, options.steps)
+    energy = total_variation(operator, values)
+    solution = Solution(
+        values, energy, iterations=options.steps, reason="end time", model="heat flow", solver="implicit"
+    )
+    drift = float(abs(operator.mass @ (values - image.values)).max() / operator.mass.sum())
+    numbers = {"time": time, "total_variation": energy, "mean_drift": drift}
+    return replace(solution, metrics=numbers | restoration_metrics(image, operator, values))

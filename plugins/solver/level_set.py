@@ -1,0 +1,36 @@
+"""The implicit baseline of its time: projected gradient descent on a grid around the surface."""
+
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.baselines.level_set import level_set
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.model import Model
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class LevelSetOptions(Options):
+    points: int = Field(162, ge=16, le=2048, description="grid points along the longest side of the surface")
+    degree: Literal[1, 3] = Field(3, description="degree of the interpolation that extends data off the surface")
+    tolerance: float = Field(
+        1e-3, gt=0, lt=1, description="relative fall of the energy between extensions at which to stop"
+    )
+    step_limit: int = Field(20000, ge=1, description="most steps of one convex problem")
+
+
+@register("solver", "level_set", accepts={"model": ("rof", "convex_chan_vese")})
+def level_set_solver(
+    options: LevelSetOptions, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
+) -> Solution:
+    """Projected gradient descent in a narrow band of a signed distance grid, data extended off the surface."""
+    spacing = float(np.ptp(surface.mesh.vertices, axis=0).max()) / options.points
+    limits = {"tolerance": options.tolerance, "step_limit": options.step_limit}
+    method = replace(level_set(surface.mesh, spacing, options.degree), **limits, progress=report_progress)
+    return model.run(image, operator, method)

@@ -1,0 +1,37 @@
+"""The parametrization baseline for any genus: patches cut, mapped to the plane and solved each on its own."""
+
+from dataclasses import replace
+from functools import partial
+
+from pydantic import Field
+
+from surfexp.baselines.parameter_domain import Parametrized
+from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.model import Model
+from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class Patchwise(Options):
+    patches: int = Field(8, ge=1, le=1000, description="patches to begin with; those that are no disks are halved")
+    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
+    iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
+
+
+@register("solver", "patchwise", accepts={"model": ("rof", "convex_chan_vese")})
+def patchwise_solver(
+    options: Patchwise, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
+) -> Solution:
+    """Disks mapped to the plane and solved apart; their error at the seams against the intrinsic result (2.4.2)."""
+    limits = {"tolerance": options.tolerance, "iteration_limit": options.iteration_limit}
+    method = partial(primal_dual, **limits, progress=report_progress)
+    labels = disk_patches(surface.mesh, options.patches)
+    result = model.run(image, operator, Parametrized(patchwise_domain(surface.mesh, labels), method))
+    intrinsic = model.run(image, operator, method)
+    errors = seam_error(surface.mesh, labels, result.values, intrinsic.values)
+    return replace(result, metrics=result.metrics | errors)

@@ -1,0 +1,32 @@
+"""The conformal image of a surface on the unit sphere."""
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.baselines.conformal_flow import conformal_flow
+from surfexp.baselines.distortion import distortion
+from surfexp.baselines.parameter_domain import image_mesh
+from surfexp.baselines.spherical_map import spherical_map
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class SphericalMap(Options):
+    method: Literal["linear", "flow"] = Field(
+        "linear", description="linear: one linear system; flow: improved by conformal mean curvature flow"
+    )
+    step_limit: int = Field(100, ge=1, le=10000, description="most steps of the flow")
+
+
+@register("surface", "spherical_map")
+def spherical_map_surface(options: SphericalMap, *, original: Surface) -> Surface:
+    """Conformal map of a closed genus-0 surface to the sphere: the preprocessing of the parametrization method."""
+    mesh = original.mesh
+    positions = spherical_map(mesh)
+    if options.method == "flow":
+        positions = conformal_flow(mesh, positions, step_limit=options.step_limit, progress=report_progress)
+    image = image_mesh(mesh, positions)
+    return Surface(image, f"spherical image of the {original.name}", metrics=distortion(mesh, image, np.zeros(3)))

@@ -1,0 +1,37 @@
+"""The examples of the spectrum print the numbers that they promise."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
+    return capsys.readouterr().out.splitlines()
+
+
+def test_certified_spectrum(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = printed("certified_spectrum", capsys)
+    assert lines[0].startswith("300 eigenvalues below 340.69") and lines[0].endswith("True")
+
+
+def test_curved_elements(capsys: pytest.CaptureFixture[str]) -> None:
+    errors = [float(line.split()[-1]) for line in printed("curved_elements", capsys)]
+    assert errors == pytest.approx([8.1e-3, 5.0e-3, 1.3e-4, 2.2e-6], rel=0.05)
+
+
+def test_isospectral_drums(capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = (line.split(" nodal domains ") for line in printed("isospectral_drums", capsys))
+    assert first[0] == second[0]
+    assert (first[1], second[1]) == ("1 2 3 3 4", "1 2 3 4 4")
+
+
+def test_heard_geometry(capsys: pytest.CaptureFixture[str]) -> None:
+    words = printed("heard_geometry", capsys)[0].split()
+    assert float(words[1]) == pytest.approx(39.478418, rel=1e-4)
+    assert abs(float(words[-1])) < 0.02

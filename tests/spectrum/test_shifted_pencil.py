@@ -1,0 +1,67 @@
+"""The shifted pencil: counts, shifts that hit an eigenvalue, and the counting function."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+from scipy.sparse import csr_array, diags_array
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
+from surfexp.spectrum.counting_function import guess_eigenvalue
+from surfexp.spectrum.shifted_pencil import ShiftedPencil
+
+
+@pytest.fixture(scope="module")
+def matrices() -> tuple[csr_array, csr_array, np.ndarray]:
+    operator = fem(icosphere(3).mesh)
+    a, b = stiffness(operator), mass_matrix(operator)
+    return a, b, eigh(a.toarray(), b.toarray(), eigvals_only=True)
+
+
+@pytest.mark.parametrize("lumped", [False, True])
+def test_counts_and_solutions(matrices, lumped: bool) -> None:
+    a, b, values = matrices
+    if lumped:
+        b = csr_array(diags_array(b.sum(axis=1)))
+        values = eigh(a.toarray(), b.toarray(), eigvals_only=True)
+    pencil = ShiftedPencil(a, b)
+    for wanted in (-1.0, 7.3, 55.0, 111.1):
+        shift, factors = pencil.factor(wanted)
+        assert shift == wanted and pencil.counts[shift] == (values < shift).sum()
+        x = np.random.default_rng(0).normal(size=(642, 8))
+        load = pencil.stiffness @ x - shift * pencil.multiply_mass(x)
+        factors.solve_in_order(load)
+        assert np.allclose(load, x, atol=1e-8)
+    assert np.allclose(pencil.mass.todense(), b.todense()[np.ix_(pencil.order, pencil.order)])
+
+
+def test_a_shift_on_an_eigenvalue_moves_a_little(matrices) -> None:
+    a, b, values = matrices
+    pencil = ShiftedPencil(a, b)
+    for exact in (0.0, float(values[2]), float(values[30])):
+        shift, factors = pencil.factor(exact)
+        assert factors.residual <= 1e-9
+        assert abs(shift - exact) <= 1e-2 * max(exact, 1.0)
+        distance = np.abs(values - shift).min()
+        if distance > pencil.doubts[shift]:
+            assert pencil.counts[shift] == (values < shift).sum()
+
+
+def test_a_hopeless_pencil_is_refused() -> None:
+    # every third pivot vanishes at any shift, and elimination does not pivot
+    zero = csr_array(np.kron(np.eye(10), [[0.0, 1.0], [1.0, 0.0]]))
+    tiny = csr_array(diags_array(np.full(20, 1e-13)))
+    with pytest.raises(ValueError, match="repair slivers"):
+        ShiftedPencil(zero, tiny).factor(1e-6)
+
+
+def test_counting_function_starts_from_weyl_and_follows_counts() -> None:
+    assert guess_eigenvalue(100.0, 4.0 * np.pi, {}) == pytest.approx(100.0)
+    assert guess_eigenvalue(50.0, 4.0 * np.pi, {100.0: 50}) == pytest.approx(100.0)
+    tube = {100.0: 10, 400.0: 20}  # N grows like the root of the shift
+    assert guess_eigenvalue(40.0, 4.0 * np.pi, tube) == pytest.approx(1600.0)
+    assert guess_eigenvalue(14.0, 4.0 * np.pi, tube) == pytest.approx(196.0, rel=0.02)
+    assert guess_eigenvalue(10.0, 4.0 * np.pi, {10.0: 0}) > 10.0
