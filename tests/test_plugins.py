@@ -21,6 +21,7 @@ registry.load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
 SPHERE = {"name": "icosphere", "levels": 3}
+GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
     ("surface", "hand"): {"count": 4000},
@@ -36,12 +37,23 @@ SMALL = {
     ("image", "blurred"): {"inputs": {"original": {"image": "picture"}}},
     ("image", "inpainting_domain"): {"inputs": {"original": {"image": "picture"}}},
     ("solver", "conformal"): {"inputs": {"spherical": {"surface": SPHERE}}},
-    ("solver", "geometry_error"): {
-        "inputs": {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
-    },
+    ("solver", "geometry_error"): {"inputs": GEOMETRY},
     ("solver", "energy_excess"): {"inputs": {"result": {"solver": "primal_dual"}}},
+    ("solver", "partition_energy"): {
+        "inputs": {"result": {"model": "convex_chan_vese", "solver": {"name": "primal_dual", "tolerance": 1e-3}}}
+    },
     ("solver", "level_set"): {"points": 24},
     ("solver", "closest_point"): {"points": 24},
+    ("figure", "segmentation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
+    ("figure", "geometry"): {
+        "inputs": {"clean": {}, "noisy": {}, "solver": {"solver": {"name": "geometry_error", "inputs": GEOMETRY}}}
+    },
+    ("figure", "convergence"): {"inputs": {"solvers": {"over": "levels"}}},
+    ("figure", "order"): {
+        "errors": {"gradient": "gradient_error"},
+        "inputs": {"solvers": {"over": "levels", "solver": "operator_errors"}},
+    },
+    ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"over": "levels"}}},
 }
 CONTEXT = {
     "surface": SPHERE,
@@ -49,8 +61,9 @@ CONTEXT = {
     "operator": "fem",
     "model": "rof",
     "solver": {"name": "primal_dual", "tolerance": 1e-3},
+    "axes": {"levels": {f"rof @ {level}": {"surface": {"name": "icosphere", "levels": level}} for level in (2, 3)}},
 }
-NEEDS_OPEN3D = {("surface", "point_cloud")}
+NEEDS = {("surface", "point_cloud"): "open3d", ("solver", "conic"): "cvxpy"}
 
 
 def configuration(kind: str, name: str, folder: Path) -> dict[str, typing.Any]:
@@ -96,8 +109,8 @@ def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
 
 @pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
 def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
-    if (kind, name) in NEEDS_OPEN3D:
-        pytest.importorskip("open3d", exc_type=ImportError)
+    if (kind, name) in NEEDS:
+        pytest.importorskip(NEEDS[kind, name], exc_type=ImportError)
     context = configuration(kind, name, tmp_path)
     key, first = compute(context, tmp_path / "a")
     _, second = compute(context, tmp_path / "b")

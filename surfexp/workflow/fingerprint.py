@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 FRAMEWORK = "surfexp.workflow"
+PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def digest(value: Any) -> str:
@@ -63,6 +64,11 @@ def code_digest(file: Path) -> str:
     return digest([sorted(_meaning(path) for path in files), {name: package_version(name) for name in packages}])
 
 
+def edited_since(moment: float, file: Path) -> bool:
+    """Whether a plugin file or any module of this package is newer than a moment, and so the code may have changed."""
+    return any(path.stat().st_mtime > moment for path in (file, *PACKAGE.rglob("*.py")))
+
+
 @cache
 def numba_state(file: Path, code: str) -> str:
     """Name of the compilation cache of a plugin: one for all plugins of this package, one each for those of others."""
@@ -70,7 +76,7 @@ def numba_state(file: Path, code: str) -> str:
     own = digest(
         [sorted(_meaning(path) for path in package.rglob("*.py")), package_version("numba"), sys.version_info[:2]]
     )
-    return own if file.parent.parent == package.parent / "plugins" else digest([own, code])
+    return own if file.parent.parent == PACKAGE.parent / "plugins" else digest([own, code])
 
 
 @cache

@@ -16,7 +16,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
     os.environ.setdefault(_variable, "1")
 
 from surfexp.workflow import registry, store  # noqa: E402
-from surfexp.workflow.fingerprint import code_digest  # noqa: E402
+from surfexp.workflow.fingerprint import code_digest, edited_since  # noqa: E402
 from surfexp.workflow.kinds import KINDS  # noqa: E402
 from surfexp.workflow.plan import Keys, Node, read_plan  # noqa: E402
 
@@ -51,17 +51,14 @@ def run_stage(plan_path: Path, key: str) -> int:
     progress_path = results / "events" / node.kind / f"{key}.progress"
     _progress.update(path=progress_path, last=0.0)
     started, failure = time.perf_counter(), ""
-    metrics: dict[str, float] = {}
-    notes: tuple[str, ...] = ()
-    history: dict[str, list[float]] = {}
+    said: dict[str, Any] = {"metrics": {}, "notes": (), "history": {}}
     store.write_text(progress_path, "started")
     try:
-        if code_digest(Path(node.file)) != node.code:
+        if edited_since(plan_path.stat().st_mtime, Path(node.file)) and code_digest(Path(node.file)) != node.code:
             raise RuntimeError("the code was edited after this run was planned; run the same command again")
         result = make(plan.nodes, key, results)
         store.save(results, node.kind, key, result)
-        metrics, notes = dict(getattr(result, "metrics", {})), tuple(getattr(result, "notes", ()))
-        history = {name: [float(x) for x in values] for name, values in getattr(result, "history", {}).items()}
+        said = {name: getattr(result, name, empty) for name, empty in said.items()}
     except Exception as error:
         failure = f"{node.kind}/{node.plugin}: {' '.join(str(error).split()) or type(error).__name__}"
         if os.environ.get("SURFEXP_DEBUG"):
@@ -74,9 +71,9 @@ def run_stage(plan_path: Path, key: str) -> int:
         "plugin": node.plugin,
         "seconds": time.perf_counter() - started,
         "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
-        "metrics": {name: float(value) for name, value in metrics.items()},
-        "notes": notes,
-        "history": history,
+        "metrics": {name: float(value) for name, value in said["metrics"].items()},
+        "notes": said["notes"],
+        "history": {name: [float(x) for x in values] for name, values in said["history"].items()},
         "failure": failure,
     }
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))

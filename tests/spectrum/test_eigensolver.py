@@ -71,10 +71,10 @@ def test_methods_agree() -> None:
 def test_many_slices_stay_orthogonal_and_complete(monkeypatch: pytest.MonkeyPatch) -> None:
     a, b = pencil(icosphere(4).mesh)
     monkeypatch.setattr("surfexp.spectrum.slicing.SLICE", 40)
-    system = slicing(a, b, 230)
-    assert system.metrics["slices"] >= 5 and system.complete
-    assert_pairs(system, a, b, 230)
-    exact = eigh(a.toarray(), b.toarray(), eigvals_only=True, subset_by_index=(0, 229))
+    system = slicing(a, b, 150)
+    assert system.metrics["slices"] >= 4 and system.complete
+    assert_pairs(system, a, b, 150)
+    exact = eigh(a.toarray(), b.toarray(), eigvals_only=True, subset_by_index=(0, 149))
     assert np.abs(system.values - exact).max() < 1e-8 * exact[-1]
 
 

@@ -63,9 +63,7 @@ def test_rectangle_counts_are_exact_with_the_filter() -> None:
 def test_filter_set_on_the_rectangle_scores_on_a_disk_and_a_rotated_irregular_rectangle() -> None:
     # disk, Dirichlet: modes cos(m phi) J_m(j_mn r) have max(1, 2 m) n domains
     project = lambda points: points / np.linalg.norm(points, axis=1, keepdims=True)  # noqa: E731
-    filtered = counted(
-        surface_elements(disk(30).mesh, 2, project_boundary=project, boundary="dirichlet"), 40
-    )[2]
+    filtered = counted(surface_elements(disk(30).mesh, 2, project_boundary=project, boundary="dirichlet"), 40)[2]
     known = sorted(
         (float(zero**2), max(1, 2 * m) * (n + 1)) for m in range(12) for n, zero in enumerate(jn_zeros(m, 6))
     )
@@ -179,3 +177,14 @@ def test_sizes_must_agree() -> None:
         nodal_counts(graph, np.ones((41, 2)))
     with pytest.raises(ValueError, match="must be positive"):
         soft_nodal_counts(graph, np.ones((42, 1)), np.zeros(1), np.ones(1))
+
+
+def test_a_bump_below_the_peak_threshold_is_no_domain() -> None:
+    mesh = rectangle(21, 21, 1.0, 1.0).mesh
+    graph = nodal_graph(mesh.faces, 441)
+    function = mesh.vertices[:, :1] + 0.1
+    function[220] = -0.05
+    level = np.array([0.02])
+    assert nodal_counts(graph, function).tolist() == [2]
+    assert filtered_nodal_counts(graph, function, level, np.array([0.04])).tolist() == [2]
+    assert filtered_nodal_counts(graph, function, level, np.array([0.06])).tolist() == [1]

@@ -50,6 +50,16 @@ def test_a_shift_on_an_eigenvalue_moves_a_little(matrices) -> None:
             assert pencil.counts[shift] == (values < shift).sum()
 
 
+def test_the_best_of_several_shifts_is_taken_where_none_is_good_enough(matrices) -> None:
+    a, b, values = matrices
+    pencil = ShiftedPencil(a, b)
+    shift, _ = pencil.factor(50.0, accuracy=0.0)
+    assert len(pencil.counts) > 3 and pencil.doubts[shift] == min(pencil.doubts.values())
+    assert all(count == (values < at).sum() for at, count in pencil.counts.items())
+    quick = ShiftedPencil(a, b)
+    assert quick.factor(50.0)[0] == 50.0 and len(quick.counts) == 1
+
+
 def test_a_hopeless_pencil_is_refused() -> None:
     # every third pivot vanishes at any shift, and elimination does not pivot
     zero = csr_array(np.kron(np.eye(10), [[0.0, 1.0], [1.0, 0.0]]))

@@ -238,7 +238,7 @@ def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path) -> 
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 200
     while not list(laboratory.glob("results/store/*/*/record.json")) and time.monotonic() < deadline:
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGINT)
