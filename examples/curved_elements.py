@@ -7,7 +7,12 @@ from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 
 exact = np.array([degree * (degree + 1) for degree in range(1, 5) for _ in range(2 * degree + 1)])
-for name, levels, order, curved in [("P1", 4, 1, False), ("P2 flat", 3, 2, False), ("P2", 3, 2, True), ("P3", 3, 3, True)]:
+for name, levels, order, curved in [
+    ("P1", 4, 1, False),
+    ("P2 flat", 3, 2, False),
+    ("P2", 3, 2, True),
+    ("P3", 3, 3, True),
+]:
     project = (lambda points: points / np.linalg.norm(points, axis=1, keepdims=True)) if curved else None
     elements = surface_elements(icosphere(levels).mesh, order, project)
     values = eigenpairs(elements.stiffness, elements.mass, 25).values[1:]

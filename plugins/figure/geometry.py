@@ -25,10 +25,12 @@ def geometry_figure(options: Geometry, *, clean: Surface, noisy: Surface, solver
     view = (options.azimuth, options.elevation)
     meshes = {"clean": clean.mesh, "noisy": noisy.mesh, "denoised": TriangleMesh(solver.values, noisy.mesh.faces)}
     views = [SurfaceView(mesh, None, view, title=name) for name, mesh in meshes.items()]
-    numbers = solver.metrics
+    numbers, model = solver.metrics, solver.model.replace("_", " ")
+    if any("one by one" in note for note in solver.notes):
+        model = f"{model}, coordinate by coordinate"
     caption = (
-        f"{clean.name.capitalize()} by {solver.model.replace('_', ' ')}: normals off by "
+        f"{clean.name.capitalize()} by {model}: normals off by "
         f"{numbers['normal_error_before']:.1f} degrees before, {numbers['normal_error']:.1f} after. "
         "Compare figure 2.7 of the dissertation."
     )
-    return replace(surface_panel(views, width=options.width, caption=caption), title=f"{clean.name} · {solver.model}")
+    return replace(surface_panel(views, width=options.width, caption=caption), title=f"{clean.name} · {model}")

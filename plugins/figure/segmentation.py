@@ -17,10 +17,12 @@ from surfexp.variational.initial_curves import disc_distance
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
+LIGHT, DARK = np.array([0.96, 0.92, 0.84]), np.array([0.30, 0.38, 0.50])
+
 
 class Segmentation(Options):
     views: list[tuple[float, float]] = Field(
-        [(-80.0, 12.0), (-10.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
+        [(-100.0, 12.0), (-40.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
     )
     reference: str = Field("", description="figure of the dissertation that this one answers")
     discs: int = Field(0, ge=0, le=10000, description="initial curve as the model has it; 0: not drawn")
@@ -42,12 +44,12 @@ def segmentation_figure(
         start = (Contours(distance, width=options.line_width),)
     level = solver.metrics.get("threshold", 0.0 if solver.model == "Chan-Vese" else 0.5)
     edges = (Contours(solver.values, levels=(level,), width=options.line_width),)
-    regions = np.asarray(solver.segmentation, dtype=float)
-    result = ColorScale(label="region", colormap="gray", limits=(0.0, 1.0))
+    inside = np.asarray(solver.segmentation, dtype=float)[:, None]
+    regions = inside * LIGHT + (1.0 - inside) * DARK
     rows = [
         [
             SurfaceView(mesh, image.values, view, grey, start, "image and initial curve" if start else "image"),
-            SurfaceView(mesh, regions, view, result, (), "regions"),
+            SurfaceView(mesh, regions, view, title="regions"),
             SurfaceView(mesh, image.values, view, grey, edges, "boundary on the image"),
         ]
         for view in options.views

@@ -1,5 +1,6 @@
 """A picture painted on a surface, with noise."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -35,4 +36,6 @@ def picture_image(options: Picture, *, surface: Surface) -> Image:
     painted = paint(
         surface, pixels, options.projection, front=options.front, up=options.up, width=options.width, name=name
     )
+    if name == "letters":
+        painted = replace(painted, labels={"paper": painted.values > 127.5})
     return add_noise(painted, options.noise, options.seed)

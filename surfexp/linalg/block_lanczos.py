@@ -13,7 +13,7 @@ from surfexp.mesh.triangle_mesh import Floats
 
 BLOCK = 8
 REORTHOGONALISE_EVERY = 3
-DRIFT_LIMIT = 1e-9
+DRIFT_LIMIT, SEVERE_DRIFT = 1e-9, 1e-7
 DEPENDENT = 1e-11
 CANCELLED = 1e-6
 VANISHED = 1e-10
@@ -157,7 +157,7 @@ class BlockLanczos:
         drift = float(np.abs(overlap[:BLOCK]).max())
         self.drift = max(self.drift, drift)
         if drift > DRIFT_LIMIT:
-            self._period = max(1, self._period - 1)
+            self._period = 2 if drift < SEVERE_DRIFT else 1
         common = overlap @ self._basis[:, :older].T
         block = self._next
         block -= common[:BLOCK].T

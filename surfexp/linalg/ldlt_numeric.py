@@ -63,12 +63,8 @@ def eliminate(
             place[start + a] = a
         for a in range(len(below)):
             place[below[a]] = width + a
-        panel[:] = 0.0
+        gather(indptr, indices, entries, start, end, place, panel)
         update = np.zeros((len(below), len(below)))
-        for j in range(start, end):
-            for p in range(indptr[j], indptr[j + 1]):
-                if indices[p] >= j:
-                    panel[place[indices[p]], j - start] = entries[p]
         child, bottom = first_child[s], top
         while child != -1:
             child_rows = rows[row_starts[child] : row_starts[child + 1]]
@@ -81,16 +77,35 @@ def eliminate(
         top = bottom
         replaced += eliminate_front(panel, pivots[start:end], smallest, update)
         if len(below):
-            if top + update.size > len(stack):
-                larger = np.empty(max(2 * len(stack), top + update.size))
-                larger[:top] = stack[:top]
-                stack = larger
+            stack = with_room(stack, top, update.size)
             begins[s] = top
             stack[top : top + update.size] = update.ravel()
             top += update.size
             sibling[s] = first_child[parents[s]]
             first_child[parents[s]] = s
     return replaced
+
+
+@njit(cache=True, nogil=True)
+def gather(
+    indptr: Integers, indices: Integers, entries: Floats, start: int, end: int, place: Integers, panel: Floats
+) -> None:
+    """Write the columns start..end-1 of the matrix, from the diagonal down, into the panel."""
+    panel[:] = 0.0
+    for j in range(start, end):
+        for p in range(indptr[j], indptr[j + 1]):
+            if indices[p] >= j:
+                panel[place[indices[p]], j - start] = entries[p]
+
+
+@njit(cache=True, nogil=True)
+def with_room(stack: Floats, used: int, needed: int) -> Floats:
+    """Return the stack, or a longer copy, so that `needed` entries fit behind the `used` ones."""
+    if used + needed <= len(stack):
+        return stack
+    longer = np.empty(max(2 * len(stack), used + needed))
+    longer[:used] = stack[:used]
+    return longer
 
 
 @njit(cache=True, nogil=True)

@@ -60,8 +60,14 @@ class ShiftedPencil:
         block = np.ascontiguousarray(block)
         return multiply_lanes(self.mass, block) if block.shape[1] == LANES else self.mass @ block
 
-    def factor(self, shift: float) -> tuple[float, LDLT]:
+    def factor(self, shift: float, accuracy: float = 1.0) -> tuple[float, LDLT]:
         """Factorise A - s B at the shift, or near it where the pivots are bad there.
+
+        Parameters
+        ----------
+        shift : float
+        accuracy : float
+            Doubt, relative to the shift, that is good enough to stop looking for a better shift nearby.
 
         Returns
         -------
@@ -75,21 +81,28 @@ class ShiftedPencil:
             If no shift nearby solves to a residual of 1e-9.
         """
         step = 1e-3 * (abs(shift) or 1.0 / float(self.mass.sum()))
+        found: list[tuple[float, float, LDLT]] = []
+        worst = np.inf
         for nudge in range(NUDGES):
-            tried = shift + step * nudge * (-1) ** nudge
-            shifted = csr_array(
-                (self._stiffness_entries - tried * self._mass_entries, self._pattern.indices, self._pattern.indptr),
-                shape=self._pattern.shape,
-            )
-            factors = LDLT(shifted, self.symbolic)
+            tried = float(shift + step * nudge * (-1) ** nudge)
+            factors = LDLT(self._shifted(tried), self.symbolic)
+            doubt = 10.0 * factors.perturbation * self.size / float(self.mass.sum())
+            worst = min(worst, factors.residual)
             if factors.residual <= WORST_RESIDUAL and not factors.replaced_pivots:
-                self.counts[tried] = factors.inertia[0]
-                self.doubts[tried] = 10.0 * factors.perturbation * self.size / float(self.mass.sum())
-                return tried, factors
-        raise ValueError(
-            f"A - s B solves with residual {factors.residual:.1e} at s = {tried:g}, at most {WORST_RESIDUAL:.0e} is "
-            "accepted: repair slivers or faces of nearly no area"
-        )
+                self.counts[tried], self.doubts[tried] = factors.inertia[0], doubt
+                found = sorted([*found, (doubt, tried, factors)], key=lambda entry: entry[0])[:1]
+                if doubt <= accuracy * max(abs(tried), step):
+                    break
+        if not found:
+            raise ValueError(
+                f"A - s B solves with residual {worst:.1e} at best near s = {shift:g}, at most {WORST_RESIDUAL:.0e} is "
+                "accepted: repair slivers or faces of nearly no area"
+            )
+        return found[0][1], found[0][2]
+
+    def _shifted(self, shift: float) -> csr_array:
+        entries = self._stiffness_entries - shift * self._mass_entries
+        return csr_array((entries, self._pattern.indices, self._pattern.indptr), shape=self._pattern.shape)
 
 
 def _ones(matrix: sparray) -> csr_array:

@@ -19,6 +19,7 @@ from surfexp.spectrum.spectrum_slice import SliceRequest, SpectrumSlice, solve_s
 SLICE = 350
 FIRST_SHIFT, INNER_SHIFT = 0.6, 0.5
 SHIFT_ATTEMPTS = 12
+SOLVE_ACCURACY = 2e-10
 POLISHES = 3
 
 Progress = Callable[[int, float], None]
@@ -91,7 +92,8 @@ def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> 
     fraction = FIRST_SHIFT if low == -np.inf else INNER_SHIFT
     for _ in range(SHIFT_ATTEMPTS):
         guess = guess_eigenvalue(found + fraction * count, area, pencil.counts)
-        shift, factors = pencil.factor(max(guess, low + 1e-3 * abs(low)) if found else guess)
+        wanted = max(guess, low + 1e-3 * abs(low)) if found else guess
+        shift, factors = pencil.factor(wanted, SOLVE_ACCURACY)
         below = pencil.counts[shift] - found
         if 0.35 * count <= below <= 0.75 * count:
             break

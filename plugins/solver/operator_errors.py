@@ -1,0 +1,25 @@
+"""The errors of a discrete operator on a function whose derivatives are known, chapter 1."""
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.diagnostics import adjointness_defect, null_modes
+from surfexp.operators.manufactured import manufactured, operator_errors
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class OperatorErrors(Options):
+    pass
+
+
+@register("solver", "operator_errors", accepts={"surface": ("icosphere", "torus")})
+def operator_errors_solver(options: OperatorErrors, *, surface: Surface, operator: SurfaceOperator) -> Solution:
+    """Relative errors of gradient, divergence and Laplacian on a sphere or torus, adjointness defect and null modes."""
+    exact = manufactured(surface)
+    metrics = {"edge_length": operator.edge_length, "adjointness_defect": adjointness_defect(operator)}
+    metrics |= operator_errors(operator, exact)
+    if operator.vertex_count <= 3000:
+        metrics["null_modes"] = float(null_modes(operator))
+    return Solution(
+        exact.values, 0.0, reason="no iteration", model="operator errors", solver=operator.name, metrics=metrics
+    )
