@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -82,7 +83,10 @@ def _dashboard(given: argparse.Namespace) -> int:
 
     found = MlflowClient(tracking_uri(given.results)).search_experiments(order_by=["last_update_time DESC"])
     shown = next((item.experiment_id for item in found if item.name != "Default"), "0")
-    address = f"http://127.0.0.1:{given.port}/?workflowType=machine_learning#/experiments/{shown}/runs"
+    view = "orderByKey=metrics.%60relative_gap%60&orderByAsc=true&searchFilter=tags.current%3D%22true%22"
+    address = f"http://127.0.0.1:{given.port}/?workflowType=machine_learning#/experiments/{shown}/runs?{view}"
     print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
     server = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(given.port)]
-    return subprocess.call([*server, "--backend-store-uri", tracking_uri(given.results), "--workers", "1"])
+    environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
+    arguments = ["--backend-store-uri", tracking_uri(given.results), "--workers", "1"]
+    return subprocess.call([*server, *arguments], env=environment)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import shutil
 import subprocess
 import sys
@@ -20,6 +22,7 @@ from pydantic import Field
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.workflow.registry import Options, register
+from thirdparty_surfaces.outer import scaled
 
 
 class Tetrahedron(Options):
@@ -31,8 +34,21 @@ def tetrahedron(options: Tetrahedron) -> Surface:
     """A tetrahedron from a third party."""
     vertices = options.size * np.array([[0.0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]])
     mesh = TriangleMesh(vertices, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
-    return Surface(mesh, "tetrahedron", metrics={"area": mesh.area})
+    return Surface(mesh, "tetrahedron", metrics={"area": scaled(mesh.area)})
 '''
+INNER = """from numba import njit
+
+@njit(cache=True)
+def factor(x):
+    return 1.0 * x
+"""
+OUTER = """from numba import njit
+from thirdparty_surfaces.inner import factor
+
+@njit(cache=True)
+def scaled(x):
+    return factor(x)
+"""
 PROJECT = """[build-system]
 requires = ["setuptools"]
 build-backend = "setuptools.build_meta"
@@ -75,6 +91,8 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     (third / "thirdparty_surfaces" / "conf" / "__init__.py").write_text("")
     (third / "thirdparty_surfaces" / "conf" / "experiment" / "third.yaml").write_text(EXPERIMENT)
     (third / "thirdparty_surfaces" / "tetrahedron.py").write_text(PLUGIN)
+    (third / "thirdparty_surfaces" / "inner.py").write_text(INNER)
+    (third / "thirdparty_surfaces" / "outer.py").write_text(OUTER)
     for folder in (source, third):
         call(
             sys.executable,
@@ -118,3 +136,12 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     )
     assert "report.html" in printed
     assert (empty / "results" / "quickstart" / "report.html").exists()
+
+    # an edit in a compiled function that the plugin reaches through another module shows in the next run
+    before = (empty / "results" / "third" / "metrics.csv").read_text()
+    inner = site / "thirdparty_surfaces" / "inner.py"
+    inner.write_text(INNER.replace("1.0 * x", "3.0 * x"))
+    call(surfexp, "run", "experiment=third", "surface.size=1,2", cwd=empty)
+    after = (empty / "results" / "third" / "metrics.csv").read_text()
+    area = [[float(row["area"]) for row in csv.DictReader(io.StringIO(text))] for text in (before, after)]
+    assert area[1] == pytest.approx([3.0 * value for value in area[0]])
