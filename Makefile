@@ -4,7 +4,7 @@ BIN := .venv/bin
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run test test-all lint bench mutate ui lock clean
+.PHONY: run test test-all test-optional optional lint bench mutate ui lock clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -14,6 +14,12 @@ test: .venv/ready
 
 test-all: .venv/ready
 	$(BIN)/pytest -n 2 --dist loadgroup
+
+optional: .venv/ready # open3d, cvxpy: their tests are skipped without
+	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-optional.lock
+
+test-optional: optional
+	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/mesh tests/variational tests/test_plugins.py
 
 lint: .venv/ready
 	$(BIN)/ruff check .
@@ -35,6 +41,8 @@ ui: .venv/ready
 lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
+	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
+		pyproject.toml --extra dev --extra open3d --extra conic -c requirements.lock -o requirements-optional.lock
 
 clean:
 	rm -rf results/[!R]* .snakemake

@@ -21,4 +21,5 @@ def order_figure(options: Order, *, solvers: dict[str, Solution]) -> Figure:
     results = list(solvers.values())
     sizes = np.array([result.metrics["edge_length"] for result in results])
     lines = {label: np.array([result.metrics[name] for result in results]) for label, name in options.errors.items()}
-    return order_plot(sizes, lines, title=options.title, caption=options.caption)
+    title = " · ".join(part for part in (options.title, results[0].solver.replace("_", " ")) if part)
+    return order_plot(sizes, lines, y_label="relative error", title=title, caption=options.caption)

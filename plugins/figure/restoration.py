@@ -16,6 +16,8 @@ from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
+LOST = np.array([214.0, 96.0, 77.0])
+
 
 class Restoration(Options):
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
@@ -28,18 +30,18 @@ class Restoration(Options):
 def restoration_figure(
     options: Restoration, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
-    """Clean, observed and restored image and the error, lost parts without colour; three channels as colours."""
+    """Clean, observed and restored image and the error, lost parts in red; three channels as colours."""
     grey = ColorScale(label="grey level", colormap="gray", limits=(0.0, 255.0))
-    coloured = image.values.ndim == 2
 
     def panel(values: Floats, name: str) -> SurfaceView:
-        shown = np.clip(values / 255.0, 0.0, 1.0) if coloured else values
-        return SurfaceView(surface.mesh, shown, view, ColorScale() if coloured else grey, (), name)
+        shown = np.clip(values / 255.0, 0.0, 1.0) if values.ndim == 2 else values
+        return SurfaceView(surface.mesh, shown, view, ColorScale() if values.ndim == 2 else grey, (), name)
 
     view = (options.azimuth, options.elevation)
     observed = image.values
     if image.known is not None:
-        observed = np.where(image.known.reshape(-1, *[1] * (observed.ndim - 1)), observed, np.nan)
+        levels = observed if observed.ndim == 2 else np.repeat(observed[:, None], 3, axis=1)
+        observed = np.where(image.known[:, None], levels, LOST)
     panels = [panel(observed, "observed"), panel(solver.values, "restored")]
     if image.clean is not None:
         error = (solver.values - image.clean).reshape(len(image.clean), -1).mean(axis=1)

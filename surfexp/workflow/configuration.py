@@ -96,7 +96,7 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
     """All leaf configurations of one composed configuration: the union over variants of their grids.
 
     `overrides` is what the command line says of stages: a kind's configuration, or an option's value under its dotted
-    name. It wins over variants and grids; an option goes to every plugin that has it.
+    name. It wins over variants and grids; an option goes to every plugin that has it, whichever comes first.
     """
     base = {key: value for key, value in configuration.items() if key not in ("variants", "grid")}
     leaves = []
@@ -110,7 +110,7 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
             for dotted, value in zip(grid, values, strict=True):
                 leaf = assign(leaf, dotted, value)
             leaves.append(copy.deepcopy(leaf))
-    for dotted, value in (overrides or {}).items():
+    for dotted, value in sorted((overrides or {}).items(), key=lambda item: "." in item[0]):
         leaves = _override(leaves, dotted, value)
     return leaves
 

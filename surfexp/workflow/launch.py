@@ -21,13 +21,14 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.workflow import registry, store
-from surfexp.workflow.configuration import expand
+from surfexp.workflow.configuration import Settings, expand
 from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Node, Plan, make_plan, read_plan
 from surfexp.workflow.stage import event_path, read_event
 
 PLAIN = (bool, int, float, str, list, dict, type(None))
+SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
 HELD = "SURFEXP_HOLDS_RESULTS"
 _locks: list[int] = []
 
@@ -96,8 +97,8 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     prepare_hydra()
     PlanLauncher.action = staticmethod(action)
     os.environ["HYDRA_FULL_ERROR"] = "1"
-    dotted = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=")
-    arguments = [f"++{text}" if dotted.match(text) else text for text in arguments]  # their names are checked later
+    ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=")
+    arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
     flags = [] if {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments) else ["--multirun"]
     sys.argv = ["surfexp run", *flags, *arguments]
     folder = str(registry.package_folder("surfexp.conf"))
@@ -219,9 +220,9 @@ def split_overrides(overrides: Sequence[str], repository: Any) -> tuple[dict[str
     rest = []
     for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
         key = override.key_or_group
-        if key.partition(".")[0] not in KINDS:
+        if key.partition(".")[0] not in (*KINDS, *SETTABLE):
             rest.append(text)
-        elif "." in key:
+        elif "." in key or key in SETTABLE:
             stages[key] = override.value()
         else:
             found = repository.load_config(f"{key}/{override.value()}")
@@ -237,8 +238,7 @@ def _plain(composed: DictConfig) -> dict[str, Any]:
 
 
 def _objective(plan: Plan, results: Path) -> float | None:
-    name = plan.settings.objective
-    if name is None:
+    if (name := plan.settings.objective) is None:
         return None
     values = [
         read_event(results, plan.nodes[leaf.key].kind, leaf.key).get("metrics", {}).get(name) for leaf in plan.leaves

@@ -129,6 +129,8 @@ def test_variants_and_grids_are_a_union_of_products_and_the_command_line_wins() 
     assert [leaf["surface"]["size"] for leaf in forced] == [9.0, 9.0, 9.0]
     assert forced[0]["feature"]["shift"] == 0.5 and forced[2]["feature"] == {"name": "toy_eigenfunction"}
     assert all(leaf["surface"] == {"name": "file"} for leaf in expand(configuration, {"surface": {"name": "file"}}))
+    both = {"surface.size": 7.0, "surface": {"name": "toy_triangle", "size": 1.0}}  # the option first, then the plugin
+    assert all(leaf["surface"]["size"] == 7.0 for leaf in expand(configuration, both))
     with pytest.raises(UserError, match="option of surface 'szie'; did you mean 'size'"):
         expand(configuration, {"surface.szie": 1.0})
 
