@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import os
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -160,8 +161,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], follo
     log = results / "logs" / f"{path.stem}.snakemake.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as sink:
-        environment = {**os.environ, HELD: "1"}
-        process = subprocess.Popen(command, stdout=sink, stderr=sink, env=environment, pass_fds=_locks)
+        process = subprocess.Popen(command, stdout=sink, stderr=sink, env={**os.environ, HELD: "1"}, pass_fds=_locks)
         try:
             follow(process, missing or plan.stored, results)
         except BaseException:
@@ -169,21 +169,21 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], follo
             process.wait()
             raise
     if process.returncode and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
-        if process.returncode < 0:
-            raise StageFailure(f"Snakemake was killed by signal {-process.returncode}; the same command continues")
         tail = [line for line in log.read_text().splitlines() if line.strip()]
-        raise StageFailure(f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}")
+        reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"
+        if process.returncode < 0:
+            reason = f"Snakemake was killed by signal {-process.returncode}; the same command continues"
+        if shutil.disk_usage(results).free < 2**20:
+            reason = f"the disk of {results} is full; free some space, then the same command continues"
+        raise StageFailure(reason)
 
 
 def hold_results(results: Path, wait: bool = False) -> None:
     """Take the results folder for this process; a second run waits for it, or is refused when `wait` is false."""
     if os.environ.get(HELD) or _locks:
         return
-    try:
-        results.mkdir(parents=True, exist_ok=True)
-        descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
-    except OSError as error:
-        raise UserError(f"results folder {results}: {error.strerror}; choose another with results=FOLDER") from None
+    results.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,0 +1,54 @@
+"""A line of the table: work, rival, ratio and verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from benchmarks.measurement import Cost
+
+
+@dataclass(frozen=True)
+class Line:
+    """What one comparison gave.
+
+    Parameters
+    ----------
+    work, rival : str
+    target : str
+        What is asked for.
+    result : str
+        What was seen, in the same terms.
+    met : bool
+    ours, theirs : Cost, optional
+    accuracy : str
+        Tolerances and the accuracy that both sides reached.
+    note : str
+    """
+
+    work: str
+    rival: str
+    target: str
+    result: str
+    met: bool
+    ours: Cost | None = None
+    theirs: Cost | None = None
+    accuracy: str = ""
+    note: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """ "met" or "not met"."""
+        return "met" if self.met else "not met"
+
+
+def race(
+    work: str, rival: str, least: float, ours: Cost, theirs: Cost, accuracy: str, *, fair: bool = True, note: str = ""
+) -> Line:
+    """Return the line whose ratio of processor seconds should be at least `least`; `fair` is any further condition."""
+    ratio = theirs.cpu / ours.cpu
+    return Line(work, rival, f"{least:g}×", f"{ratio:.1f}×", fair and ratio >= least, ours, theirs, accuracy, note)
+
+
+def not_installed(work: str, rival: str, least: float, packages: str) -> Line:
+    """Return the line of a rival that cannot be run."""
+    return Line(work, rival, f"{least:g}×", f"not installed: {packages}", met=False)

@@ -1,0 +1,73 @@
+"""The page that the command writes."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+
+from benchmarks.line import Line
+from benchmarks.measurement import Cost
+
+PACKAGES = ("numpy", "scipy", "numba", "cholespy", "libigl", "cvxpy", "clarabel", "lapy", "scikit-sparse")
+HEAD = """# Benchmarks
+
+Made by `make bench`. Each line is a ratio of processor seconds to a named rival in one run at equal accuracy, on one
+thread, the median of three runs (of one where a run takes more than 8 s). Compilation is excluded and listed below.
+A rival that is not installed (`pip install 'surfexp[bench]'`) counts as not met. Rivals share our operators and factorisations.
+"""
+COLUMNS = "| work | rival | asked | seen | verdict | ours, CPU (wall) s | rival, CPU (wall) s |"
+
+
+def conditions() -> str:
+    """Return versions, processor and threads in one line."""
+    found = []
+    for package in PACKAGES:
+        try:
+            found.append(f"{package} {version(package)}")
+        except PackageNotFoundError:
+            found.append(f"{package} not installed")
+    python = f"Python {platform.python_version()} on {platform.machine()}, {os.cpu_count()} processors, 1 thread"
+    return f"{python}; {', '.join(found)}."
+
+
+def page(sections: Mapping[str, Sequence[Line]], compilation: Mapping[str, float]) -> str:
+    """Return the page as Markdown.
+
+    Parameters
+    ----------
+    sections : mapping of heading to lines
+    compilation : mapping of group to seconds
+    """
+    parts = [HEAD, conditions() + "\n"]
+    for heading, lines in sections.items():
+        rows = [_row(line) for line in lines]
+        parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|", *rows]) + "\n")
+        parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
+    spent = ", ".join(f"{name} {seconds:.1f} s" for name, seconds in compilation.items())
+    parts.append(f"## Compilation\n\nFirst call on a small case, compiled or read from the cache on disk: {spent}.\n")
+    return "\n".join(parts)
+
+
+def describe(line: Line) -> str:
+    """Return the line as text for the terminal."""
+    costs = f"ours {_cost(line.ours)}, rival {_cost(line.theirs)}"
+    return f"{line.work} | {line.rival}\n    {line.result}, asked {line.target}: {line.verdict}; {costs}\n    {_facts(line)}"
+
+
+def _row(line: Line) -> str:
+    cells = (line.work, line.rival, line.target, line.result, line.verdict, _cost(line.ours), _cost(line.theirs))
+    return f"| {' | '.join(cells)} |"
+
+
+def _detail(line: Line) -> str:
+    return f"- {line.work}, {line.rival}: {_facts(line)}." if _facts(line) else ""
+
+
+def _facts(line: Line) -> str:
+    return "; ".join(fact for fact in (line.accuracy, line.note) if fact)
+
+
+def _cost(cost: Cost | None) -> str:
+    return "–" if cost is None else f"{cost.cpu:.3g} ({cost.wall:.3g})"
