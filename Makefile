@@ -28,6 +28,12 @@ lint: .venv/ready
 	$(BIN)/lint-imports
 	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
 
+bench: .venv/ready
+	$(BIN)/python -m benchmarks
+
+mutate: .venv/ready
+	$(BIN)/python -m mutation
+
 ui: .venv/ready
 	$(BIN)/surfexp ui
 

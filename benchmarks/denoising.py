@@ -19,8 +19,8 @@ from surfexp.variational.rof_model import ROF
 from surfexp.variational.solution import Solution
 
 CHECKPOINTS = (5, 10, 20, 40, 80, 160, 320)
-ENERGY_SLACK = 1e-3
-CONIC_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+ENERGY_SLACK = 1e-2
+CONIC_TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 
 
 def warm_up() -> None:
@@ -65,15 +65,19 @@ def _against_published(scene: Scene) -> Line:
     chosen = next(count for count in CHECKPOINTS if runs[count][0].energy <= (1.0 + ENERGY_SLACK) * least)
     theirs, times = runs[chosen]
     their_cost = median_cost([times, *(_published(scene, chosen)[1] for _ in range(2))])
-    rmse, their_rmse = ours.metrics["rmse"], theirs.metrics["rmse"]
+    rmse = ours.metrics["rmse"]
+    their_rmse = min(solution.metrics["rmse"] for solution, _ in runs.values())
     accuracy = (
-        f"ours gap {ours.relative_gap:.1e} (tolerance 1e-4), RMSE {rmse:.2f}; rival RMSE {their_rmse:.2f}, "
+        f"ours gap {ours.relative_gap:.1e} (tolerance 1e-4), RMSE {rmse:.2f}; "
+        f"rival RMSE {theirs.metrics['rmse']:.2f}, at best {their_rmse:.2f}, "
         f"energy {theirs.energy / ours.energy - 1.0:.1%} above ours"
     )
-    note = f"{chosen} iterations bring the rival within {ENERGY_SLACK:g} of its best energy of {CHECKPOINTS[-1]}"
+    note = f"{chosen} iterations bring the rival within {ENERGY_SLACK:.0%} of its least energy in {CHECKPOINTS[-1]}"
     rival = "split Bregman as published, factorised, to its own best energy"
     work = f"ROF {_size(scene)} to 1e-4"
-    return race(work, rival, 6, cost, their_cost, accuracy, fair=rmse < their_rmse, note=f"lower RMSE asked; {note}")
+    return race(
+        work, rival, 6, cost, their_cost, accuracy, fair=rmse < their_rmse, note=f"lower RMSE is asked too; {note}"
+    )
 
 
 def _against_conic(scene: Scene) -> list[Line]:

@@ -18,7 +18,8 @@ from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.eigensystem import EigenSystem, measure as measure_vectors
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.eigensystem import measure as measure_vectors
 
 RESIDUAL = 1e-8
 ARPACK_TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)

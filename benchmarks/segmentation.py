@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from benchmarks.line import Line, race
-from benchmarks.measurement import IterationClock, measure, median_cost
+from benchmarks.measurement import LONG, IterationClock, measure, median_cost
 from benchmarks.scenes import Scene, torus_scene
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -35,7 +35,8 @@ def lines(quick: bool) -> list[Line]:
     operator = fem(scene.surface.mesh)
     ours, cost = measure(lambda: ConvexChanVese().run(scene.image, operator, partial(primal_dual, tolerance=1e-4)))
     count, theirs, times, settled = _until_labels_settle(scene, operator)
-    their_cost = median_cost([times, *(_published(scene, count)[1] for _ in range(2))])
+    again = range(2 if times[0] <= LONG else 0)
+    their_cost = median_cost([times, *(_published(scene, count)[1] for _ in again)])
     agreement = operator.mass @ (_labels(ours) == _labels(theirs)) / operator.mass.sum()
     accuracy = (
         f"ours gap {ours.relative_gap:.1e} (tolerance 1e-4), {ours.metrics['updates']:.0f} updates of c; rival "
@@ -44,7 +45,7 @@ def lines(quick: bool) -> list[Line]:
     state = "settled" if settled else f"still changing after {count}, so its time is a lower bound"
     note = (
         f"{count} iterations an update, labels {state} (under {LABELS_SETTLED:g} of the area changes when they are "
-        "doubled); 1 Gauss-Seidel sweep, with which the rival is both fastest and best"
+        "doubled); 1 Gauss-Seidel sweep an iteration"
     )
     work, rival = (
         f"CCV with c-loop, {operator.vertex_count:,} V, to 1e-4",

@@ -1,0 +1,78 @@
+"""`python -m mutation [WORD ...]`: plant the faults one by one in a copy, run their tests, fail if one survives."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from mutation.fault import Fault
+from mutation.faults import FAULTS
+
+ROOT = Path(__file__).resolve().parent.parent
+PASSED, FAILED = 0, 1
+SEEDED = "import surfexp; assert surfexp.__path__[0].startswith({root!r}), surfexp.__path__"
+
+
+def main() -> None:
+    """Run the faults whose names contain one of the words, all by default."""
+    parser = argparse.ArgumentParser(prog="mutation", description=__doc__)
+    parser.add_argument("words", nargs="*", metavar="WORD", help="part of the name of a fault")
+    options = parser.parse_args()
+    faults = [fault for fault in FAULTS if not options.words or any(word in fault.name for word in options.words)]
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder).resolve()
+        _copy_to(copy)
+        problems = _untouched(copy, faults) or [problem for fault in faults if (problem := _try(copy, fault))]
+    print(f"{len(faults) - len(problems)} of {len(faults)} faults caught", *problems, sep="\n")
+    sys.exit(1 if problems or not faults else 0)
+
+
+def _copy_to(copy: Path) -> None:
+    for name in ("surfexp", "tests", "examples"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", copy)
+    subprocess.run([sys.executable, "-c", SEEDED.format(root=str(copy))], cwd=copy, check=True)
+
+
+def _untouched(copy: Path, faults: list[Fault]) -> list[str]:
+    """The tests have to pass before a fault is planted, else their failing proves nothing."""
+    tests = sorted({test for fault in faults for test in fault.tests})
+    return [] if _pytest(copy, tests) == PASSED else ["the tests do not pass on the untouched copy"]
+
+
+def _try(copy: Path, fault: Fault) -> str:
+    """Return why the fault was not caught, or nothing."""
+    path, begin = copy / "surfexp" / fault.path, time.perf_counter()
+    source = path.read_text(encoding="utf-8")
+    try:
+        path.write_text(fault.planted(source), encoding="utf-8")
+        outcome = _pytest(copy, fault.tests)
+    except ValueError as error:
+        return str(error)
+    finally:
+        path.write_text(source, encoding="utf-8")
+    words = {PASSED: "SURVIVED", FAILED: "caught"}.get(outcome, f"pytest ended with code {outcome}")
+    print(f"{words:9} {time.perf_counter() - begin:5.1f} s  {fault.name} ({fault.path})", flush=True)
+    return "" if outcome == FAILED else f"{words}: {fault.name} ({fault.path})"
+
+
+def _pytest(copy: Path, tests: list[str] | tuple[str, ...]) -> int:
+    """Run tests of the copy until one fails; tests/conftest.py gives every state of the code its own numba cache."""
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "-p", "no:cacheprovider"]
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy)}
+    run = subprocess.run(
+        [*command, *(f"tests/{test}" for test in tests)], cwd=copy, env=environment, capture_output=True, text=True
+    )
+    if run.returncode not in (PASSED, FAILED):
+        print(run.stdout[-2000:], run.stderr[-2000:])
+    return run.returncode
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,200 @@
+"""The table of faults in operators and variational methods."""
+
+from __future__ import annotations
+
+from mutation.fault import Fault
+
+LIMIT = "variational/test_solvers.py::test_iteration_limit_is_said_and_the_result_is_certified"
+RETURNED = "variational/test_solvers.py::test_certificate_belongs_to_the_values_that_are_returned"
+TRIANGLE = "variational/test_exact_solutions.py::test_equilateral_triangle_shrinks_by_the_known_factor"
+AGREE = "variational/test_agreement.py::test_solvers_agree[fem-rof]"
+REGIONS = "variational/test_models.py::test_convex_chan_vese_finds_the_regions"
+PROX = "variational/test_proximal_maps.py::test_prox_is_the_minimiser"
+BOUND = "variational/test_proximal_maps.py::test_dual_value_is_a_lower_bound"
+ADJOINT = "operators/test_fem.py::test_divergence_is_the_negative_adjoint_of_the_gradient"
+LIBIGL = "operators/test_fem.py::test_libigl_agrees"
+COAREA = "variational/test_level_sets.py::test_coarea_formula_is_exact"
+
+FAULTS = (
+    Fault(
+        "adjoint with a wrong sign at one corner",
+        "operators/calculus.py",
+        "            result[i, c] -= b + e",
+        "            result[i, c] += b + e",
+        (ADJOINT,),
+    ),
+    Fault(
+        "divergence without its minus sign",
+        "operators/calculus.py",
+        "return -load / operator.mass",
+        "return load / operator.mass",
+        (ADJOINT,),
+    ),
+    Fault(
+        "area of the parallelogram in place of the triangle",
+        "operators/fem.py",
+        "areas[f] = 0.5 * twice_area",
+        "areas[f] = twice_area",
+        (LIBIGL,),
+    ),
+    Fault(
+        "lumped mass of half the ring area, not a third",
+        "operators/surface_operator.py",
+        "np.repeat(self.areas / 3.0, 3)",
+        "np.repeat(self.areas / 2.0, 3)",
+        (f"{LIMIT}[primal_dual]", TRIANGLE),
+    ),
+    Fault(
+        "consistent mass twice too large",
+        "operators/assembly.py",
+        "/ 12.0 * (np.ones",
+        "/ 6.0 * (np.ones",
+        ("operators/test_elements.py::test_order_one_equals_the_cotangent_matrices", LIBIGL),
+    ),
+    Fault(
+        "averaged gradient not divided by three",
+        "operators/vertex_averaged.py",
+        "1.0 / (3.0 * operator.mass)",
+        "1.0 / operator.mass",
+        ("operators/test_vertex_averaged.py::test_agrees_with_the_formula_as_printed",),
+    ),
+    Fault(
+        "fidelity without its factor 1/2",
+        "variational/separable_quadratic.py",
+        "0.5 * weight[i] * difference * difference",
+        "weight[i] * difference * difference",
+        (f"{LIMIT}[primal_dual]",),
+    ),
+    Fault(
+        "linear term with a wrong sign in the proximal map",
+        "variational/separable_quadratic.py",
+        "step * (weight[i] * target[i] - slope[i])",
+        "step * (weight[i] * target[i] + slope[i])",
+        (PROX,),
+    ),
+    Fault(
+        "dual energy at the wrong end of the box",
+        "variational/separable_quadratic.py",
+        "lower if force > 0.0 else upper",
+        "upper if force > 0.0 else lower",
+        (BOUND,),
+    ),
+    Fault(
+        "Chan-Vese in the box [-1, 1]",
+        "variational/separable_quadratic.py",
+        "zero, zero, slope, 0.0, 1.0, scale",
+        "zero, zero, slope, -1.0, 1.0, scale",
+        (REGIONS,),
+    ),
+    Fault(
+        "dual ascent downhill",
+        "variational/face_sweeps.py",
+        "        ascent = step * steps[f]\n        square = 0.0\n        for c in range(values.shape[1]):\n"
+        "            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]\n"
+        "            x = dual[f, c, 0] + ascent",
+        "        ascent = -step * steps[f]\n        square = 0.0\n        for c in range(values.shape[1]):\n"
+        "            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]\n"
+        "            x = dual[f, c, 0] + ascent",
+        (TRIANGLE,),
+    ),
+    Fault(
+        "dual field outside the unit ball",
+        "variational/face_sweeps.py",
+        "            dual[f, c, 0], dual[f, c, 1] = x, y\n            square += x * x + y * y\n"
+        "        shrink = 1.0 / np.sqrt(max(square, 1.0))",
+        "            dual[f, c, 0], dual[f, c, 1] = x, y\n            square += x * x + y * y\n"
+        "        shrink = 1.0 / np.sqrt(max(square - 1e-6, 1.0))",
+        (f"{LIMIT}[primal_dual]", RETURNED),
+    ),
+    Fault(
+        "dual steps ten times too long",
+        "variational/face_sweeps.py",
+        "steps[f] = 2.0 / (3.0 *",
+        "steps[f] = 20.0 / (3.0 *",
+        (TRIANGLE, REGIONS),
+    ),
+    Fault(
+        "Bregman pull V - b without the last update of b",
+        "variational/face_sweeps.py",
+        "((x - 2.0 * px) * hats[f, 1, 0] + (y - 2.0 * py) * hats[f, 1, 1])",
+        "((x - px) * hats[f, 1, 0] + (y - py) * hats[f, 1, 1])",
+        (TRIANGLE,),
+    ),
+    Fault(
+        "certificate of the first iterate for all",
+        "variational/duality_gap.py",
+        "certificate = certify(fidelity, operator, iterate.values, iterate.load)\n",
+        "certificate = certificate if rows else certify(fidelity, operator, iterate.values, iterate.load)\n",
+        (RETURNED,),
+    ),
+    Fault(
+        "dual field of the first iterate kept by split Bregman",
+        "variational/split_bregman.py",
+        "np.multiply(self.multiplier, self.penalty, out=self.dual)",
+        "np.multiply(self.multiplier, self.penalty if iteration == 1 else 0.0, out=self.dual)",
+        (f"{LIMIT}[split_bregman]", RETURNED),
+    ),
+    Fault(
+        "FISTA certified by the load of its extrapolated field",
+        "variational/fista_dual.py",
+        "own = adjoint_gradient(operator, dual)",
+        "own = load",
+        (f"{LIMIT}[fista_dual]",),
+    ),
+    Fault(
+        "error bound without its factor 2",
+        "variational/duality_gap.py",
+        "np.sqrt(2.0 * max(gap, 0.0) / mu)",
+        "np.sqrt(max(gap, 0.0) / mu)",
+        (f"{LIMIT}[primal_dual]",),
+    ),
+    Fault(
+        "c1 and c2 swapped",
+        "variational/convex_chan_vese_model.py",
+        "((c1 - values) ** 2 - (c2 - values) ** 2)",
+        "((c2 - values) ** 2 - (c1 - values) ** 2)",
+        (REGIONS,),
+    ),
+    Fault(
+        "means not divided by the area",
+        "variational/convex_chan_vese_model.py",
+        "integral / area if self.divide_by_area else integral",
+        "integral",
+        (REGIONS,),
+    ),
+    Fault(
+        "regions taken below the threshold",
+        "variational/convex_chan_vese_model.py",
+        "region = solution.values > threshold",
+        "region = solution.values <= threshold",
+        (REGIONS,),
+    ),
+    Fault(
+        "threshold of the greatest energy",
+        "variational/level_sets.py",
+        "best = int(np.argmin(energies))",
+        "best = int(np.argmax(energies))",
+        ("variational/test_level_sets.py::test_best_threshold_is_no_worse_than_the_field",),
+    ),
+    Fault(
+        "perimeter of half the length",
+        "variational/level_sets.py",
+        "longest = 2.0 * areas[f]",
+        "longest = areas[f]",
+        (COAREA,),
+    ),
+    Fault(
+        "w = mu sigma h without h",
+        "variational/rof_model.py",
+        "return w / (image.noise * operator.edge_length)",
+        "return w / image.noise",
+        ("variational/test_models.py::test_rof_lowers_the_error", "variational/test_invariance.py"),
+    ),
+    Fault(
+        "shrinkage by twice the radius",
+        "variational/vector_pair.py",
+        "1.0 - radius / np.maximum(lengths, radius)",
+        "1.0 - 2.0 * radius / np.maximum(lengths, 2.0 * radius)",
+        (AGREE,),
+    ),
+)
