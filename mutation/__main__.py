@@ -25,12 +25,16 @@ def main() -> None:
     parser.add_argument("words", nargs="*", metavar="WORD", help="part of the name of a fault")
     options = parser.parse_args()
     faults = [fault for fault in FAULTS if not options.words or any(word in fault.name for word in options.words)]
+    if not faults:
+        parser.error(
+            f"no fault has {' or '.join(map(repr, options.words))} in its name, the first is {FAULTS[0].name!r}"
+        )
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder).resolve()
         _copy_to(copy)
         problems = _untouched(copy, faults) or [problem for fault in faults if (problem := _try(copy, fault))]
-    print(f"{len(faults) - len(problems)} of {len(faults)} faults caught", *problems, sep="\n")
-    sys.exit(1 if problems or not faults else 0)
+    print("\n".join(problems) if problems else f"all {len(faults)} faults caught")
+    sys.exit(1 if problems else 0)
 
 
 def _copy_to(copy: Path) -> None:
