@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-FRAMEWORK = "surfexp.workflow"
+distributions = cache(importlib.metadata.packages_distributions)
 PACKAGE = Path(__file__).resolve().parent.parent
 
 
@@ -82,7 +82,7 @@ def numba_state(file: Path, code: str) -> str:
 @cache
 def package_version(module: str) -> str:
     """Version of the distribution that provides a top-level module, "unknown" when there is none."""
-    for name in (module, *importlib.metadata.packages_distributions().get(module, ())):
+    for name in (module, *distributions().get(module, ())):
         try:
             return importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
@@ -139,7 +139,7 @@ def _dotted(file: Path) -> list[str]:
 
 @cache
 def _module_files(name: str) -> tuple[Path, ...]:
-    if name == FRAMEWORK or name.startswith(FRAMEWORK + "."):
+    if name.startswith("surfexp.workflow"):
         return ()
     files, parts = [], name.split(".")
     for length in range(1, len(parts) + 1):

@@ -126,7 +126,14 @@ def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -
     assert store_bytes(laboratory) == plain
 
 
-@pytest.mark.parametrize("victim", ["surfexp.commands.command_line", "snakemake", "surfexp.workflow.stage"])
+@pytest.mark.parametrize(
+    "victim",
+    [
+        pytest.param("surfexp.commands.command_line", marks=pytest.mark.slow),
+        "snakemake",
+        pytest.param("surfexp.workflow.stage", marks=pytest.mark.slow),
+    ],
+)
 def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim: str) -> None:
     surfexp("run", "experiment=chain")
     undisturbed = store_bytes(laboratory)
@@ -135,7 +142,7 @@ def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim:
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and process.poll() is None:
-        pattern = "surfexp.commands.command_line.*chain" if victim.endswith("line") else f"{victim}.*{laboratory.name}"
+        pattern = "surfexp.commands.command_line.*chain" if victim.endswith("line") else f"{victim}.*{laboratory}"
         pids = subprocess.run(["pgrep", "-f", pattern], capture_output=True, text=True).stdout.split()
         started = list((laboratory / "results" / "store").glob("*/*/record.json"))
         if pids and started:
