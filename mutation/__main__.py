@@ -46,8 +46,8 @@ def _copy_to(copy: Path) -> None:
 
 def _untouched(copy: Path, faults: list[Fault]) -> list[str]:
     """The tests have to pass before a fault is planted, else their failing proves nothing."""
-    tests = sorted({test for fault in faults for test in fault.tests})
-    return [] if _pytest(copy, tests) == PASSED else ["the tests do not pass on the untouched copy"]
+    code, reason = _pytest(copy, sorted({test for fault in faults for test in fault.tests}))
+    return [] if code == PASSED else [f"the tests do not pass on the untouched copy: {reason}"]
 
 
 def _try(copy: Path, fault: Fault) -> str:
@@ -56,26 +56,28 @@ def _try(copy: Path, fault: Fault) -> str:
     source = path.read_text(encoding="utf-8")
     try:
         path.write_text(fault.planted(source), encoding="utf-8")
-        outcome = _pytest(copy, fault.tests)
+        code, reason = _pytest(copy, fault.tests)
     except ValueError as error:
         return str(error)
     finally:
         path.write_text(source, encoding="utf-8")
-    words = {PASSED: "SURVIVED", FAILED: "caught"}.get(outcome, f"pytest ended with code {outcome}")
-    print(f"{words:9} {time.perf_counter() - begin:5.1f} s  {fault.name} ({fault.path})", flush=True)
-    return "" if outcome == FAILED else f"{words}: {fault.name} ({fault.path})"
+    words = {PASSED: "SURVIVED", FAILED: "caught"}.get(code, f"pytest ended with code {code}")
+    print(f"{words:8} {time.perf_counter() - begin:5.1f} s  {fault.name} ({fault.path})\n    {reason}", flush=True)
+    return "" if code == FAILED else f"{words}: {fault.name} ({fault.path}) {reason}"
 
 
-def _pytest(copy: Path, tests: list[str] | tuple[str, ...]) -> int:
-    """Run tests of the copy until one fails; tests/conftest.py gives every state of the code its own numba cache."""
+def _pytest(copy: Path, tests: list[str] | tuple[str, ...]) -> tuple[int, str]:
+    """Run tests of the copy until one fails; return pytest's code and which test failed how.
+
+    tests/conftest.py gives every state of the code a numba cache of its own.
+    """
     command = [sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "-p", "no:cacheprovider"]
-    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy)}
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy), "COLUMNS": "200"}
     run = subprocess.run(
         [*command, *(f"tests/{test}" for test in tests)], cwd=copy, env=environment, capture_output=True, text=True
     )
-    if run.returncode not in (PASSED, FAILED):
-        print(run.stdout[-2000:], run.stderr[-2000:])
-    return run.returncode
+    rows = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
+    return run.returncode, rows[0] if rows else run.stderr[-500:]
 
 
 if __name__ == "__main__":

@@ -100,8 +100,8 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     os.environ["HYDRA_FULL_ERROR"] = "1"
     ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=")
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
-    flags = [] if {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments) else ["--multirun"]
-    sys.argv = ["surfexp run", *flags, *arguments]
+    asks = {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
+    sys.argv = ["surfexp run", *([] if asks else ["--multirun"]), *arguments]
     folder = str(registry.package_folder("surfexp.conf"))
     hydra.main(version_base="1.3", config_path=folder, config_name="config")(lambda configuration: None)()
 
@@ -109,8 +109,9 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
 def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     """The plan of a Snakemake run: the file named by `plan=`, or the one composed from `--config experiment=NAME ...`."""
     if "plan" in config:
-        registry.load_all(Path.cwd())
         path = Path(str(config["plan"])).resolve()
+        for file in {node.file for node in read_plan(path).nodes.values()}:
+            registry.load_file(Path(file))  # a plugin file may declare a stage kind of its own
         return path, read_plan(path)
     from hydra import compose, initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
@@ -120,8 +121,7 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
         loader: Any = GlobalHydra.instance().config_loader()
         stages, rest = split_overrides([f"{key}={value}" for key, value in config.items()], loader.repository)
         plan = make_plan(expand(_plain(compose("config", overrides=rest)), stages))
-    path = plan.write(Path(plan.settings.results).resolve())
-    return path, read_plan(path)
+    return plan.write(Path(plan.settings.results).resolve()), plan
 
 
 def run(plan: Plan, follow: Callable[[subprocess.Popen[bytes], list[Node], Path], None]) -> None:
