@@ -7,6 +7,7 @@ import sys
 import traceback
 from collections.abc import Callable, Sequence
 from importlib import import_module
+from pathlib import Path
 
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
@@ -72,6 +73,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for line in str(error).splitlines():
             print(f"surfexp: {line}", file=sys.stderr)
         return 1 if isinstance(error, StageFailure) else 2
+    except Exception as error:
+        if os.environ.get("SURFEXP_DEBUG"):
+            raise
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        place = f"{Path(where.filename).name}:{where.lineno}"
+        print(f"surfexp: unexpected {type(error).__name__} in {place}: {error}; --debug shows more", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

@@ -55,3 +55,7 @@ class Solution:
     segmentation: Floats | None = None
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Count `converged` among the metrics: 1 or 0."""
+        object.__setattr__(self, "metrics", {**self.metrics, "converged": float(self.converged)})

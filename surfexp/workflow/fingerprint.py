@@ -72,10 +72,8 @@ def edited_since(moment: float, file: Path) -> bool:
 @cache
 def numba_state(file: Path, code: str) -> str:
     """Name of the compilation cache of a plugin: one for all plugins of this package, one each for those of others."""
-    package = Path(__file__).resolve().parent.parent
-    own = digest(
-        [sorted(_meaning(path) for path in package.rglob("*.py")), package_version("numba"), sys.version_info[:2]]
-    )
+    meanings = sorted(_meaning(path) for path in PACKAGE.rglob("*.py"))
+    own = digest([meanings, package_version("numba"), sys.version_info[:2]])
     return own if file.parent.parent == PACKAGE.parent / "plugins" else digest([own, code])
 
 
@@ -94,14 +92,10 @@ def package_version(module: str) -> str:
 def _meaning(path: Path) -> str:
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            first = node.body[0] if node.body else None
-            if (
-                isinstance(first, ast.Expr)
-                and isinstance(first.value, ast.Constant)
-                and isinstance(first.value.value, str)
-            ):
-                node.body = node.body[1:]
+        if not isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            continue
+        if ast.get_docstring(node, clean=False) is not None:
+            node.body = node.body[1:]
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
 
 

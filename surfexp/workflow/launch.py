@@ -141,8 +141,8 @@ def run(plan: Plan, follow: Callable[[subprocess.Popen[bytes], list[Node], Path]
     failures = [read_event(results, node.kind, node.key).get("failure") for node in plan.stored]
     left = unfinished(plan, results)
     if any(failures) or left:
-        failed = [text for text in dict.fromkeys(failures) if text]
-        raise StageFailure("\n".join(failed) or f"{len(left)} stages did not run; see {results / 'logs'}")
+        said = "\n".join(filter(None, dict.fromkeys(failures)))
+        raise StageFailure(said or f"{len(left)} stages did not run; see {results / 'logs'}")
 
 
 def unfinished(plan: Plan, results: Path) -> list[Node]:
@@ -240,9 +240,8 @@ def _plain(composed: DictConfig) -> dict[str, Any]:
 def _objective(plan: Plan, results: Path) -> float | None:
     if (name := plan.settings.objective) is None:
         return None
-    values = [
-        read_event(results, plan.nodes[leaf.key].kind, leaf.key).get("metrics", {}).get(name) for leaf in plan.leaves
-    ]
-    if any(value is None for value in values):
+    events = [read_event(results, plan.nodes[leaf.key].kind, leaf.key) for leaf in plan.leaves]
+    values = [event.get("metrics", {}).get(name) for event in events]
+    if None in values:
         raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")
     return float(sum(values) / len(values))

@@ -15,6 +15,7 @@ from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.fingerprint import code_digest, digest, file_digest, numba_state
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.registry import PLUGINS, Plugin, plugin
+from surfexp.workflow.store import write_text
 
 Keys = str | list[str] | dict[str, str]
 
@@ -31,6 +32,11 @@ class Node:
     cache: str
     options: dict[str, Any]
     inputs: dict[str, Keys]
+
+    @property
+    def children(self) -> list[str]:
+        """Keys of all inputs."""
+        return [child for value in self.inputs.values() for child in _members(value).values()]
 
 
 @dataclass
@@ -65,12 +71,8 @@ class Plan:
 
     def write(self, results: Path) -> Path:
         """Write the plan below the results folder; the same plan always gives the same file."""
-        folder = results / "plans"
-        folder.mkdir(parents=True, exist_ok=True)
-        path = folder / f"{self.settings.experiment}-{self.identity}.json"
-        temporary = path.with_suffix(".tmp")
-        temporary.write_text(json.dumps(asdict(self) | {"settings": self.settings.model_dump()}, indent=1))
-        temporary.rename(path)
+        path = results / "plans" / f"{self.settings.experiment}-{self.identity}.json"
+        write_text(path, json.dumps(asdict(self) | {"settings": self.settings.model_dump()}, indent=1))
         return path
 
 
@@ -84,9 +86,8 @@ def read_plan(path: Path) -> Plan:
 def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:
     """Keys of the stored results that a stage reads, through the unstored stages (models) it makes itself."""
     found: dict[str, None] = {}
-    for value in nodes[key].inputs.values():
-        for child in [value] if isinstance(value, str) else value if isinstance(value, list) else value.values():
-            found.update(dict.fromkeys([child] if KINDS[nodes[child].kind].stored else stored_inputs(nodes, child)))
+    for child in nodes[key].children:
+        found.update(dict.fromkeys([child] if KINDS[nodes[child].kind].stored else stored_inputs(nodes, child)))
     return list(found)
 
 
@@ -100,7 +101,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
         context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
         resolver = _Resolver(plan, settings.axes)
         key = resolver.node(settings.target, context, ())
-        leaf = Leaf(key, digest(_flat(plan, key, code=False)), settings.model_dump(), _flat(plan, key))
+        leaf = Leaf(key, digest(_flat(plan, key)), settings.model_dump(), _flat(plan, key))
         for figure in settings.figures:
             leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
         plan.requested += resolver.visits
@@ -164,9 +165,8 @@ class _Resolver:
             raise unknown(
                 f"axis for list input {role!r} of {method.kind}/{method.name} (set 'over')", str(axis), self.axes
             )
-        members = self.axes[axis]
-        labelled = dict(members) if isinstance(members, Mapping) else {str(i): part for i, part in enumerate(members)}
-        keys = {label: self.node(wanted.kind, merge(context, part), path) for label, part in labelled.items()}
+        members = _members(self.axes[axis])
+        keys = {str(label): self.node(wanted.kind, merge(context, part), path) for label, part in members.items()}
         return keys if wanted.shape == "dict" else list(keys.values())
 
     def _add(self, method: Plugin, options: dict[str, Any], inputs: dict[str, Keys]) -> str:
@@ -199,7 +199,13 @@ def _content(value: Any, option: Any) -> Any:
     return file_digest(Path(value).resolve())
 
 
-def _flat(plan: Plan, key: str, code: bool = True) -> dict[str, Any]:
+def _members(value: Any) -> dict[str, Any]:
+    members = [value] if isinstance(value, str) else value
+    return dict(members if isinstance(members, Mapping) else enumerate(members))
+
+
+def _flat(plan: Plan, key: str, root: str = "") -> dict[str, Any]:
+    """All options upstream; those of a collection once, with the number of values where its members differ."""
     flat: dict[str, Any] = {}
     owners: dict[str, str] = {}
 
@@ -211,11 +217,14 @@ def _flat(plan: Plan, key: str, code: bool = True) -> dict[str, Any]:
             flat[f"{prefix}.name"] = node.plugin
             flat.update({f"{prefix}.{name}": value for name, value in node.options.items()})
         for role, value in node.inputs.items():
-            children = (
-                value if isinstance(value, dict) else {"": value} if isinstance(value, str) else dict(enumerate(value))
-            )
-            for label, child in children.items():
-                visit(child, f"{role}[{label}]" if label != "" else role, prefix)
+            if isinstance(value, str):
+                visit(value, role, prefix)
+                continue
+            parts = [_flat(plan, child, role) for child in _members(value).values()]
+            for name in dict.fromkeys(name for part in parts for name in part):
+                values = list(dict.fromkeys(json.dumps(part.get(name)) for part in parts))
+                varied = f"{len(values)} values ({digest(values)[:6]})"
+                flat.setdefault(name, parts[0][name] if len(values) == 1 else varied)
 
-    visit(key, plan.nodes[key].kind, "")
+    visit(key, root or plan.nodes[key].kind, "")
     return flat

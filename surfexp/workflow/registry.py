@@ -121,8 +121,7 @@ def load_file(file: Path) -> None:
     _loaded.add(str(file))
     specification = importlib.util.spec_from_file_location(module_name, file)
     assert specification is not None and specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    sys.modules[module_name] = module
+    module = sys.modules[module_name] = importlib.util.module_from_spec(specification)
     try:
         specification.loader.exec_module(module)
     except UserError:
@@ -157,9 +156,7 @@ def load_all(working_folder: Path) -> None:
 def _guarded(file: Path, load: Callable[[], Any]) -> None:
     try:
         load()
-    except UserError as error:
+    except Exception as error:
         if "defined twice" in str(error):
             raise
-        BROKEN[file] = str(error)
-    except Exception as error:
-        BROKEN[file] = f"{file}: {error}"
+        BROKEN[file] = str(error) if isinstance(error, UserError) else f"{file}: {error}"

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array, issparse
 
-from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.kinds import KINDS, path_of
 
 RECORD = "record.json"
 
@@ -58,12 +58,11 @@ def load(results: Path, kind: str, key: str) -> Any:
 
 def _encode(value: Any, path: str, arrays: dict[str, Any]) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        cls = type(value)
-        kind = next((kind.name for kind in KINDS.values() if kind.result is cls), None)
-        fields = {
-            f.name: _encode(getattr(value, f.name), f"{path}/{f.name}", arrays) for f in dataclasses.fields(value)
-        }
-        return {"class": kind or f"{cls.__module__}:{cls.__qualname__}", "fields": fields}
+        path_of_class = path_of(type(value))
+        kind = next((kind.name for kind in KINDS.values() if kind.path == path_of_class), None)
+        names = [item.name for item in dataclasses.fields(value)]
+        fields = {name: _encode(getattr(value, name), f"{path}/{name}", arrays) for name in names}
+        return {"class": kind or path_of_class, "fields": fields}
     if issparse(value):
         matrix = value.tocsr()
         parts = {"data": matrix.data, "indices": matrix.indices, "indptr": matrix.indptr}

@@ -50,12 +50,8 @@ def record(plan: Plan, results: Path, views: Path) -> None:
         run = by_leaf.get(leaf.key) or next((run for run in same if run.info.status == "FAILED"), None)
         if run is not None and run.data.tags.get("state") == state:
             continue
-        tags = {
-            "leaf": leaf.key,
-            "configuration": leaf.configuration,
-            "current": "true",
-            "mlflow.parentRunId": parent.info.run_id,
-        }
+        tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true"}
+        tags["mlflow.parentRunId"] = parent.info.run_id
         run = run or client.create_run(identity, run_name=_label(leaf), tags=tags)
         _fill(client, run.info.run_id, leaf, upstream, events[leaf.key], {**tags, **_versions(), "state": state})
         for old in same:
@@ -88,18 +84,18 @@ def _fill(client: Any, run_id: str, leaf: Leaf, upstream: list[Any], event: Any,
         for step, value in zip(steps, values, strict=False)
     ]
     failures = [item["failure"] for item in upstream if item["failure"]]
-    tags = {**tags, "failure": "; ".join(failures)} if failures else {**tags, "failure": ""}
-    for start in range(0, max(len(series), 1), 900):
-        client.log_batch(run_id, series[start : start + 900], parameters if start == 0 else [], [])
-    client.log_batch(run_id, [], [], [RunTag(key, value) for key, value in tags.items()])
+    for part in range(max(len(series) // 900, len(parameters) // 100) + 1):  # MLflow's limits of one batch
+        client.log_batch(run_id, series[900 * part : 900 * (part + 1)], parameters[100 * part : 100 * (part + 1)], [])
+    client.log_batch(
+        run_id, [], [], [RunTag(key, value) for key, value in {**tags, "failure": "; ".join(failures)}.items()]
+    )
     client.set_terminated(run_id, "FAILED" if failures or not event else "FINISHED")
 
 
 def _upstream(plan: Plan, key: str) -> list[str]:
     found: dict[str, None] = {}
-    for value in plan.nodes[key].inputs.values():
-        for child in [value] if isinstance(value, str) else value if isinstance(value, list) else value.values():
-            found.update(dict.fromkeys(_upstream(plan, child)))
+    for child in plan.nodes[key].children:
+        found.update(dict.fromkeys(_upstream(plan, child)))
     return [*found, key]
 
 

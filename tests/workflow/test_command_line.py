@@ -20,12 +20,12 @@ experiment: chain
 target: pairing
 title: A toy
 surface: toy_triangle
-feature: toy_boundary
+scalar: toy_boundary
 pairing:
   name: toy_distance
   inputs:
-    source: {feature: toy_eigenfunction, weighted: {name: toy_flux, inputs: {weight: {feature: toy_boundary}}}}
-    target: {feature: {name: toy_boundary, shift: 1.0}}
+    source: {scalar: toy_eigenfunction, weighted: {name: toy_flux, inputs: {weight: {scalar: toy_boundary}}}}
+    target: {scalar: {name: toy_boundary, shift: 1.0}}
 """
 
 pytestmark = pytest.mark.xdist_group("end_to_end")

@@ -14,8 +14,8 @@ from surfexp.workflow.plan import make_plan, read_plan, stored_inputs
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = {
-    "feature": "toy_eigenfunction",
-    "weighted": {"name": "toy_flux", "inputs": {"weight": {"feature": {"name": "toy_boundary", "shift": 1.0}}}},
+    "scalar": "toy_eigenfunction",
+    "weighted": {"name": "toy_flux", "inputs": {"weight": {"scalar": {"name": "toy_boundary", "shift": 1.0}}}},
 }
 DISTANCE = {
     "target": "pairing",
@@ -24,7 +24,7 @@ DISTANCE = {
         "name": "toy_distance",
         "inputs": {
             "source": CHAIN,
-            "target": {"surface": {"name": "toy_triangle", "size": 3.0}, "feature": "toy_boundary"},
+            "target": {"surface": {"name": "toy_triangle", "size": 3.0}, "scalar": "toy_boundary"},
         },
     },
 }
@@ -66,48 +66,48 @@ def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
     configuration = {
         "target": "pairing",
         "axes": {"subject": members},
-        "feature": "toy_boundary",
+        "scalar": "toy_boundary",
         "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "subject"}, "named": {"over": "subject"}}},
     }
     plan, pairing = run(configuration, tmp_path)
     assert pairing.value == 3.0 and pairing.trace == "small,large"
-    assert sum(node.kind == "feature" for node in plan.nodes.values()) == 2
+    assert sum(node.kind == "scalar" for node in plan.nodes.values()) == 2
     with pytest.raises(UserError, match=r"'sujet'.*did you mean 'subject'"):
         make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "sujet"}}}}])
 
 
 def test_cycles_are_named() -> None:
-    circular = {"target": "feature", "surface": "toy_triangle", "feature": "toy_eigenfunction", "weighted": "toy_flux"}
-    with pytest.raises(UserError, match="cycle: feature/toy_eigenfunction -> weighted/toy_flux -> feature/toy_eigen"):
+    circular = {"target": "scalar", "surface": "toy_triangle", "scalar": "toy_eigenfunction", "weighted": "toy_flux"}
+    with pytest.raises(UserError, match="cycle: scalar/toy_eigenfunction -> weighted/toy_flux -> scalar/toy_eigen"):
         make_plan([circular])
 
 
 def test_unused_options_do_not_change_a_key_and_used_ones_do() -> None:
-    base = {"target": "feature", "surface": "toy_triangle", "feature": "toy_boundary"}
+    base = {"target": "scalar", "surface": "toy_triangle", "scalar": "toy_boundary"}
     key = make_plan([base]).leaves[0].key
     assert make_plan([{**base, "weighted": "toy_flux", "title": "another"}]).leaves[0].key == key
-    assert make_plan([{**base, "feature": {"name": "toy_boundary", "shift": 0.0}}]).leaves[0].key == key
-    assert make_plan([{**base, "feature": {"name": "toy_boundary", "shift": 0.5}}]).leaves[0].key != key
+    assert make_plan([{**base, "scalar": {"name": "toy_boundary", "shift": 0.0}}]).leaves[0].key == key
+    assert make_plan([{**base, "scalar": {"name": "toy_boundary", "shift": 0.5}}]).leaves[0].key != key
     assert make_plan([{**base, "surface": {"name": "toy_triangle", "size": 2}}]).leaves[0].key != key
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"feature": "toy_boundry"}, r"feature plugin 'toy_boundry'; did you mean 'toy_boundary'"),
+        ({"scalar": "toy_boundry"}, r"scalar plugin 'toy_boundry'; did you mean 'toy_boundary'"),
         (
-            {"feature": {"name": "toy_boundary", "shfit": 1}},
-            r"option of feature/toy_boundary 'shfit'; did you mean 'shift'",
+            {"scalar": {"name": "toy_boundary", "shfit": 1}},
+            r"option of scalar/toy_boundary 'shfit'; did you mean 'shift'",
         ),
         ({"surface": {"name": "toy_triangle", "size": -1.0}}, r"surface/toy_triangle.size = -1.0: .*greater than 0"),
-        ({"surface": None}, r"no surface is configured, wanted by feature/toy_boundary; choose surface="),
+        ({"surface": None}, r"no surface is configured, wanted by scalar/toy_boundary; choose surface="),
         ({"expriment": "x"}, r"configuration key 'expriment'; did you mean 'experiment'"),
         ({"cores": 0}, r"configuration.cores = 0: .*greater than or equal to 1"),
-        ({"feature": {"name": "toy_boundary", "inputs": {"surfce": {}}}}, r"input of feature/toy_boundary 'surfce'"),
+        ({"scalar": {"name": "toy_boundary", "inputs": {"surfce": {}}}}, r"input of scalar/toy_boundary 'surfce'"),
     ],
 )
 def test_mistakes_are_refused_with_the_nearest_choice(change: dict, message: str) -> None:
-    base = {"target": "feature", "surface": "toy_triangle", "feature": "toy_boundary"}
+    base = {"target": "scalar", "surface": "toy_triangle", "scalar": "toy_boundary"}
     with pytest.raises(UserError, match=message):
         make_plan(expand({**base, **change}))
 
@@ -115,19 +115,19 @@ def test_mistakes_are_refused_with_the_nearest_choice(change: dict, message: str
 def test_variants_and_grids_are_a_union_of_products_and_the_command_line_wins() -> None:
     configuration = {
         "surface": {"name": "toy_triangle", "size": 1.0},
-        "feature": {"name": "toy_boundary", "shift": 0.0},
+        "scalar": {"name": "toy_boundary", "shift": 0.0},
         "variants": [
-            {"feature": {"shift": 5.0}, "grid": {"surface.size": [1.0, 2.0]}},
-            {"feature": "toy_eigenfunction", "grid": {"weighted": ["toy_flux"]}},
+            {"scalar": {"shift": 5.0}, "grid": {"surface.size": [1.0, 2.0]}},
+            {"scalar": "toy_eigenfunction", "grid": {"weighted": ["toy_flux"]}},
         ],
     }
     leaves = expand(configuration)
     assert [leaf["surface"].get("size") for leaf in leaves] == [1.0, 2.0, 1.0]
-    assert leaves[0]["feature"] == {"name": "toy_boundary", "shift": 5.0}
-    assert leaves[2]["feature"] == {"name": "toy_eigenfunction"} and leaves[2]["weighted"] == {"name": "toy_flux"}
-    forced = expand(configuration, {"surface.size": 9.0, "feature.shift": 0.5})
+    assert leaves[0]["scalar"] == {"name": "toy_boundary", "shift": 5.0}
+    assert leaves[2]["scalar"] == {"name": "toy_eigenfunction"} and leaves[2]["weighted"] == {"name": "toy_flux"}
+    forced = expand(configuration, {"surface.size": 9.0, "scalar.shift": 0.5})
     assert [leaf["surface"]["size"] for leaf in forced] == [9.0, 9.0, 9.0]
-    assert forced[0]["feature"]["shift"] == 0.5 and forced[2]["feature"] == {"name": "toy_eigenfunction"}
+    assert forced[0]["scalar"]["shift"] == 0.5 and forced[2]["scalar"] == {"name": "toy_eigenfunction"}
     assert all(leaf["surface"] == {"name": "file"} for leaf in expand(configuration, {"surface": {"name": "file"}}))
     both = {"surface.size": 7.0, "surface": {"name": "toy_triangle", "size": 1.0}}  # the option first, then the plugin
     assert all(leaf["surface"]["size"] == 7.0 for leaf in expand(configuration, both))

@@ -33,7 +33,7 @@ class Pairing:
     metrics: dict[str, float] = field(default_factory=dict)
 
 
-stage_kind("feature", Feature)
+stage_kind("scalar", Feature)
 stage_kind("weighted", Weighted)
 stage_kind("pairing", Pairing)
 
@@ -53,7 +53,7 @@ class Boundary(Options):
     shift: float = Field(0.0, description="added to every value")
 
 
-@register("feature", "toy_boundary")
+@register("scalar", "toy_boundary")
 def toy_boundary(options: Boundary, *, surface: Surface) -> Feature:
     """A feature of the surface alone."""
     return Feature(surface.mesh.vertices[:, 0] + options.shift, "boundary")
@@ -69,7 +69,7 @@ def toy_flux(options: Nothing, *, surface: Surface, weight: Feature) -> Weighted
     return Weighted(weight.values + surface.mesh.area, f"flux({weight.trace})")
 
 
-@register("feature", "toy_eigenfunction")
+@register("scalar", "toy_eigenfunction")
 def toy_eigenfunction(options: Nothing, *, weighted: Weighted) -> Feature:
     """A feature made from an operator that was made from a feature."""
     return Feature(2.0 * weighted.values, f"eigen({weighted.trace})")
