@@ -57,7 +57,7 @@ def wide_console() -> Console:
 
 
 def print_tables(plan: Plan, results: Path, console: Console) -> None:
-    """One table a comparison; a row that reached its iteration limit is red."""
+    """One table a comparison; a row that stopped at its iteration limit is red and says so."""
     for group in comparisons(rows_of(plan, results.resolve())):
         console.print(f"\n[bold]{group.title}[/bold]", soft_wrap=True)
         table = Table(header_style="bold")
@@ -65,13 +65,16 @@ def print_tables(plan: Plan, results: Path, console: Console) -> None:
             table.add_column(short_name(name), overflow="fold")
         for name in group.metric_names:
             table.add_column(name.replace("_", " "), justify="right")
+        if any(row.limited for row in group.rows):
+            table.add_column("stopped at", style="red")
         for row in group.rows:
             values = [str(row.parameters.get(name, "–")) for name in group.varying]
             if row.failure:
                 table.add_row(*values, "failed", style="red")
                 continue
             numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
-            table.add_row(*values, *numbers, style="red" if row.metrics.get("converged", 1.0) == 0.0 else None)
+            limit = ("iteration limit",) if row.limited else ()
+            table.add_row(*values, *numbers, *limit, style="red" if limit else None)
         console.print(table)
 
 

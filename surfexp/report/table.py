@@ -23,6 +23,11 @@ class Row:
     notes: list[str] = field(default_factory=list)
     failure: str = ""
 
+    @property
+    def limited(self) -> bool:
+        """Whether it stopped at its iteration limit, before its tolerance."""
+        return self.metrics.get("converged", 1.0) == 0.0
+
 
 @dataclass
 class Comparison:
@@ -53,8 +58,8 @@ class Comparison:
 
     @property
     def metric_names(self) -> list[str]:
-        """Metrics shown: those asked for that exist, or all."""
-        names = dict.fromkeys(name for row in self.rows for name in row.metrics)
+        """Metrics shown: those asked for that exist, or all; `converged` is said by the row itself."""
+        names = dict.fromkeys(name for row in self.rows for name in row.metrics if name != "converged")
         return [name for name in self.columns if name in names] if self.columns else list(names)
 
 
