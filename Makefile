@@ -4,7 +4,10 @@ BIN := .venv/bin
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: run test test-all test-optional optional lint bench mutate ui lock clean
+# One after the other; what is finished is not computed again. The verdicts on published claims follow from the results.
+EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
+
+.PHONY: run test test-all test-optional optional lint bench mutate reproduction ui lock clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -33,6 +36,10 @@ bench: .venv/ready
 
 mutate: .venv/ready
 	$(BIN)/python -m mutation
+
+reproduction: .venv/ready
+	for name in $(EXPERIMENTS); do echo "== $$name"; $(BIN)/surfexp run experiment=$$name || exit 1; done
+	$(BIN)/surfexp report --claims $(EXPERIMENTS) > docs/reproduction.md
 
 ui: .venv/ready
 	$(BIN)/surfexp ui

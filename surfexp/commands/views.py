@@ -6,6 +6,8 @@ import argparse
 import os
 import subprocess
 import sys
+from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 
 from rich.console import Console
@@ -26,19 +28,33 @@ def command(name: str, arguments: list[str]) -> int:
     if name == "ui":
         parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")
         return _dashboard(parser.parse_args(arguments))
-    parser.add_argument("experiment", nargs="?", default="quickstart")
+    parser.add_argument("experiment", nargs="*", default=["quickstart"])
     if name == "report":
         parser.add_argument("--claims", action="store_true", help="print the verdicts on published claims as Markdown")
     given = parser.parse_args(arguments)
-    plan = latest_plan(given.results, given.experiment)
-    if name == "table":
-        print_tables(plan, given.results, wide_console())
-    elif given.claims:
-        verdicts = judge(plan.settings.claims, rows_of(plan, given.results.resolve()))
-        print(as_markdown(given.experiment, plan.settings.title, verdicts))
-    else:
-        print(write_report(plan, given.results.resolve()) / "report.html")
+    plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
+    if name == "report" and given.claims:
+        print_verdicts(plans, given.results)
+        return 0
+    for plan in plans.values():
+        if name == "table":
+            print_tables(plan, given.results, wide_console())
+        else:
+            print(write_report(plan, given.results.resolve()) / "report.html")
     return 0
+
+
+def print_verdicts(plans: Mapping[str, Plan], results: Path) -> None:
+    """Markdown of the verdicts of several experiments, those without claims left out, with their count at the head."""
+    sections, count = [], Counter[str]()
+    for experiment, plan in plans.items():
+        verdicts = judge(plan.settings.claims, rows_of(plan, results.resolve()))
+        count.update(item.verdict for item in verdicts)
+        if verdicts:
+            sections.append(as_markdown(experiment, plan.settings.title, verdicts))
+    counts = ", ".join(f"{number} {verdict}" for verdict, number in sorted(count.items()))
+    print(f"# Published claims, checked\n\n{sum(count.values())} claims: {counts}.\n")
+    print("\n".join(sections).rstrip())
 
 
 def latest_plan(results: Path, experiment: str) -> Plan:
