@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -154,3 +156,20 @@ def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None
     key = plan.leaves[0].key
     assert not store.is_done(tmp_path, "pairing", key)
     assert stage.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")
+
+
+def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    configuration = {"target": "surface", "surface": {"name": "toy_triangle", "size": 3.0}}
+    method = registry.plugin("surface", "toy_triangle")
+    for timing, expected in ((False, 1), (True, 2)):
+        calls = []
+
+        def slow_at_first(options, calls=calls):
+            calls.append(None)
+            time.sleep(0.2 if len(calls) == 1 else 0.0)
+            return method.function(options)
+
+        monkeypatch.setitem(registry.PLUGINS, ("surface", "toy_triangle"), replace(method, function=slow_at_first))
+        plan, _ = run({**configuration, "timing": timing}, tmp_path / str(timing))
+        event = stage.read_event(tmp_path / str(timing), "surface", plan.leaves[0].key)
+        assert len(calls) == expected and (event["seconds"] < 0.2) == timing
