@@ -31,7 +31,7 @@ lint: .venv/ready
 	$(BIN)/lint-imports
 	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
 
-bench: .venv/ready
+bench: optional # the rivals come with it
 	$(BIN)/python -m benchmarks
 
 mutate: .venv/ready
@@ -55,7 +55,7 @@ lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
-		pyproject.toml --extra dev --extra open3d --extra conic -c requirements.lock -o requirements-optional.lock
+		pyproject.toml --extra dev --extra open3d --extra conic --extra bench -c requirements.lock -o requirements-optional.lock
 
 clean:
 	rm -rf results/[!R]* .snakemake
