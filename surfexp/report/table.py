@@ -40,10 +40,10 @@ class Comparison:
 
     @property
     def varying(self) -> list[str]:
-        """The plugin names and options that tell rows apart; an option counts only between rows of one plugin."""
+        """The plugin names and options that tell rows apart (an option only between rows of one plugin); of one row its own."""
         names = dict.fromkeys(name for row in self.rows for name in row.parameters)
         if len(self.rows) == 1:
-            return [name for name in names if name.endswith(".name")]
+            return [f"{self.rows[0].leaf.settings['target']}.name"]
         shown = [name for name in names if self._differs(name)]
         return sorted(shown, key=lambda name: (not name.endswith(".name"), list(names).index(name)))
 
