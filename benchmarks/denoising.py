@@ -82,7 +82,7 @@ def _against_published(scene: Scene) -> Line:
 
 def _against_conic(scene: Scene) -> list[Line]:
     aims: list[tuple[float, float, str, Method]] = [
-        (1e-6, 12.0, "primal-dual", partial(primal_dual, tolerance=1e-6)),
+        (1e-6, 12.0, "newton", partial(newton, tolerance=1e-6)),
         (1e-8, 5.0, "newton", partial(newton, tolerance=1e-8)),
     ]
     rival, found = "CVXPY + CLARABEL to the same gap", []

@@ -9,6 +9,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Convergence(Options):
+    """What is drawn against the iterations."""
+
     quantity: str = Field("gap", description="history that is drawn: gap, energy or change")
     rates: list[float] = Field([], description="orders of the dashed lines for comparison")
     caption: str = Field("", description="sentence below the figure")

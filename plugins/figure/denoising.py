@@ -16,6 +16,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Denoising(Options):
+    """The viewpoint and the width of the figure."""
+
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")
     width: int = Field(1800, ge=200, le=8000, description="pixels across")

@@ -14,6 +14,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Geometry(Options):
+    """The viewpoint and the width of the figure."""
+
     azimuth: float = Field(-60.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(25.0, ge=-90, le=90, description="height of view, degrees")
     width: int = Field(1500, ge=200, le=8000, description="pixels across")

@@ -15,6 +15,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class LevelLines(Options):
+    """The level, the viewpoints and the lines."""
+
     level: float = Field(0.0, ge=-1e12, le=1e12, description="level of the line")
     views: list[str] = Field(["left", "oblique"], description="directions of view")
     line_width: float = Field(3.0, gt=0, le=20, description="width of the lines in pixels")

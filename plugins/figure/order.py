@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Order(Options):
+    """Which errors are drawn against the mesh size."""
+
     errors: dict[str, str] = Field(description="metric of each line, by its label")
     title: str = Field("", description="heading in the figure")
     caption: str = Field("", description="sentence below the figure")

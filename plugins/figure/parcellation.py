@@ -17,6 +17,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Parcellation(Options):
+    """The viewpoints, colours and lines."""
+
     views: list[str] = Field(["lateral", "medial"], description="directions of view")
     colormap: str = Field("PuOr_r", description="matplotlib's name of the colour map of the image")
     line_width: float = Field(3.0, gt=0, le=20, description="width of the red line in pixels")

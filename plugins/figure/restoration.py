@@ -20,6 +20,8 @@ LOST = np.array([214.0, 96.0, 77.0])
 
 
 class Restoration(Options):
+    """The viewpoint, and where the picture is printed."""
+
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")
     reference: str = Field("", description="equation or figure of the dissertation that this one answers")

@@ -21,6 +21,8 @@ LIGHT, DARK = np.array([0.96, 0.92, 0.84]), np.array([0.30, 0.38, 0.50])
 
 
 class Segmentation(Options):
+    """The viewpoints, the initial curve that is drawn too, and the lines."""
+
     views: list[tuple[float, float]] = Field(
         [(-100.0, 12.0), (-40.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
     )

@@ -15,6 +15,8 @@ LABEL = re.compile(r"(?P<line>.+) @ (?P<x>[-+.\deE]+)(?: #\w+)?")
 
 
 class Sweep(Options):
+    """What is drawn against the numbers of an axis, and how it looks."""
+
     metric: str = Field(description="metric of the solutions that is drawn")
     x_label: str = Field(description="what the numbers after @ are")
     y_label: str = Field("", description="default: the metric")

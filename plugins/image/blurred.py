@@ -12,6 +12,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Blurred(Options):
+    """Width of the blur, and noise."""
+
     width: float = Field(2.0, gt=0, le=100, description="standard deviation of the blur in edge lengths")
     noise: float = Field(2.0, ge=0, description="standard deviation of the Gaussian noise after the blur, of 0..255")
     seed: int = Field(0, ge=0, description="seed of the noise")

@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class CapDistance(Options):
+    """The middle and the rim of the cap."""
+
     direction: tuple[float, float, float] = Field((0.0, 0.0, 1.0), description="axis of the cap")
     angle: float = Field(63.0, gt=0, lt=180, description="half opening of the cap, degrees")
 

@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class ColouredCells(Options):
+    """The cells and the noise."""
+
     cells: int = Field(24, ge=2, le=1000, description="number of cells")
     cells_seed: int = Field(0, ge=0, description="seed of places and colours of the cells")
     noise: float = Field(0.0, ge=0, description="standard deviation of the Gaussian noise, of 0..255")

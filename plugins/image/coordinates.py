@@ -9,6 +9,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Coordinates(Options):
+    """The noise of the positions."""
+
     noise: float = Field(
         0.1, gt=0, description="standard deviation of the noise that the vertices carry, unit of length"
     )

@@ -12,6 +12,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class File(Options):
+    """The file with one value a vertex, its unit, and the noise."""
+
     path: Path = Field(description=".npy, text, FreeSurfer or GIFTI map with one value a vertex")
     unit: str = Field("", description="unit of the values, for captions")
     noise: float = Field(0.0, ge=0, description="standard deviation of the Gaussian noise to add")

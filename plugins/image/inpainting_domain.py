@@ -11,6 +11,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class InpaintingDomain(Options):
+    """The discs and single vertices at which the image is lost."""
+
     discs: int = Field(40, ge=1, le=10000, description="number of lost discs, balls in space about random vertices")
     radius: float = Field(3.0, gt=0, description="radius of a disc in edge lengths")
     share: float = Field(0.0, ge=0, lt=1, description="share of single vertices that are lost besides")

@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class MeanCurvature(Options):
+    """Where large curvatures are cut off."""
+
     clip: float = Field(99.0, gt=50, le=100, description="percentile of |H| at which outliers are clipped")
 
 

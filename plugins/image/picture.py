@@ -14,6 +14,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Picture(Options):
+    """The picture, its projection on the surface, and the noise."""
+
     picture: str = Field("cameraman", description="letters, or the name of a picture that scikit-image carries")
     path: Path | None = Field(None, description="a picture file of your own in place of `picture`")
     projection: Literal["cylindrical", "spherical", "planar", "coordinates"] = Field(

@@ -12,6 +12,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class TwoPhase(Options):
+    """The boundary of the two phases, and the noise."""
+
     direction: tuple[float, float, float] = Field((0.0, 0.0, 1.0), description="axis of the bright cap")
     angle: float = Field(60.0, gt=0, lt=180, description="half opening of the cap, seen from the centre, degrees")
     noise: float = Field(0.0, ge=0, description="standard deviation of the Gaussian noise, of 0..255")

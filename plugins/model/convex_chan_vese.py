@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class ConvexChanVeseOptions(Options):
+    """The weight of the data, the initial curve, and the updates of the means."""
+
     length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
     mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
     updates: int = Field(20, ge=1, le=1000, description="largest number of updates of the two means")

@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class DeblurringOptions(Options):
+    """The weight of the data, and the width of the blur."""
+
     width: float = Field(2.0, gt=0, le=100, description="standard deviation of the blur in edge lengths")
     w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
     mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")

@@ -7,7 +7,7 @@ from surfexp.workflow.registry import Options, register
 
 
 class Fem(Options):
-    pass
+    """Linear elements have no options."""
 
 
 @register("operator", "fem")

@@ -7,7 +7,7 @@ from surfexp.workflow.registry import Options, register
 
 
 class IntrinsicDelaunay(Options):
-    pass
+    """The intrinsic triangulation has no options."""
 
 
 @register("operator", "intrinsic_delaunay")

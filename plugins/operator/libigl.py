@@ -7,7 +7,7 @@ from surfexp.workflow.registry import Options, register
 
 
 class Libigl(Options):
-    pass
+    """The operators of libigl have no options."""
 
 
 @register("operator", "libigl")

@@ -9,6 +9,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class VertexAveraged(Options):
+    """Whether the average is made tangent."""
+
     tangent: bool = Field(False, description="project fields to the tangent plane of each vertex")
 
 

@@ -16,6 +16,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class ChambolleDual(Options):
+    """When to stop, and the scheme with its printed parameters."""
+
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
     scheme: Literal["sound", "as_published"] = Field(

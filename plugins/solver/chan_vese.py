@@ -13,15 +13,19 @@ from surfexp.workflow.stage import report_progress
 
 
 class ChanVeseOptions(Options):
+    """The weight of the data, the initial function, and when to stop."""
+
     length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
     mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
     discs: int = Field(0, ge=0, le=10000, description="initial curve: circles about random vertices; 0: where I > mean")
     radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
     seed: int = Field(0, ge=0, description="seed of the initial circles")
+    height: float = Field(3.0, gt=0, le=100, description="phi starts as +height inside the curve and -height outside")
     tolerance: float = Field(
         1e-6, gt=0, lt=1, description="relative fall of the energy over ten steps at which to stop"
     )
-    iteration_limit: int = Field(2000, ge=1, description="most steps")
+    rest: int = Field(500, ge=1, description="steps without a change of {phi > 0} after which the curve is at rest")
+    iteration_limit: int = Field(10000, ge=1, description="most steps")
 
 
 @register("solver", "chan_vese")
@@ -32,5 +36,6 @@ def chan_vese_solver(
     mesh, start = surface.mesh, None
     if options.discs:
         start = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed) > 0
-    model = ChanVese(options.length, options.mu, start, options.iteration_limit, options.tolerance)
+    settings = options.model_dump(exclude={"discs", "radius", "seed"})
+    model = ChanVese(**settings, initial=start)
     return model.run(image, operator, progress=report_progress)

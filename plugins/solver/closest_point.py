@@ -16,6 +16,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class ClosestPointOptions(Options):
+    """The grid, and when to stop."""
+
     points: int = Field(162, ge=16, le=2048, description="grid points along the longest side of the surface")
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap on the band")
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")

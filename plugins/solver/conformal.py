@@ -17,6 +17,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class Conformal(Options):
+    """The parameter domain, and when to stop."""
+
     columns: int = Field(0, ge=0, le=8192, description="points of a regular grid along the equator; 0: on the vertices")
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap on the parameter domain")
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")

@@ -14,6 +14,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class Conic(Options):
+    """When to stop."""
+
     tolerance: float = Field(1e-6, gt=0, lt=1, description="relative gap at which the result counts as converged")
 
 

@@ -19,6 +19,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class EnergyExcess(Options):
+    """How exactly the least energy is found."""
+
     tolerance: float = Field(1e-6, gt=0, lt=1, description="relative gap of the intrinsic solve that gives the bound")
 
 

@@ -14,6 +14,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class FistaDual(Options):
+    """When to stop."""
+
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(20000, ge=1, description="most iterations")
 

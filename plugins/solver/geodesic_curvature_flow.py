@@ -15,6 +15,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class GeodesicCurvatureFlow(Options):
+    """Duration, steps and smoothing of the flow."""
+
     time: float = Field(0.4, gt=0, description="time of the flow, squared unit of length")
     steps: int = Field(40, ge=1, le=10000, description="semi-implicit steps")
     smoothing: float = Field(0.05, gt=0, le=1, description="regularisation of |grad f| as a share of its mean")

@@ -13,7 +13,7 @@ from surfexp.workflow.registry import Options, register
 
 
 class GeometryError(Options):
-    pass
+    """The comparison of two surfaces has no options."""
 
 
 @register("solver", "geometry_error")

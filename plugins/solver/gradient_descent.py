@@ -14,6 +14,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class GradientDescent(Options):
+    """When to stop, and the smoothing of the total variation."""
+
     tolerance: float = Field(1e-3, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
     smoothing: float | None = Field(

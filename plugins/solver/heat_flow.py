@@ -14,6 +14,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class HeatFlow(Options):
+    """Duration and number of steps."""
+
     width: float = Field(2.0, gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
     steps: int = Field(10, ge=1, le=10000, description="implicit Euler steps")
 

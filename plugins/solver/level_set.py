@@ -17,6 +17,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class LevelSetOptions(Options):
+    """The grid, the extension off the surface, and when to stop."""
+
     points: int = Field(162, ge=16, le=2048, description="grid points along the longest side of the surface")
     degree: Literal[1, 3] = Field(3, description="degree of the interpolation that extends data off the surface")
     tolerance: float = Field(

@@ -14,11 +14,13 @@ from surfexp.workflow.stage import report_progress
 
 
 class Newton(Options):
+    """When to stop."""
+
     tolerance: float = Field(1e-10, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(60, ge=1, le=1000, description="most factorisations")
 
 
 @register("solver", "newton", accepts={"model": ("rof",)})
 def newton_solver(options: Newton, *, image: Image, operator: SurfaceOperator, model: Model) -> Solution:
-    """Predictor-corrector Newton steps for ROF: some twenty factorisations to a relative gap of 1e-10."""
+    """Newton steps with several corrections for ROF: about ten factorisations to a relative gap of 1e-10."""
     return model.run(image, operator, partial(newton, **dict(options), progress=report_progress))

@@ -10,6 +10,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class NormalFilteringOptions(Options):
+    """The weight of the normals, the vertex updates, and when to stop."""
+
     w: float = Field(0.5, gt=0, description="weight without unit: small is smooth")
     vertex_steps: int = Field(30, ge=1, le=10000, description="steps that fit the vertices to the filtered normals")
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap of the normals")

@@ -9,7 +9,7 @@ from surfexp.workflow.registry import Options, register
 
 
 class OperatorErrors(Options):
-    pass
+    """The measurement of operator errors has no options."""
 
 
 @register("solver", "operator_errors", accepts={"surface": ("icosphere", "torus")})

@@ -7,11 +7,14 @@ from pydantic import Field
 
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
+from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
 
 class PartitionEnergy(Options):
+    """The weight of the data in the energy."""
+
     mu: float = Field(1e-3, gt=0, description="the printed weight of the data term, as in the solver compared")
 
 
@@ -19,15 +22,17 @@ class PartitionEnergy(Options):
 def partition_energy(
     options: PartitionEnergy, *, result: Solution, image: Image, operator: SurfaceOperator
 ) -> Solution:
-    """Another method's regions as they are, with boundary length + mu times the squared distance from the two means."""
-    if result.segmentation is None or "perimeter" not in result.metrics:
-        raise ValueError(f"{result.model} has no regions with a boundary; take a two-phase segmentation")
+    """Another method's regions as they are, with boundary length between vertices + mu times the squared misfit."""
+    if result.segmentation is None or not np.isin(result.segmentation, (0.0, 1.0)).all():
+        raise ValueError(f"{result.model} has not two regions; take a two-phase segmentation")
     inside = result.segmentation > 0.5
+    perimeter = float(perimeters(operator, inside.astype(np.float64), np.array([0.5]))[0])
     misfit = 0.0
     for part in (inside, ~inside):
         weights = operator.mass * part
         mean = float(weights @ image.values / weights.sum()) if weights.any() else 0.0
         misfit += float(weights @ (image.values - mean) ** 2)
-    energy = result.metrics["perimeter"] + options.mu * misfit
-    metrics = {"partition_energy": energy, "inside_share": float(operator.mass @ inside / np.sum(operator.mass))}
+    energy = perimeter + options.mu * misfit
+    share = float(operator.mass @ inside / np.sum(operator.mass))
+    metrics = {"partition_energy": energy, "inside_share": share, "perimeter": perimeter}
     return replace(result, metrics=result.metrics | metrics)

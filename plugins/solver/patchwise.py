@@ -18,6 +18,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class Patchwise(Options):
+    """The patches, and when to stop."""
+
     patches: int = Field(8, ge=1, le=1000, description="patches to begin with; those that are no disks are halved")
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")

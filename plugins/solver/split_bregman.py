@@ -16,6 +16,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class SplitBregman(Options):
+    """When to stop, the penalty, and the scheme with its printed parameters."""
+
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(5000, ge=1, description="most iterations of one convex problem")
     penalty: float | None = Field(None, gt=0, description="the printed lambda; default: from the model and edge length")

@@ -14,6 +14,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Threshold(Options):
+    """How the threshold is chosen."""
+
     rule: Literal["sign", "otsu"] = Field("sign", description="zero, or Otsu's threshold between two classes")
 
 

@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Cortex(Options):
+    """Which cortex, and its number of vertices."""
+
     form: Literal["smooth", "folded"] = Field("folded", description="smooth stands for M1, folded for M2")
     count: int = Field(39994, ge=10000, le=400000, description="number of vertices")
     seed: int = Field(0, ge=0, description="another field of sulci")

@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Cube(Options):
+    """Size, resolution and position of the cube."""
+
     cells: int = Field(32, ge=1, le=400, description="squares along a side")
     side: float = Field(2.0, gt=0, description="side length")
     rotation: tuple[float, float, float] = Field((0.0, 0.0, 0.0), description="degrees about x, then y, then z")

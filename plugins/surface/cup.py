@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Cup(Options):
+    """The number of vertices."""
+
     vertices: int = Field(25075, ge=2000, le=400000, description="number of vertices")
 
 

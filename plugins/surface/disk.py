@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Disk(Options):
+    """Size and resolution of the disk."""
+
     rings: int = Field(30, ge=1, le=1000, description="rings of vertices")
     radius: float = Field(1.0, gt=0, description="radius")
 

@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Ellipsoid(Options):
+    """Axes and resolution of the ellipsoid."""
+
     levels: int = Field(4, ge=0, le=8, description="subdivisions of the icosahedron")
     semiaxes: tuple[float, float, float] = Field((1.0, 1.3, 0.8), description="semiaxes along x, y, z")
 

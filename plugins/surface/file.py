@@ -12,6 +12,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class File(Options):
+    """The file and its unit."""
+
     path: Path = Field(description="OFF, OBJ, PLY, STL, GIFTI, FreeSurfer geometry, .vert/.tri; others through open3d")
     unit: str = Field("", description="unit of length, for captions")
 

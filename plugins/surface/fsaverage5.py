@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Fsaverage5(Options):
+    """Which hemisphere and which of its surfaces."""
+
     hemisphere: Literal["left", "right"] = Field("left", description="hemisphere of the brain")
     sheet: Literal["pial", "white", "inflated", "sphere"] = Field(
         "white", description="which of the four nested surfaces"

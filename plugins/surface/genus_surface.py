@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class GenusSurface(Options):
+    """The genus, and the resolution."""
+
     genus: int = Field(2, ge=1, le=8, description="number of holes")
     count: int = Field(8000, ge=3000, le=400000, description="number of vertices")
 

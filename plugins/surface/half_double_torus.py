@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class HalfDoubleTorus(Options):
+    """The number of vertices."""
+
     count: int = Field(31247, ge=1500, le=400000, description="number of vertices")
 
 

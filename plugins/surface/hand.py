@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Hand(Options):
+    """The number of vertices."""
+
     count: int = Field(58875, ge=4000, le=400000, description="number of vertices")
 
 

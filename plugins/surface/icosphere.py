@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Icosphere(Options):
+    """Size and resolution of the sphere."""
+
     levels: int = Field(4, ge=0, le=8, description="subdivisions of the icosahedron")
     radius: float = Field(1.0, gt=0, description="radius")
 

@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Noisy(Options):
+    """Size and direction of the noise."""
+
     sigma: float = Field(0.1, ge=0, description="standard deviation of the noise in each coordinate, unit of length")
     direction: Literal["all", "normal"] = Field("all", description="noise in space, or along the normals alone")
     seed: int = Field(0, ge=0, description="seed of the noise")

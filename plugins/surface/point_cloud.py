@@ -10,6 +10,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class PointCloud(Options):
+    """The file, and how its points become a surface."""
+
     path: Path = Field(description=".xyz, .npy, .pcd or .ply file of points")
     depth: int = Field(8, ge=2, le=14, description="depth of the octree: each step doubles the resolution")
     neighbours: int = Field(30, ge=3, le=500, description="points from which a normal is estimated")

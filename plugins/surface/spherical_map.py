@@ -15,6 +15,8 @@ from surfexp.workflow.stage import report_progress
 
 
 class SphericalMap(Options):
+    """How the sphere is reached, and when to stop."""
+
     method: Literal["linear", "flow"] = Field(
         "linear", description="linear: one linear system; flow: improved by conformal mean curvature flow"
     )

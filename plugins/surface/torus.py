@@ -8,6 +8,8 @@ from surfexp.workflow.registry import Options, register
 
 
 class Torus(Options):
+    """Size, resolution and irregularity of the torus."""
+
     n_u: int = Field(405, ge=3, le=4000, description="vertices around the axis")
     n_v: int = Field(162, ge=3, le=4000, description="vertices around the tube")
     major_radius: float = Field(1.0, gt=0, description="radius of the centre line")

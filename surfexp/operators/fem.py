@@ -44,19 +44,36 @@ def check_mesh(mesh: TriangleMesh, flat_faces: bool = False) -> None:
     """
     if not len(mesh.faces):
         raise ValueError("the mesh has 0 faces, an operator needs at least 1")
-    bad = np.flatnonzero(~np.isfinite(mesh.vertices).all(axis=1))
-    if len(bad):
+    if not np.isfinite(mesh.vertices).all():
+        bad = np.flatnonzero(~np.isfinite(mesh.vertices).all(axis=1))
         raise ValueError(
             f"vertex {bad[0]} is at {mesh.vertices[bad[0]]}, positions must be finite ({len(bad)} are not)"
         )
-    flat = np.flatnonzero(mesh.areas <= 0)
-    if len(flat) and not flat_faces:
+    first, count = (0, 0) if flat_faces else _faces_without_area(mesh.vertices, mesh.faces)
+    if count:
         raise ValueError(
-            f"face {flat[0]} has area 0, must be positive ({len(flat)} such faces): repair the mesh or use intrinsic_delaunay"
+            f"face {first} has area 0, must be positive ({count} such faces): repair the mesh or use intrinsic_delaunay"
         )
-    loose = np.setdiff1d(np.arange(len(mesh.vertices)), mesh.faces)
-    if len(loose):
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[mesh.faces] = True
+    if not used.all():
+        loose = np.flatnonzero(~used)
         raise ValueError(f"vertex {loose[0]} belongs to no face ({len(loose)} such vertices): repair the mesh")
+
+
+@njit(cache=True, nogil=True)
+def _faces_without_area(vertices: Floats, faces: Integers) -> tuple[int, int]:
+    """Return the first one and their number."""
+    first, count = -1, 0
+    for f in range(len(faces)):
+        a, b, c = vertices[faces[f, 0]], vertices[faces[f, 1]], vertices[faces[f, 2]]
+        ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+        nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+        if nx * nx + ny * ny + nz * nz <= 0.0:
+            first = f if count == 0 else first
+            count += 1
+    return first, count
 
 
 @njit(cache=True, nogil=True)

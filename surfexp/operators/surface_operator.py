@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.operators.assembly_pattern import AssemblyPattern, assembly_pattern
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +54,11 @@ class SurfaceOperator:
     def mass(self) -> Floats:
         """(n,) lumped mass."""
         return np.bincount(self.faces.ravel(), np.repeat(self.areas / 3.0, 3), self.vertex_count).astype(np.float64)
+
+    @cached_property
+    def pattern(self) -> AssemblyPattern:
+        """Where element matrices are summed; kept, for all matrices of a triangulation share it."""
+        return assembly_pattern(self.faces, self.vertex_count)
 
     @cached_property
     def edge_length(self) -> float:

@@ -15,30 +15,41 @@ from surfexp.variational.face_sweeps import smoothed_normals
 from surfexp.variational.fidelity import Method, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
+from surfexp.variational.separable_quadratic import check_positive
 from surfexp.variational.solution import Solution
+
+LARGEST_MOVE = 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class ChanVese:
     """min TV(H(phi)) + mu int (c1 - I)^2 H(phi) + mu int (c2 - I)^2 (1 - H(phi)), H = 1/2 + atan(phi)/pi.
 
-    Descends by explicit steps whose length is halved until the energy falls; stops at a local minimum, which depends on the
-    initial curve. No certificate exists.
+    c1 and c2 are the means weighted by H(phi) and 1 - H(phi), for which the energy is least. Descends by explicit steps whose
+    length is halved until the energy falls; stops at a local minimum, which depends on the initial curve. No certificate
+    exists.
 
     Parameters
     ----------
     length, mu, initial
-        As in `ConvexChanVese`; phi starts as +1 and -1.
+        As in `ConvexChanVese`.
+    height : float
+        phi starts as +height and -height. A small one lets c1 and c2 start near each other, a large one freezes the curve,
+        as the descent is scaled by the derivative of H.
     iteration_limit : int
     tolerance : float
         Bound of the relative fall of the energy over ten iterations.
+    rest : int
+        Steps without a change of {phi > 0} after which the curve counts as at rest; phi itself grows for ever.
     """
 
     length: float = 2.0
     mu: float | None = None
     initial: Mask | None = None
-    iteration_limit: int = 2000
+    height: float = 3.0
+    iteration_limit: int = 10000
     tolerance: float = 1e-6
+    rest: int = 500
 
     def run(
         self,
@@ -53,22 +64,28 @@ class ChanVese:
         """
         model = ConvexChanVese(self.length, self.mu, self.initial)
         model.check(image, operator)
+        check_positive("height", self.height)
         start = model.first_region(image, operator) if self.initial is None else self.initial
-        phi = np.where(start, 1.0, -1.0)
-        means, notes = model.means(image.values, operator.mass, start, (image.values.max(), image.values.min()))
-        mu = model.weight(means, operator)
-        descent = _Descent(operator, image.values, mu)
+        phi = np.where(start, self.height, -self.height)
+        hard, _ = model.means(image.values, operator.mass, start, (image.values.max(), image.values.min()))
+        descent = _Descent(operator, image.values, model.weight(hard, operator))
+        means = descent.means(phi)
         energies = [descent.energy(phi, means)]
-        step, reason = 1.0, "iteration limit"
+        step, reason, moved = 1.0, "iteration limit", 0
         for iteration in range(1, self.iteration_limit + 1):
-            phi, energy, step = descent.step(phi, means, energies[-1], step)
-            means, notes = model.means(image.values, operator.mass, phi > 0, means)
-            energies.append(min(energy, descent.energy(phi, means)))
+            before = phi > 0
+            phi, step = descent.step(phi, means, energies[-1], step)
+            moved = moved if np.array_equal(before, phi > 0) else iteration
+            means = descent.means(phi)
+            energies.append(descent.energy(phi, means))
             fall = (energies[max(0, iteration - 10)] - energies[-1]) / max(abs(energies[-1]), np.finfo(float).tiny)
             if progress is not None:
                 progress(iteration, fall)
             if iteration >= 10 and fall <= self.tolerance:
                 reason = "energy no longer falls"
+                break
+            if iteration - moved >= self.rest:
+                reason = f"no vertex changed its side in {self.rest} steps"
                 break
         region = phi > 0
         metrics = {"energy": energies[-1], "iterations": float(iteration), "c1": means[0], "c2": means[1]}
@@ -84,12 +101,21 @@ class ChanVese:
             solver="gradient descent",
             segmentation=region.astype(np.float64),
             metrics=metrics | segmentation_metrics(image, operator, region),
-            notes=(*notes, "The energy is not convex: a local minimum, without certificate."),
+            notes=(*_empty(region), "The energy is not convex: a local minimum, without certificate."),
         )
 
 
+def _empty(region: Mask) -> tuple[str, ...]:
+    return () if region.any() and not region.all() else (f"phi > 0 at {region.sum()} of {len(region)} vertices.",)
+
+
+def _heaviside(phi: Floats) -> Floats:
+    inside: Floats = 0.5 + np.arctan(phi) / np.pi
+    return inside
+
+
 class _Descent:
-    """Energy and descent steps for fixed mu."""
+    """Energy, means and descent steps for fixed mu."""
 
     def __init__(self, operator: SurfaceOperator, values: Floats, mu: float):
         self._operator, self._values, self._mu = operator, values, mu
@@ -97,27 +123,36 @@ class _Descent:
         self._dual = np.zeros((len(operator.faces), 1, 2))
         self._load = np.zeros((operator.vertex_count, 1))
 
+    def means(self, phi: Floats) -> tuple[float, float]:
+        """Return the c1 and c2 that minimise the energy of phi; both weights are positive."""
+        inside = self._operator.mass * _heaviside(phi)
+        outside = self._operator.mass - inside
+        return float(inside @ self._values / inside.sum()), float(outside @ self._values / outside.sum())
+
     def energy(self, phi: Floats, means: tuple[float, float]) -> float:
-        inside = 0.5 + np.arctan(phi) / np.pi
+        inside = _heaviside(phi)
         c1, c2 = ((c - self._values) ** 2 for c in means)
         lengths = np.sqrt((gradient(self._operator, inside) ** 2).sum(axis=1) + self._smoothing**2)
         data = self._mu * float(self._operator.mass @ (c1 * inside + c2 * (1.0 - inside)))
         return float(self._operator.areas @ (lengths - self._smoothing)) + data
 
-    def step(self, phi: Floats, means: tuple[float, float], energy: float, step: float) -> tuple[Floats, float, float]:
-        """Return the next phi, its energy and twice the step that was short enough."""
+    def step(self, phi: Floats, means: tuple[float, float], energy: float, step: float) -> tuple[Floats, float]:
+        """Return the next phi, and twice the step that was short enough; the same phi if none of forty was.
+
+        No value moves by more than 1: a longer step may lower the energy too, but freezes phi far from the curve's rest.
+        """
         operator = self._operator
-        inside = 0.5 + np.arctan(phi) / np.pi
+        inside = _heaviside(phi)
         smoothed_normals(
             *(operator.faces, operator.hat_gradients, operator.areas, self._smoothing),
             *(inside[:, None], self._dual, self._load),
         )
         c1, c2 = ((c - self._values) ** 2 for c in means)
         slope = (self._load[:, 0] / operator.mass + self._mu * (c1 - c2)) / (np.pi * (1.0 + phi**2))
+        step = min(step, LARGEST_MOVE / float(np.abs(slope).max()))
         for _ in range(40):
             trial = phi - step * slope
-            reached = self.energy(trial, means)
-            if reached < energy:
-                return trial, reached, 2.0 * step
+            if self.energy(trial, means) < energy:
+                return trial, 2.0 * step
             step *= 0.5
-        return phi, energy, step
+        return phi, step

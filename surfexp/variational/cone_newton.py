@@ -39,7 +39,7 @@ def curvature_blocks(hats: Floats, areas: Floats, slack: Floats, grad: Floats, d
 def residual_fields(
     nu: float, slack: Floats, grad: Floats, dual: Floats, moves: tuple[Floats, Floats, Floats]
 ) -> tuple[Floats, Floats]:
-    """Return dp and dt for dphi = 0; `moves` (dt, d grad, dp) of a predictor step give the second-order correction."""
+    """Return dp and dt for dphi = 0; `moves` (dt, d grad, dp) of the round before give the second-order term."""
     base, rest = np.empty_like(dual), np.empty_like(slack)
     slack_move, grad_move, dual_move = moves
     for f in range(len(slack)):

@@ -12,6 +12,23 @@ from numba import njit
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
+@njit(cache=True, nogil=True, inline="always")
+def _slope(faces: Integers, hats: Floats, f: int, values: Floats, c: int) -> tuple[float, float]:
+    """Return the gradient of channel c on face f."""
+    first = values[faces[f, 0], c]
+    b, e = values[faces[f, 1], c] - first, values[faces[f, 2], c] - first
+    return b * hats[f, 1, 0] + e * hats[f, 2, 0], b * hats[f, 1, 1] + e * hats[f, 2, 1]
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _push(faces: Integers, hats: Floats, f: int, x: float, y: float, load: Floats, c: int) -> None:
+    """Add to the load of channel c that of the field (x, y), times the area, on face f."""
+    b, e = x * hats[f, 1, 0] + y * hats[f, 1, 1], x * hats[f, 2, 0] + y * hats[f, 2, 1]
+    load[faces[f, 1], c] += b
+    load[faces[f, 2], c] += e
+    load[faces[f, 0], c] -= b + e
+
+
 @njit(cache=True, nogil=True)
 def dual_ascent(
     faces: Integers, hats: Floats, areas: Floats, steps: Floats, step: float, values: Floats, dual: Floats, load: Floats
@@ -19,24 +36,18 @@ def dual_ascent(
     """Set p <- P(p + step s_T G phi), with P the projection to the unit ball of each face."""
     load[:] = 0.0
     for f in range(len(faces)):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         ascent = step * steps[f]
         square = 0.0
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = dual[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0])
-            y = dual[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1])
+            x, y = _slope(faces, hats, f, values, c)
+            x, y = dual[f, c, 0] + ascent * x, dual[f, c, 1] + ascent * y
             dual[f, c, 0], dual[f, c, 1] = x, y
             square += x * x + y * y
         shrink = 1.0 / np.sqrt(max(square, 1.0))
         for c in range(values.shape[1]):
             x, y = shrink * dual[f, c, 0], shrink * dual[f, c, 1]
             dual[f, c, 0], dual[f, c, 1] = x, y
-            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
-            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
-            load[j, c] += b
-            load[k, c] += e
-            load[i, c] -= b + e
+            _push(faces, hats, f, areas[f] * x, areas[f] * y, load, c)
 
 
 @njit(cache=True, nogil=True)
@@ -60,12 +71,9 @@ def bregman_update(
     pull[:] = 0.0
     radius = 1.0 / penalty
     for f in range(len(faces)):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         square = 0.0
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
-            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            x, y = _slope(faces, hats, f, values, c)
             x = relaxation * x + (1.0 - relaxation) * field[f, c, 0] + multiplier[f, c, 0]
             y = relaxation * y + (1.0 - relaxation) * field[f, c, 1] + multiplier[f, c, 1]
             field[f, c, 0], field[f, c, 1] = x, y
@@ -76,16 +84,8 @@ def bregman_update(
             px, py = inside * x, inside * y
             multiplier[f, c, 0], multiplier[f, c, 1] = px, py
             field[f, c, 0], field[f, c, 1] = x - px, y - py
-            b = areas[f] * (px * hats[f, 1, 0] + py * hats[f, 1, 1])
-            e = areas[f] * (px * hats[f, 2, 0] + py * hats[f, 2, 1])
-            load[j, c] += penalty * b
-            load[k, c] += penalty * e
-            load[i, c] -= penalty * (b + e)
-            b = areas[f] * ((x - 2.0 * px) * hats[f, 1, 0] + (y - 2.0 * py) * hats[f, 1, 1])
-            e = areas[f] * ((x - 2.0 * px) * hats[f, 2, 0] + (y - 2.0 * py) * hats[f, 2, 1])
-            pull[j, c] += b
-            pull[k, c] += e
-            pull[i, c] -= b + e
+            _push(faces, hats, f, penalty * areas[f] * px, penalty * areas[f] * py, load, c)
+            _push(faces, hats, f, areas[f] * (x - 2.0 * px), areas[f] * (y - 2.0 * py), pull, c)
 
 
 @njit(cache=True, nogil=True)
@@ -121,13 +121,10 @@ def chambolle_step(
     """Set p <- (p + s G phi) / (1 + s |G phi|) with s = step s_T, (2.26) for p = -V."""
     load[:] = 0.0
     for f in range(len(faces)):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         ascent = step * steps[f]
         square = 0.0
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
-            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            x, y = _slope(faces, hats, f, values, c)
             dual[f, c, 0] += ascent * x
             dual[f, c, 1] += ascent * y
             square += x * x + y * y
@@ -135,11 +132,7 @@ def chambolle_step(
         for c in range(values.shape[1]):
             x, y = shrink * dual[f, c, 0], shrink * dual[f, c, 1]
             dual[f, c, 0], dual[f, c, 1] = x, y
-            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
-            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
-            load[j, c] += b
-            load[k, c] += e
-            load[i, c] -= b + e
+            _push(faces, hats, f, areas[f] * x, areas[f] * y, load, c)
 
 
 @njit(cache=True, nogil=True)
@@ -162,29 +155,22 @@ def fista_step(
     load[:] = 0.0
     turn = 0.0
     for f in range(len(faces)):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         ascent = step * steps[f]
         square = 0.0
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = ahead[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0])
-            y = ahead[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1])
+            x, y = _slope(faces, hats, f, values, c)
+            x, y = ahead[f, c, 0] + ascent * x, ahead[f, c, 1] + ascent * y
             square += x * x + y * y
         shrink = 1.0 / np.sqrt(max(square, 1.0))
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = shrink * (ahead[f, c, 0] + ascent * (b * hats[f, 1, 0] + e * hats[f, 2, 0]))
-            y = shrink * (ahead[f, c, 1] + ascent * (b * hats[f, 1, 1] + e * hats[f, 2, 1]))
+            x, y = _slope(faces, hats, f, values, c)
+            x, y = shrink * (ahead[f, c, 0] + ascent * x), shrink * (ahead[f, c, 1] + ascent * y)
             dx, dy = x - dual[f, c, 0], y - dual[f, c, 1]
             turn += areas[f] / steps[f] * ((ahead[f, c, 0] - x) * dx + (ahead[f, c, 1] - y) * dy)
             dual[f, c, 0], dual[f, c, 1] = x, y
             x, y = x + momentum * dx, y + momentum * dy
             ahead[f, c, 0], ahead[f, c, 1] = x, y
-            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
-            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
-            load[j, c] += b
-            load[k, c] += e
-            load[i, c] -= b + e
+            _push(faces, hats, f, areas[f] * x, areas[f] * y, load, c)
     return turn
 
 
@@ -195,20 +181,13 @@ def smoothed_normals(
     """Set p = G phi / sqrt(|G phi|^2 + smoothing^2), the gradient of the regularised total variation."""
     load[:] = 0.0
     for f in range(len(faces)):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
         square = smoothing * smoothing
         for c in range(values.shape[1]):
-            b, e = values[j, c] - values[i, c], values[k, c] - values[i, c]
-            x = b * hats[f, 1, 0] + e * hats[f, 2, 0]
-            y = b * hats[f, 1, 1] + e * hats[f, 2, 1]
+            x, y = _slope(faces, hats, f, values, c)
             dual[f, c, 0], dual[f, c, 1] = x, y
             square += x * x + y * y
         length = np.sqrt(square)
         for c in range(values.shape[1]):
             x, y = dual[f, c, 0] / length, dual[f, c, 1] / length
             dual[f, c, 0], dual[f, c, 1] = x, y
-            b = areas[f] * (x * hats[f, 1, 0] + y * hats[f, 1, 1])
-            e = areas[f] * (x * hats[f, 2, 0] + y * hats[f, 2, 1])
-            load[j, c] += b
-            load[k, c] += e
-            load[i, c] -= b + e
+            _push(faces, hats, f, areas[f] * x, areas[f] * y, load, c)

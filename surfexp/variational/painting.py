@@ -75,20 +75,20 @@ def paint(
     # coordinates have a scale of their own, which says nothing about the distance of vertices
     edge = 0.0 if projection == "coordinates" else surface.mesh.edge_length
     blur = (0.4 * edge * rows / height, 0.4 * edge * columns / width)
+    note = f"painted by {projection} projection, {width:.4g} x {height:.4g} {surface.unit}".rstrip()
+    return Image(_sampled(picture, row, column, blur, MODES[extension]), name=name, notes=(note,))
+
+
+def _sampled(picture: Floats, row: Floats, column: Floats, blur: tuple[float, float], mode: str) -> Floats:
+    """Return (n,) or (n, c) values of a smoothed picture between its pixels, `blur` in rows and columns."""
     channels = picture[:, :, None] if picture.ndim == 2 else picture
-    mode = MODES[extension]
+    smoothing = mode.removeprefix("grid-")
     values = [
-        map_coordinates(
-            gaussian_filter(channel, blur, mode=mode.removeprefix("grid-")),
-            (row, column),
-            order=1,
-            mode=mode,
-        )
+        map_coordinates(gaussian_filter(channel, blur, mode=smoothing), (row, column), order=1, mode=mode)
         for channel in np.moveaxis(channels, 2, 0)
     ]
-    note = f"painted by {projection} projection, {width:.4g} x {height:.4g} {surface.unit}".rstrip()
     stacked = np.stack(values, axis=1)
-    return Image(stacked[:, 0] if picture.ndim == 2 else stacked, name=name, notes=(note,))
+    return stacked[:, 0] if picture.ndim == 2 else stacked
 
 
 def _size(extent: Floats, shape: tuple[int, ...], width: float | None, height: float | None) -> tuple[float, float]:

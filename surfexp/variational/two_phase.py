@@ -45,7 +45,7 @@ def two_phase(
 
 
 def coloured_cells(surface: Surface, cells: int = 24, seed: int = 0) -> Image:
-    """A coloured texture: the cells of seeded vertices in space, each of one random colour 0..255, (n, 3).
+    """A coloured texture: the cells of seeded vertices in space, each of one random colour 0..255, (n, 3), and labels.
 
     Raises
     ------
@@ -58,4 +58,5 @@ def coloured_cells(surface: Surface, cells: int = 24, seed: int = 0) -> Image:
     random = np.random.default_rng(seed)
     seeds = vertices[random.choice(len(vertices), cells, replace=False)]
     nearest = np.linalg.norm(vertices[:, None, :] - seeds[None, :, :], axis=2).argmin(axis=1)
-    return Image(random.uniform(0.0, 255.0, (cells, 3))[nearest], name="coloured cells")
+    labels = {f"cell {cell + 1}": nearest == cell for cell in range(cells)}
+    return Image(random.uniform(0.0, 255.0, (cells, 3))[nearest], name="coloured cells", labels=labels)

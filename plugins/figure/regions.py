@@ -1,0 +1,62 @@
+"""Segmentation into several regions: the image, its regions in their mean colours, and their boundaries."""
+
+from dataclasses import replace
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.contours import Contours
+from surfexp.figures.figure import Figure
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
+from surfexp.mesh.surface import Surface
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+
+class Regions(Options):
+    """The viewpoints and the lines."""
+
+    views: list[tuple[float, float]] = Field(
+        [(-100.0, 12.0), (-40.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
+    )
+    line_width: float = Field(2.5, gt=0, le=20, description="width of the red lines in pixels")
+    width: int = Field(1800, ge=200, le=8000, description="pixels across")
+
+
+@register("figure", "regions")
+def regions_figure(
+    options: Regions, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
+) -> Figure:
+    """The image, each region in the mean colour of the image on it, and the boundaries in red, from each side."""
+    if solver.segmentation is None:
+        raise ValueError(f"{solver.model} has no regions; take a segmentation")
+    mesh, labels = surface.mesh, np.asarray(solver.segmentation).astype(np.int64)
+    means = np.zeros_like(image.values)
+    for label in np.unique(labels):
+        part = labels == label
+        means[part] = np.average(image.values[part], axis=0, weights=operator.mass[part])
+    colour = image.values.ndim == 2
+    shown, flat = ((np.clip(a / 255.0, 0.0, 1.0) if colour else a) for a in (image.values, means))
+    grey = ColorScale(label="grey level", colormap="gray")
+    lines = tuple(
+        Contours((labels == label).astype(np.float64), levels=(0.5,), width=options.line_width)
+        for label in np.unique(labels)[1:]
+    )
+    rows = [
+        [
+            SurfaceView(mesh, shown, view, grey, title="image"),
+            SurfaceView(mesh, flat, view, grey, title="regions in their mean colours"),
+            SurfaceView(mesh, shown, view, grey, lines, "boundaries on the image"),
+        ]
+        for view in options.views
+    ]
+    noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
+    caption = (
+        f"{image.name.capitalize()} on a {surface.name}, {len(mesh.vertices):,} vertices{noise}: "
+        f"{len(np.unique(labels))} regions; in red their boundaries."
+    )
+    return replace(surface_panel(rows, width=options.width, caption=caption), title=solver.solver.replace("_", " "))
