@@ -1,0 +1,27 @@
+"""Flux and flux weights as features."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.boundary_distance import boundary_distance
+from surfexp.skeleton.feature import Feature
+from surfexp.skeleton.flux import flux, flux_weights
+from surfexp.workflow.registry import Options, register
+
+
+class Flux(Options):
+    """Flux, or the weight made of it."""
+
+    alpha: float | None = Field(None, gt=0, le=10, description="exponent of (5.10) for the weight; default: the flux")
+    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent; 1 as printed")
+
+
+@register("feature", "flux")
+def flux_feature(options: Flux, *, surface: Surface) -> Feature:
+    """Flux of the gradient of the distance to the boundary (5.9), or the weight (5.10)."""
+    values, name = flux(surface.mesh, boundary_distance(surface.mesh)), "flux"
+    metrics = {"least_flux": float(values.min()), "largest_flux": float(values.max())}
+    if options.alpha is not None:
+        values, name = flux_weights(values, options.alpha, options.contrast), f"weight, alpha {options.alpha:g}"
+        metrics |= {"smallest_weight": float(values.min()), "largest_weight": float(values.max())}
+    return Feature(values, name, "", metrics)

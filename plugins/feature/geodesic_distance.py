@@ -1,0 +1,25 @@
+"""Geodesic distance from a vertex as a feature."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.fast_marching import fast_marching
+from surfexp.skeleton.feature import Feature
+from surfexp.workflow.registry import Options, register
+
+
+class GeodesicDistance(Options):
+    """From where."""
+
+    source: int | None = Field(None, ge=0, description="vertex; default: one of the two that lie far apart")
+
+
+@register("feature", "geodesic_distance")
+def geodesic_distance_feature(options: GeodesicDistance, *, surface: Surface) -> Feature:
+    """Distance along the surface from a vertex, by fast marching."""
+    source = options.source
+    if source is None:
+        source = int(np.argmax(fast_marching(surface.mesh, np.array([0]))))
+    values = fast_marching(surface.mesh, np.array([source]))
+    return Feature(values, f"distance from vertex {source}", surface.unit, {"largest": float(values.max())})

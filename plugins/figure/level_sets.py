@@ -1,0 +1,35 @@
+"""Figures 5.6 and 5.7: weights, and level sets with the skeleton, along an axis."""
+
+from pydantic import Field
+
+from surfexp.figures.figure import Figure
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.drawing import SkeletonView, skeleton_panel
+from surfexp.skeleton.feature import Feature
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.workflow.registry import Options, register
+
+
+class LevelSets(Options):
+    """How it is drawn."""
+
+    azimuth: float = Field(-90.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
+    elevation: float = Field(90.0, ge=-90, le=90, description="height of view, degrees; 90 looks down on x, y")
+    width: int = Field(1600, ge=200, le=8000, description="pixels across")
+    caption: str = Field("", description="sentence below the figure")
+
+
+@register("figure", "level_sets")
+def level_sets_figure(
+    options: LevelSets,
+    *,
+    surface: Surface,
+    weights: dict[str, Feature],
+    features: dict[str, Feature],
+    skeletons: dict[str, Skeleton],
+) -> Figure:
+    """Weights above, level sets and Reeb graphs of their eigenmaps below, side by side along an axis."""
+    above = [SkeletonView(surface.mesh, None, weight.values, title=name) for name, weight in weights.items()]
+    below = [SkeletonView(surface.mesh, skeleton, None, features[name].values) for name, skeleton in skeletons.items()]
+    view = (options.azimuth, options.elevation)
+    return skeleton_panel([*above, *below], view=view, columns=len(above), width=options.width, caption=options.caption)

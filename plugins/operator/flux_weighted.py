@@ -1,0 +1,30 @@
+"""The anisotropic operator of chapter 5."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.fem import fem
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.skeleton.boundary_distance import boundary_distance
+from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
+from surfexp.workflow.registry import Options, register
+
+
+class FluxWeighted(Options):
+    """Weights from the flux of the distance to the boundary."""
+
+    alpha: float = Field(0.25, gt=0, le=10, description="exponent of (5.10); smaller is nearer to two values")
+    contrast: float = Field(
+        1.0, gt=0, le=20, description="factor in the exponent; 1 as printed, where w lies in 1/e..e"
+    )
+    method: Literal["fast_marching", "exact", "heat"] = Field("fast_marching", description="how D of (5.6) is found")
+
+
+@register("operator", "flux_weighted")
+def flux_weighted_operator(options: FluxWeighted, *, surface: Surface) -> SurfaceOperator:
+    """The operator div(w grad) with the flux weights (5.10), larger near the skeleton; needs a patch with a boundary."""
+    found = flux(surface.mesh, boundary_distance(surface.mesh, options.method))
+    weights = flux_weights(found, options.alpha, options.contrast)
+    return weighted_operator(fem(surface.mesh), weights, name=f"flux weighted, alpha {options.alpha:g}")

@@ -1,0 +1,22 @@
+"""The Hamilton-Jacobi skeleton."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.boundary_distance import boundary_distance
+from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.workflow.registry import Options, register
+
+
+class HamiltonJacobi(Options):
+    """Which ends stay."""
+
+    threshold: float = Field(-0.35, lt=0, ge=-1, description="ends of curves with flux below this stay")
+
+
+@register("skeleton", "hamilton_jacobi")
+def hamilton_jacobi_plugin(options: HamiltonJacobi, *, surface: Surface) -> Skeleton:
+    """Hamilton-Jacobi skeleton (figures 5.1 and 5.5): flux-ordered thinning that keeps topology."""
+    distance = boundary_distance(surface.mesh)
+    return hamilton_jacobi_skeleton(surface.mesh, distance, options.threshold, surface.name)

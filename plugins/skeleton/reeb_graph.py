@@ -1,0 +1,37 @@
+"""The Reeb graph as a skeleton."""
+
+from dataclasses import replace
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.feature import Feature
+from surfexp.skeleton.lengths import skeleton_lengths
+from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.pruning import pruned
+from surfexp.skeleton.reeb_graph import reeb_graph
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.workflow.registry import Options, register
+
+
+class ReebGraph(Options):
+    """How many levels, and where."""
+
+    count: int = Field(50, ge=1, le=5000, description="number of levels")
+    levels: Literal["uniform", "area_quantile", "arc_length", "critical"] = Field(
+        "arc_length",
+        description="where they lie: uniform as printed, or evenly in area, in distance, between critical values",
+    )
+    persistence: float = Field(0.0, ge=0, le=0.5, description="branches below this share of the range are cut off")
+
+
+@register("skeleton", "reeb_graph")
+def reeb_graph_skeleton(options: ReebGraph, *, surface: Surface, feature: Feature) -> Skeleton:
+    """Reeb graph of a feature at sampled levels (section 5.2), with caps and junctions, and lengths of its trunk."""
+    levels = choose_levels(surface.mesh, feature.values, options.count, options.levels)
+    skeleton = pruned(reeb_graph(surface.mesh, feature.values, levels, surface.name), options.persistence)
+    metrics = {"edge_length": surface.mesh.edge_length}
+    if skeleton.metrics["components"] == 1:
+        metrics |= skeleton_lengths(surface.mesh, feature.values, skeleton)
+    return replace(skeleton, metrics={**skeleton.metrics, **metrics})

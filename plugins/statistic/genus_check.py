@@ -1,0 +1,59 @@
+"""Loops of Reeb graphs against handles of surfaces."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
+from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.printed_rule import printed_loops
+from surfexp.skeleton.reeb_graph import reeb_graph
+from surfexp.skeleton.skeleton import arc_components
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class GenusCheck(Options):
+    """What is tried."""
+
+    directions: int = Field(8, ge=1, le=1000, description="random directions of height")
+    counts: list[int] = Field([10, 20, 50, 100, 200], min_length=1, description="numbers of levels")
+    seed: int = Field(0, ge=0, description="seed of the directions")
+
+
+@register("statistic", "genus_check")
+def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic:
+    """Loops of the Reeb graphs of heights in random directions, sampled and exact, against the genus of a closed surface."""
+    mesh = surface.mesh
+    if not mesh.is_closed:
+        raise ValueError(f"{surface.name} has a boundary, the number of loops is the genus on closed surfaces only")
+    directions = np.random.default_rng(options.seed).normal(size=(options.directions, 3))
+    rows = []
+    for number, direction in enumerate(directions):
+        height = mesh.vertices @ (direction / np.linalg.norm(direction))
+        exact = exact_reeb_graph(mesh, height)
+        loops = len(exact.arcs) - len(exact.vertices) + arc_components(exact.arcs, len(exact.vertices))
+        for count in options.counts:
+            levels = choose_levels(mesh, height, count, "uniform")
+            found, printed = reeb_graph(mesh, height, levels).metrics, printed_loops(mesh, height, levels)
+            rows.append((number, count, found["b1"], found["hidden_handles"], loops, printed))
+    columns = dict(
+        zip(
+            ("direction", "levels", "loops", "hidden", "exact_loops", "printed_loops"),
+            np.array(rows, float).T,
+            strict=True,
+        )
+    )
+    right = columns["loops"] == mesh.genus
+    finest = columns["levels"] == max(options.counts)
+    metrics = {
+        "handles": float(mesh.genus),
+        "right": float(right.mean()),
+        "right_or_said": float((right | (columns["hidden"] > 0)).mean()),
+        "right_at_finest": float(right[finest].mean()),
+        "exact_right": float((columns["exact_loops"] == mesh.genus).mean()),
+        "printed_right": float((columns["printed_loops"] == mesh.genus).mean()),
+        "too_many": float((columns["loops"] > mesh.genus).sum()),
+        "runs": float(len(rows)),
+    }
+    return Statistic("loops against handles", columns, metrics=metrics)

@@ -1,0 +1,38 @@
+"""Whether one surface in several poses has one skeleton."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.skeleton.agreement import length_profile, same_graph
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class GraphAgreement(Options):
+    """What the graphs are of."""
+
+    label: str = Field("eigenmap", description="feature whose graphs are compared, for the name")
+
+
+@register("statistic", "graph_agreement")
+def graph_agreement_statistic(options: GraphAgreement, *, skeletons: dict[str, Skeleton]) -> Statistic:
+    """Share of the graphs that are isomorphic to the first one, level by level, and the largest change of contour lengths."""
+    first = next(iter(skeletons.values()))
+    same = np.array([float(same_graph(first, skeleton)) for skeleton in skeletons.values()])
+    profile = length_profile(first)
+    changes = []
+    for skeleton in skeletons.values():
+        other = length_profile(skeleton)
+        # an eigenfunction's sign is arbitrary: the levels may run the other way
+        change = [np.abs(one - profile).max() for one in (other, other[::-1]) if len(one) == len(profile)]
+        changes.append(min(change, default=float(profile.max())) / profile.mean())
+    metrics = {
+        "isomorphic": float(same.mean()),
+        "width_change": float(np.max(changes)),
+        "chains": float(np.mean([skeleton.is_chain for skeleton in skeletons.values()])),
+        "members": float(len(same)),
+    }
+    return Statistic(
+        f"agreement of graphs, {options.label}", {"same": same, "change": np.array(changes)}, tuple(skeletons), metrics
+    )

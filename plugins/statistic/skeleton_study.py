@@ -1,0 +1,45 @@
+"""Figures 5.8 to 5.10: a group of patches by their eigenmap skeletons."""
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.study import compactness, group_skeletons, miss_metrics, topology_metrics
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class SkeletonStudy(Options):
+    """Weight and levels, the same for every member."""
+
+    alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
+    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent of the weights; 1 as printed")
+    levels: Literal["uniform", "area_quantile", "arc_length"] = Field("arc_length", description="where the levels lie")
+    count: int = Field(50, ge=5, le=1000, description="number of levels")
+    persistence: float = Field(0.01, ge=0, le=0.5, description="branches below this share of the range are cut off")
+    resample: bool = Field(False, description="put points at equal arc length on every line first, whatever its levels")
+    scale: bool = Field(False, description="make sizes equal too; rotation and translation are always taken out")
+    draws: int = Field(200, ge=10, le=10000, description="bootstrap draws for the intervals of the shares")
+    seed: int = Field(0, ge=0, description="seed of the bootstrap")
+
+
+@register("statistic", "skeleton_study")
+def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surface]) -> Statistic:
+    """Chains, principal components with bootstrap intervals, and distance from known midlines, of a group's skeletons."""
+    skeletons = group_skeletons(
+        surfaces, options.alpha, options.contrast, options.levels, options.count, options.persistence
+    )
+    found = compactness(skeletons, options.resample, options.scale, options.draws, options.seed)
+    columns = {
+        "component": np.arange(1.0, len(found.shares) + 1.0),
+        "share": found.shares,
+        "low": found.intervals[: len(found.shares), 0],
+        "high": found.intervals[: len(found.shares), 1],
+        "variance": found.variances,
+    }
+    metrics = {**topology_metrics(skeletons), **miss_metrics(surfaces, skeletons), **found.metrics}
+    metrics["cut_branches"] = float(np.mean([item.metrics["cut_branches"] for item in skeletons.values()]))
+    weight = "weight 1" if not options.alpha else f"alpha {options.alpha:g}"
+    return Statistic(f"{weight}, {options.levels.replace('_', ' ')} levels", columns, metrics=metrics)

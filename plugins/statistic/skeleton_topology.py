@@ -1,0 +1,21 @@
+"""Whether the skeletons of a group have one topology."""
+
+import numpy as np
+
+from surfexp.skeleton.agreement import topology
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.skeleton.study import topology_metrics
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class SkeletonTopology(Options):
+    """Nothing to choose."""
+
+
+@register("statistic", "skeleton_topology")
+def skeleton_topology_statistic(options: SkeletonTopology, *, skeletons: dict[str, Skeleton]) -> Statistic:
+    """Share of chains among the skeletons of a group, and how many different topologies there are."""
+    found = np.array([topology(skeleton) for skeleton in skeletons.values()], dtype=float)
+    columns = dict(zip(("leaves", "branch_nodes", "loops"), found.T, strict=True))
+    return Statistic("topology of skeletons", columns, tuple(skeletons), topology_metrics(skeletons))

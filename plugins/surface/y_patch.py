@@ -1,0 +1,21 @@
+"""A branched patch."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.strip import y_patch
+from surfexp.workflow.registry import Options, register
+
+
+class YPatch(Options):
+    """A flat Y."""
+
+    edge_length: float = Field(0.25, ge=0.02, le=0.5, description="side of the triangles")
+    arm: float = Field(6.0, ge=3, le=100, description="length of each arm")
+    width: float = Field(2.0, ge=2, le=60, description="width of each arm")
+
+
+@register("surface", "y_patch")
+def y_patch_surface(options: YPatch) -> Surface:
+    """A flat patch of three arms at 120 degrees, whose skeleton has three leaves."""
+    return y_patch(**dict(options))

@@ -1,0 +1,145 @@
+"""A skeleton: a graph in space whose nodes are contours of a feature function and what joins them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.mesh.triangle_mesh import Floats, Integers
+
+if TYPE_CHECKING:
+    import networkx
+
+CONTOUR, CAP, JUNCTION = 0, 1, 2
+KINDS = ("contour", "cap", "junction")
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A graph in space.
+
+    Parameters
+    ----------
+    positions : (N, 3) float64
+    kinds : (N,) int64
+        0 contour, 1 cap (an extremum beyond the last contour), 2 junction (contours that meet in one slab). In a skeleton
+        without contours, the end points are caps and the branch points junctions.
+    values : (N,) float64
+        The feature at the node.
+    lengths : (N,) float64
+        Length of the contour, 0 at caps and junctions.
+    closed : (N,) bool
+        Whether the contour is a closed curve.
+    level_index : (N,) int64
+        Index into `levels`, -1 at caps and junctions.
+    arcs : (A, 2) int64
+        Node pairs, from the lower to the higher value.
+    levels : (K,) float64
+        The sampled values, increasing; none in a skeleton without contours.
+    contour_points : (P, 3) float64
+    contour_starts : (N + 1,) int64
+        The line of node i is contour_points[contour_starts[i] : contour_starts[i + 1]].
+    name, method : str
+    metrics, notes
+        As in `Surface`; b1 counts the independent loops.
+    """
+
+    positions: Floats
+    kinds: Integers
+    values: Floats
+    lengths: Floats
+    closed: NDArray[np.bool_]
+    level_index: Integers
+    arcs: Integers
+    levels: Floats
+    contour_points: Floats
+    contour_starts: Integers
+    name: str = "skeleton"
+    method: str = "reeb graph"
+    metrics: dict[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def degrees(self) -> Integers:
+        """(N,) number of arcs at each node."""
+        return np.bincount(self.arcs.ravel(), minlength=len(self.positions)).astype(np.int64)
+
+    @property
+    def is_chain(self) -> bool:
+        """Whether the graph is a single path: connected, without loop or branch."""
+        return self.metrics["components"] == 1 and self.metrics["b1"] == 0 and int(self.degrees.max(initial=0)) <= 2
+
+    def graph(self) -> networkx.Graph:
+        """The graph in networkx's form: nodes with x, y, z, kind, value, length, closed; arcs with their length."""
+        import networkx
+
+        graph = networkx.Graph(name=self.name, method=self.method)
+        for i, (x, y, z) in enumerate(self.positions.tolist()):
+            graph.add_node(
+                i,
+                x=x,
+                y=y,
+                z=z,
+                kind=KINDS[self.kinds[i]],
+                value=float(self.values[i]),
+                length=float(self.lengths[i]),
+                closed=bool(self.closed[i]),
+                level=int(self.level_index[i]),
+            )
+        sizes = np.linalg.norm(self.positions[self.arcs[:, 1]] - self.positions[self.arcs[:, 0]], axis=1)
+        graph.add_edges_from((a, b, {"length": size}) for (a, b), size in zip(self.arcs.tolist(), sizes, strict=True))
+        return graph
+
+
+def chain_order(skeleton: Skeleton) -> Integers:
+    """Nodes of a chain from its end of lower value to the other.
+
+    Raises
+    ------
+    ValueError
+        If the skeleton is no chain.
+    """
+    if not skeleton.is_chain:
+        loops, leaves = int(skeleton.metrics["b1"]), int(skeleton.metrics["leaves"])
+        raise ValueError(f"skeleton {skeleton.name!r} has {leaves} leaves and {loops} loops, a chain has 2 and 0")
+    if not len(skeleton.arcs):
+        return np.zeros(1, dtype=np.int64)
+    neighbours: list[list[int]] = [[] for _ in skeleton.positions]
+    for a, b in skeleton.arcs.tolist():
+        neighbours[a].append(b)
+        neighbours[b].append(a)
+    ends = [i for i, around in enumerate(neighbours) if len(around) == 1]
+    order, previous = [min(ends, key=lambda i: skeleton.values[i])], -1
+    while len(order) < len(neighbours):
+        onward = [i for i in neighbours[order[-1]] if i != previous]
+        previous = order[-1]
+        order.append(onward[0])
+    return np.array(order, dtype=np.int64)
+
+
+def arc_components(arcs: Integers, count: int) -> int:
+    """Number of connected components of a graph of `count` nodes."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(arcs)), (arcs[:, 0], arcs[:, 1])), shape=(count, count))
+    return int(connected_components(graph, directed=False)[0])
+
+
+def graph_metrics(arcs: Integers, count: int) -> dict[str, float]:
+    """Counts of a graph: nodes, components, b1, leaves, branch_nodes (three arcs or more), chain (1 or 0)."""
+    components, degrees = arc_components(arcs, count), np.bincount(arcs.ravel(), minlength=count)
+    loops = len(arcs) - count + components
+    chain = components == 1 and loops == 0 and degrees.max(initial=0) <= 2
+    numbers = {
+        "nodes": count,
+        "components": components,
+        "b1": loops,
+        "leaves": int((degrees == 1).sum()),
+        "branch_nodes": int((degrees > 2).sum()),
+        "chain": int(chain),
+    }
+    return {name: float(number) for name, number in numbers.items()}

@@ -1,0 +1,144 @@
+"""A group of patches studied by their Reeb skeletons: one weight, one choice of levels, and what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.operators.fem import fem
+from surfexp.skeleton.agreement import topology
+from surfexp.skeleton.boundary_distance import boundary_distance
+from surfexp.skeleton.callosum import true_midline
+from surfexp.skeleton.eigenmap import eigenmap
+from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
+from surfexp.skeleton.group import align, bootstrap_shares, principal_components
+from surfexp.skeleton.lengths import skeleton_lengths
+from surfexp.skeleton.levels import Choice, choose_levels
+from surfexp.skeleton.midline import midline_errors
+from surfexp.skeleton.polyline import evenly_resampled, trunk_contours
+from surfexp.skeleton.pruning import pruned
+from surfexp.skeleton.reeb_graph import reeb_graph
+from surfexp.skeleton.skeleton import Skeleton
+
+
+def eigenmap_skeleton(
+    mesh: TriangleMesh,
+    alpha: float = 0.0,
+    contrast: float = 1.0,
+    levels: Choice = "arc_length",
+    count: int = 50,
+    persistence: float = 0.01,
+    name: str = "surface",
+) -> tuple[Skeleton, Floats]:
+    """Skeleton of a patch by its first eigenmap, and the eigenmap, signed to rise with x.
+
+    Parameters
+    ----------
+    alpha, contrast : float
+        Of the flux weights (5.10); the weight is 1 when alpha is 0.
+    levels, count
+        As in `choose_levels`.
+    persistence : float
+        As in `pruned`.
+    """
+    operator = fem(mesh)
+    if alpha:
+        weights = flux_weights(flux(mesh, boundary_distance(mesh)), alpha, contrast)
+        operator = weighted_operator(operator, weights)
+    values = eigenmap(operator).values
+    x = mesh.vertices[:, 0] - mesh.vertices[:, 0].mean()
+    values = values if float((values * x * mesh.vertex_areas).sum()) >= 0 else -values
+    skeleton = pruned(reeb_graph(mesh, values, choose_levels(mesh, values, count, levels), name), persistence)
+    lengths = skeleton_lengths(mesh, values, skeleton)
+    return replace(skeleton, metrics={**skeleton.metrics, **lengths}), values
+
+
+def group_skeletons(
+    surfaces: Mapping[str, Surface],
+    alpha: float = 0.0,
+    contrast: float = 1.0,
+    levels: Choice = "arc_length",
+    count: int = 50,
+    persistence: float = 0.01,
+) -> dict[str, Skeleton]:
+    """`eigenmap_skeleton` of every member, by its label."""
+    return {
+        label: eigenmap_skeleton(surface.mesh, alpha, contrast, levels, count, persistence, surface.name)[0]
+        for label, surface in surfaces.items()
+    }
+
+
+def topology_metrics(skeletons: Mapping[str, Skeleton]) -> dict[str, float]:
+    """Share of chains, number of different topologies, and mean counts of leaves, branch nodes and loops."""
+    found = np.array([topology(skeleton) for skeleton in skeletons.values()], dtype=float)
+    return {
+        "chains": float(np.mean([skeleton.is_chain for skeleton in skeletons.values()])),
+        "topologies": float(len(np.unique(found, axis=0))),
+        "leaves": float(found[:, 0].mean()),
+        "branch_nodes": float(found[:, 1].mean()),
+        "loops": float(found[:, 2].mean()),
+        "members": float(len(found)),
+    }
+
+
+def miss_metrics(surfaces: Mapping[str, Surface], skeletons: Mapping[str, Skeleton]) -> dict[str, float]:
+    """Mean and worst of the largest distance from the known midlines, in edge lengths; empty where none is known."""
+    if any("seed" not in surface.metrics or "thinning" not in surface.metrics for surface in surfaces.values()):
+        return {}
+    errors = np.array(
+        [
+            np.array(midline_errors(true_midline(surface), trunk_contours(skeletons[label]))) / surface.mesh.edge_length
+            for label, surface in surfaces.items()
+        ]
+    )
+    names = ("midline_miss", "midline_miss_worst", "skeleton_excess")
+    return dict(zip(names, map(float, (errors[:, 0].mean(), errors[:, 0].max(), errors[:, 1].mean())), strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Compactness:
+    """Principal components of the skeletons of a group.
+
+    Parameters
+    ----------
+    shares, variances : (r,) float64
+    intervals : (r, 2) float64
+        Bootstrap intervals of the shares.
+    metrics : dict of str to float
+    """
+
+    shares: Floats
+    variances: Floats
+    intervals: Floats
+    metrics: dict[str, float]
+
+
+def compactness(
+    skeletons: Mapping[str, Skeleton], resample: bool = False, scale: bool = False, draws: int = 200, seed: int = 0
+) -> Compactness:
+    """Align the trunks of a group and find their principal components (figure 5.10).
+
+    Parameters
+    ----------
+    resample : bool
+        Put points at equal arc length on every trunk first, so that a choice of levels is not credited with resampling.
+    """
+    lines = [trunk_contours(skeleton) for skeleton in skeletons.values()]
+    count = max(len(line) for line in lines)
+    even = [evenly_resampled(line, count) if resample or len(line) != count else line for line in lines]
+    aligned = align(np.stack(even), scale)
+    found, intervals = principal_components(aligned), bootstrap_shares(aligned, draws, seed=seed)
+    covered = [item.metrics["polyline_length"] / item.metrics["mean_distance_length"] for item in skeletons.values()]
+    metrics = {
+        "first_share": float(found.shares[0]),
+        "first_share_low": float(intervals[0, 0]),
+        "first_share_high": float(intervals[0, 1]),
+        "first_three_share": float(found.shares[:3].sum()),
+        "total_variance": found.total_variance,
+        "coverage": float(np.mean(covered)),
+    }
+    return Compactness(found.shares, found.variances, intervals, metrics)

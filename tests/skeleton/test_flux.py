@@ -1,0 +1,117 @@
+"""Distance to the boundary, flux, weights and the Hamilton-Jacobi skeleton."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.torus import torus
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
+from surfexp.skeleton.boundary_distance import boundary_distance, boundary_vertices, halve_boundary_edges
+from surfexp.skeleton.eigenmap import eigenmap
+from surfexp.skeleton.fast_marching import fast_marching
+from surfexp.skeleton.flux import flux, flux_weights, vertex_gradients, weighted_operator
+from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
+from surfexp.skeleton.strip import strip, y_patch
+
+FLAT = rectangle(61, 25, 2.5, 1.0).mesh
+H = FLAT.edge_length
+X, Y = FLAT.vertices[:, 0], FLAT.vertices[:, 1]
+TRUE = np.minimum(np.minimum(X, 2.5 - X), np.minimum(Y, 1.0 - Y))
+
+
+@pytest.mark.parametrize(("method", "least"), [("fast_marching", 0.05), ("exact", 0.01), ("heat", 0.6)])
+def test_distance_to_the_edge_of_a_rectangle(method, least):
+    pytest.importorskip({"exact": "pygeodesic", "heat": "potpourri3d"}.get(method, "numpy"))
+    found = boundary_distance(FLAT, method)
+    assert np.abs(found - TRUE).mean() < least * H and (found[boundary_vertices(FLAT)] == 0).all()
+
+
+def test_fast_marching_converges_to_arcs_on_the_sphere():
+    errors = []
+    for levels in (3, 4, 5):
+        mesh = icosphere(levels).mesh
+        arcs = np.arccos(np.clip(mesh.vertices @ mesh.vertices[0], -1, 1))
+        errors.append(np.abs(fast_marching(mesh, np.array([0])) - arcs).mean())
+    assert errors[0] > 1.35 * errors[1] > 1.8 * errors[2] and errors[2] < 0.02
+
+
+def test_fast_marching_is_a_distance_on_unconnected_and_unfit_input():
+    one = icosphere(1).mesh
+    two = TriangleMesh(np.concatenate([one.vertices, one.vertices + 5.0]), np.concatenate([one.faces, one.faces + 42]))
+    found = fast_marching(two, np.array([3]))
+    assert np.isfinite(found[:42]).all() and np.isinf(found[42:]).all() and found[3] == 0
+    with pytest.raises(ValueError, match="at least 1"):
+        fast_marching(two, np.array([], dtype=np.int64))
+
+
+def test_halving_the_boundary_keeps_the_surface():
+    mesh = strip(12.0, 4.0, 0.6).mesh
+    finer, boundary = halve_boundary_edges(mesh, 2)
+    assert np.array_equal(finer.vertices[: len(mesh.vertices)], mesh.vertices)
+    assert finer.area == pytest.approx(mesh.area) and finer.euler_characteristic == 1
+    assert len(boundary) == 4 * len(boundary_vertices(mesh))
+
+
+def test_gradients_and_flux_of_a_ridge():
+    gradients = vertex_gradients(fem(FLAT), X + 2 * Y)
+    assert np.allclose(gradients, [1.0, 2.0, 0.0])
+    ridge = 0.5 - np.abs(Y - 0.5)
+    found = flux(FLAT, ridge)
+    on_ridge = (np.abs(Y - 0.5) < 1e-9) & (X > 0.1) & (X < 2.4)
+    elsewhere = (np.abs(Y - 0.5) > 2.5 * H) & (Y > 0.1) & (Y < 0.9) & (X > 0.1) & (X < 2.4)
+    assert found[on_ridge].max() < -0.2 and np.abs(found[elsewhere]).max() < 1e-9
+
+
+def test_weights_are_those_of_the_text_and_bounded():
+    values = np.array([-1.0, -0.25, 0.0, 0.25, 1.0])
+    assert np.allclose(flux_weights(values, 0.5), np.exp([1.0, 0.5, 0.0, -0.5, -1.0]))
+    assert np.allclose(flux_weights(values, 0.5, 3.0), np.exp([3.0, 1.5, 0.0, -1.5, -3.0]))
+    with pytest.raises(ValueError, match="above 0"):
+        flux_weights(values, 0.0)
+
+
+def test_the_weighted_operator_has_the_weighted_stiffness_and_the_plain_mass():
+    mesh, plain = strip(12.0, 4.0, 0.6).mesh, fem(strip(12.0, 4.0, 0.6).mesh)
+    weights = np.exp(np.sin(mesh.vertices[:, 0]))
+    found = weighted_operator(plain, weights)
+    f = np.cos(mesh.vertices[:, 1])
+    local = np.einsum("fia,fi->fa", plain.hat_gradients, f[mesh.faces])
+    energy = (weights[mesh.faces].mean(axis=1) * plain.areas * (local**2).sum(axis=1)).sum()
+    assert f @ (stiffness(found) @ f) == pytest.approx(energy)
+    assert abs(mass_matrix(found) - mass_matrix(plain)).max() == 0
+    with pytest.raises(ValueError, match="positive"):
+        weighted_operator(plain, -weights)
+
+
+def test_the_eigenvalue_of_a_rectangle_with_weight_two():
+    operator = weighted_operator(fem(FLAT), np.full(len(X), 2.0))
+    found = eigenmap(operator)
+    assert found.metrics["eigenvalue"] == pytest.approx(2.0 * (np.pi / 2.5) ** 2, rel=2e-3)
+    cosine = np.cos(np.pi * X / 2.5)
+    assert abs(np.corrcoef(found.values, cosine)[0, 1]) > 0.999999
+
+
+def test_hamilton_jacobi_keeps_topology_and_finds_three_arms():
+    y = y_patch().mesh
+    skeleton = hamilton_jacobi_skeleton(y, boundary_distance(y), -0.5)
+    assert (skeleton.metrics["leaves"], skeleton.metrics["b1"], skeleton.metrics["components"]) == (3, 0, 1)
+    ring = torus(40, 16).mesh
+    faces = ring.faces[ring.vertices[ring.faces][:, :, 2].mean(axis=1) > 0.05]
+    used, numbered = np.unique(faces, return_inverse=True)
+    annulus = TriangleMesh(ring.vertices[used], numbered.reshape(-1, 3))
+    found = hamilton_jacobi_skeleton(annulus, boundary_distance(annulus), -0.99)
+    assert found.metrics["b1"] == 1 and found.metrics["components"] == 1
+
+
+def test_closed_surfaces_have_no_distance_to_a_boundary():
+    with pytest.raises(ValueError, match="is closed"):
+        boundary_distance(icosphere(2).mesh)
+    with pytest.raises(ValueError, match="negative"):
+        hamilton_jacobi_skeleton(FLAT, TRUE, 0.3)
+    with pytest.raises(ValueError, match="fast_marching, exact, heat"):
+        boundary_distance(FLAT, "dijkstra")

