@@ -12,7 +12,9 @@ from benchmarks.table import conditions, describe, page
 
 SECTIONS = {
     "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling"),
-    "Laplace-Beltrami eigen-geometry": ("eigenpairs", "nodal_domains", "assembly"),
+    "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "nodal_domains", "assembly"),
+    "Skeletons": ("skeleton",),
+    "Spectral distances": ("embedding",),
 }
 
 

@@ -10,7 +10,19 @@ from importlib.metadata import PackageNotFoundError, version
 from benchmarks.line import Line
 from benchmarks.measurement import Cost
 
-PACKAGES = ("numpy", "scipy", "numba", "cholespy", "libigl", "cvxpy", "clarabel", "lapy", "scikit-sparse")
+PACKAGES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "cholespy",
+    "libigl",
+    "cvxpy",
+    "clarabel",
+    "lapy",
+    "scikit-sparse",
+    "potpourri3d",
+    "vtk",
+)
 HEAD = """# Benchmarks
 
 Made by `make bench`. Each line is a ratio of processor seconds to a named rival in one run at equal accuracy, on one

@@ -22,6 +22,8 @@ PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"
 
 SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
+SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
+STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
     ("surface", "hand"): {"count": 4000},
@@ -42,8 +44,10 @@ SMALL = {
     ("solver", "partition_energy"): {
         "inputs": {"result": {"model": "convex_chan_vese", "solver": {"name": "primal_dual", "tolerance": 1e-3}}}
     },
+    ("solver", "explicit_diffusion"): {"steps": 5},
     ("solver", "level_set"): {"points": 24},
     ("solver", "closest_point"): {"points": 24},
+    ("figure", "regions"): {"inputs": {"solver": {"model": "multiphase"}}},
     ("figure", "segmentation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "geometry"): {
         "inputs": {"clean": {}, "noisy": {}, "solver": {"solver": {"name": "geometry_error", "inputs": GEOMETRY}}}
@@ -54,14 +58,116 @@ SMALL = {
         "inputs": {"solvers": {"over": "levels", "solver": "operator_errors"}},
     },
     ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"over": "levels"}}},
+    ("surface", "subcortical"): {"vertices": 800},
+    ("surface", "articulated"): {"vertices": 900},
+    ("surface", "rectangle"): {"n_x": 20, "n_y": 14},
+    ("surface", "drum"): {"divisions": 4},
+    ("surface", "revolution"): {"rows": 16, "columns": 12},
+    ("surface", "atrophied"): {"depth": 0.1, "inputs": {"original": {"surface": SPHERE}}},
+    ("signature", "spectral"): {"count": 24},
+    ("distance_matrix", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
+    ("classifier", "random_forest"): {"permutations": 2},
+    ("statistic", "isospectral_drums"): {"divisions": 4, "count": 8},
+    ("statistic", "spectrum_error"): {"low": 3, "high": 8},
+    ("statistic", "convergence_orders"): {"inputs": {"errors": {"over": "levels", "statistic": SMALL_ERROR}}},
+    ("statistic", "count_agreement"): {
+        "part": "nodal_counts",
+        "inputs": {"reference": {}, "others": {"over": "members"}},
+    },
+    ("statistic", "signature_change"): {"inputs": {"reference": {}, "others": {"over": "members"}}},
+    ("statistic", "group_power"): {"sizes": [1], "draws": 10, "permutations": 19},
+    ("figure", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
+    ("figure", "accuracies"): {"inputs": {"classifiers": {"over": "members"}}},
+    ("figure", "curves"): {"x": "mode", "y": ["count"]},
+    ("surface", "strip"): STRIP,
+    ("surface", "y_patch"): {"edge_length": 0.5},
+    ("surface", "callosum"): {"edge_length": 1.0, "pixel": 1.0},
+    ("surface", "cingulate"): {"refine": 0},
+    # a boundary is needed
+    ("operator", "flux_weighted"): {"inputs": {"surface": {"surface": STRIP}}},
+    ("feature", "boundary_distance"): {"inputs": {"surface": {"surface": STRIP}}},
+    ("feature", "flux"): {"inputs": {"surface": {"surface": STRIP}}},
+    ("skeleton", "hamilton_jacobi"): {"inputs": {"surface": {"surface": STRIP}}},
+    ("skeleton", "reeb_graph"): {"count": 8},
+    ("statistic", "genus_check"): {"directions": 2, "counts": [10]},
+    ("statistic", "skeleton_study"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
+    ("statistic", "skeleton_topology"): {"inputs": {"skeletons": {"over": "levels"}}},
+    ("statistic", "graph_agreement"): {"inputs": {"skeletons": {"over": "levels"}}},
+    ("statistic", "width_test"): {
+        "permutations": 20,
+        "halvings": 2,
+        "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+    },
+    ("figure", "skeleton_group"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
+    ("figure", "level_sets"): {
+        "inputs": {"weights": {"over": "alphas"}, "features": {"over": "alphas"}, "skeletons": {"over": "alphas"}}
+    },
+    ("surface", "clover"): {"levels": 2},
+    ("surface", "disguised"): {"remeshed": True, "inputs": {"original": {"surface": SPHERE}}},
+    ("surface", "sulcal_regions"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "pial"}}}},
+    ("figure", "embedded_regions"): {
+        "inputs": {
+            "source_surface": {"surface": {"name": "labelled_fsaverage5"}},
+            "target_surface": {"surface": {"name": "labelled_fsaverage5", "hemisphere": "right"}},
+            "distance": {
+                "distance": {
+                    "name": "embedding_map",
+                    "n": 3,
+                    "inputs": {
+                        "source_surface": {"surface": {"name": "labelled_fsaverage5"}},
+                        "source": {"surface": {"name": "labelled_fsaverage5"}},
+                        "target_surface": {"surface": {"name": "labelled_fsaverage5", "hemisphere": "right"}},
+                        "target": {"surface": {"name": "labelled_fsaverage5", "hemisphere": "right"}},
+                    },
+                }
+            },
+        }
+    },
+    ("distance", "mean_hausdorff"): {"n": 3},
+    ("distance", "hausdorff"): {"n": 3},
+    ("distance", "wasserstein"): {"n": 3, "samples": 60},
+    ("distance", "spectral_icp"): {"n": 8, "samples": 200},
+    ("distance", "zoomout"): {"n": 3, "last": 30, "field_modes": 20},
+    ("distance", "embedding_map"): {"n": 3, "samples": 200},
+    ("distance", "heat_kernel_signature"): {"n": 3},
+    ("distance", "wave_kernel_signature"): {"n": 3},
+    ("distance", "mirrored_space"): {"n": 3},
+    ("distance", "vertex_index"): {"n": 3},
+    ("distance_matrix", "pairs"): {"n": 3, "inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
+    ("statistic", "distance_growth"): {"largest": 24},
+    ("statistic", "sulci_names"): {
+        "subjects": 1,
+        "sizes": [3],
+        "inputs": {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}},
+    },
+    ("statistic", "sulcal_asymmetry"): {
+        "subjects": 3,
+        "regions": 1,
+        "inputs": {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}},
+    },
 }
+MEMBERS = {name: {"name": "torus", "n_v": 8, "minor_radius": minor} for name, minor in (("thin", 0.2), ("thick", 0.5))}
 CONTEXT = {
     "surface": SPHERE,
     "image": {"name": "picture", "noise": 30.0},
     "operator": "fem",
     "model": "rof",
     "solver": {"name": "primal_dual", "tolerance": 1e-3},
-    "axes": {"levels": {f"rof @ {level}": {"surface": {"name": "icosphere", "levels": level}} for level in (2, 3)}},
+    "eigensolver": {"name": "slicing", "count": 40},
+    "signature": {"name": "spectral", "count": 24},
+    "distance_matrix": {"name": "signatures", "inputs": {"signatures": {"over": "members"}}},
+    "embedding": "classical",
+    "classifier": {"name": "nearest_neighbour", "permutations": 5},
+    "statistic": "nodal_trend",
+    "distance": {"name": "mean_hausdorff", "n": 3},
+    "feature": "height",
+    "skeleton": {"name": "reeb_graph", "count": 8},
+    "axes": {
+        "strips": {f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)},
+        "alphas": {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}},
+        "levels": {f"rof @ {level}": {"surface": {"name": "icosphere", "levels": level}} for level in (2, 3)},
+        "members": {f"{name} @ {i}": {"surface": MEMBERS[name] | {"n_u": 20 + i}} for name in MEMBERS for i in (1, 2)},
+    },
 }
 NEEDS = {("surface", "point_cloud"): "open3d", ("solver", "conic"): "cvxpy"}
 

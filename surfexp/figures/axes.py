@@ -72,6 +72,7 @@ def label_lines(axes: Any, labels: Sequence[Label]) -> None:
     """
     if not labels:
         return
+    axes.autoscale_view()
     figure = axes.figure
     width, em = figure.bbox.width, FONT * figure.bbox.width
     texts = [figure.text(0.0, 0.0, text, color=color, fontsize=points(em), va="center") for text, *_, color in labels]

@@ -35,6 +35,12 @@ class EigenSystem:
     clusters : tuple of (int, int)
         Ranges start..stop-1 of nearly equal values (relative gap under 1e-6), in which single vectors are arbitrary.
     method : str
+    area : float
+        Area of the surface by the quadrature of its elements, 0 where the pencil belongs to no surface.
+    order : int
+        Order of the elements; the first rows of `vectors` are the vertices of the mesh.
+    boundary : str
+        "neumann" (also where there is no boundary) or "dirichlet".
     metrics, notes
         As in `Surface`.
     """
@@ -47,6 +53,9 @@ class EigenSystem:
     inertia: tuple[tuple[float, int], ...] = ()
     clusters: tuple[tuple[int, int], ...] = ()
     method: str = ""
+    area: float = 0.0
+    order: int = 1
+    boundary: str = "neumann"
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 

@@ -14,13 +14,15 @@ from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.counting_function import guess_eigenvalue
 from surfexp.spectrum.eigensystem import EigenSystem, Measurement, mean_spacing, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
-from surfexp.spectrum.spectrum_slice import SliceRequest, SpectrumSlice, solve_slice
+from surfexp.spectrum.spectrum_slice import EDGE_GAP, SliceRequest, SpectrumSlice, solve_slice
 
 SLICE = 350
 FIRST_SHIFT, INNER_SHIFT = 0.6, 0.5
 SHIFT_ATTEMPTS = 12
 SOLVE_ACCURACY = 2e-10
 POLISHES = 3
+# beyond this loss of orthogonality Ritz values are no longer those of the pencil to working accuracy
+LARGEST_DRIFT, SHIFT_STEP, SHIFT_MOVES = 1e-6, 0.37, 4
 
 Progress = Callable[[int, float], None]
 
@@ -65,18 +67,8 @@ def slicing(
     while found < k:
         remaining = k - found
         count = int(np.ceil(remaining / np.ceil(remaining / min(SLICE, pencil.size // 5))))
-        shift, factors = _choose_shift(pencil, found, count, low)
-        below = pencil.counts[shift] - found
-        request = SliceRequest(
-            low=low,
-            start=found,
-            below=below,
-            above=max(count - below, 1),
-            freedom=0 if count == remaining else count // 4,
-            tolerance=tolerance,
-            spacing=shift / max(pencil.counts[shift], 1),
-        )
-        part = solve_slice(pencil, shift, factors, request, seed)
+        freedom = 0 if count == remaining else count // 4
+        part = _solve_at_good_shift(pencil, found, count, freedom, low, tolerance, seed)
         slices.append(part)
         found, low = found + len(part.values), part.edge
         if progress is not None:
@@ -84,6 +76,29 @@ def slicing(
         if not part.complete or not len(part.values):
             break
     return _assemble(pencil, k, tolerance, slices)
+
+
+def _solve_at_good_shift(
+    pencil: ShiftedPencil, found: int, count: int, freedom: int, low: float, tolerance: float, seed: int
+) -> SpectrumSlice:
+    """Solve a slice; where orthogonality was lost, as beside an eigenvalue of high multiplicity, move the shift."""
+    shift, factors = _choose_shift(pencil, found, count, low)
+    for _ in range(SHIFT_MOVES):
+        below = pencil.counts[shift] - found
+        request = SliceRequest(
+            low=low,
+            start=found,
+            below=below,
+            above=max(count - below, 1),
+            freedom=freedom,
+            tolerance=tolerance,
+            spacing=shift / max(pencil.counts[shift], 1),
+        )
+        part = solve_slice(pencil, shift, factors, request, seed)
+        if part.drift < LARGEST_DRIFT:
+            break
+        shift, factors = pencil.factor(shift + SHIFT_STEP * request.spacing, SOLVE_ACCURACY)
+    return part
 
 
 def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> tuple[float, LDLT]:
@@ -108,8 +123,12 @@ def _assemble(
 ) -> EigenSystem:
     values = np.concatenate([part.values for part in slices])
     vectors = np.concatenate([part.vectors for part in slices], axis=1) if len(slices) > 1 else slices[0].vectors
-    total, vectors = len(values), vectors[:, :k]
+    total = len(values)
+    # before a cluster is cut: its parts alone would not span what inverse iteration keeps
     measurement, polishes = polish(pencil, vectors, tolerance)
+    if total > k:
+        vectors = np.asfortranarray(vectors[:, np.argsort(measurement.values, kind="stable")[:k]])
+        measurement = measure(pencil.stiffness, pencil.mass, vectors)
     notes = _notes(total, k, slices)
     unpermuted = np.empty_like(vectors, order="F")
     unpermuted[pencil.order] = vectors
@@ -154,7 +173,7 @@ def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float) -> tuple[Me
             return measurement, done
         if factors is None:
             factors = pencil.factor(-0.5 * mean_spacing(measurement.values))[1]
-        count = min((int(bad[-1]) // BLOCK + 2) * BLOCK, vectors.shape[1])
+        count = _before_a_gap(measurement.values, (int(bad[-1]) // BLOCK + 2) * BLOCK)
         improved = inverse_iteration(pencil, factors, vectors[:, :count])
         projected = improved.T @ (pencil.stiffness @ np.ascontiguousarray(improved))
         gram = improved.T @ pencil.multiply_mass(improved)
@@ -162,6 +181,14 @@ def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float) -> tuple[Me
         vectors[:, :count] = improved @ rotation
         measurement = measure(pencil.stiffness, pencil.mass, vectors)
     return measurement, POLISHES
+
+
+def _before_a_gap(values: Floats, count: int) -> int:
+    """At least `count`, so that no cluster is cut."""
+    spacing = mean_spacing(values)
+    while count < len(values) and values[count] - values[count - 1] < EDGE_GAP * spacing:
+        count += 1
+    return min(count, len(values))
 
 
 def inverse_iteration(pencil: ShiftedPencil, factors: LDLT, vectors: Floats) -> Floats:

@@ -14,6 +14,8 @@ from surfexp.spectrum.eigensystem import SMALLEST_GAP
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 
 RESTARTS = 30
+# an edge lies in a gap of at least so many mean spacings, where the pencil can be factorised well
+EDGE_GAP = 0.02
 
 
 @dataclass(frozen=True)
@@ -107,14 +109,15 @@ def merge(values: Floats, vectors: Floats, new_values: Floats, new_vectors: Floa
 def upper_edge(values: Floats, shift: float, request: SliceRequest) -> int:
     """Return how many of the sorted converged values to keep, so that a gap follows; 0 where there is none yet.
 
-    The largest gap is taken among those that `freedom` allows; without it, the first that is no cluster.
+    The largest gap is taken among those that `freedom` allows; without it, the first that is wide enough for an edge.
     """
     wanted = int((values < shift).sum()) + request.above
     gaps = np.diff(values) / np.maximum(np.abs(values[1:]), request.spacing)
     first = max(1, wanted - request.freedom)
     if request.freedom:
         return first + int(np.argmax(gaps[first - 1 : wanted])) if len(values) > wanted else 0
-    open_gaps = np.flatnonzero(gaps[first - 1 :] > SMALLEST_GAP)
+    widths = np.maximum(SMALLEST_GAP, EDGE_GAP * request.spacing / np.maximum(np.abs(values[1:]), request.spacing))
+    open_gaps = np.flatnonzero((gaps > widths)[first - 1 :])
     return first + int(open_gaps[0]) if len(open_gaps) else 0
 
 

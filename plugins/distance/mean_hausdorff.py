@@ -1,0 +1,78 @@
+"""The spectral distance of chapter 6, exact over signs, with its certificate."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.workflow.registry import Options, register
+
+
+class Embedded(Options):
+    """The embedding that is compared."""
+
+    n: int = Field(10, ge=1, le=200, description="number of eigenfunctions")
+    weighting: Literal["global_point", "biharmonic", "heat_kernel", "diffusion"] = Field(
+        "global_point", description="weight of each eigenfunction: (6.4), 1/lambda, or (3.11)"
+    )
+    time: float = Field(0.02, gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")
+    seed: int = Field(0, ge=0, description="seed of samples and order")
+
+
+class MeanHausdorff(Embedded):
+    """Distances that are minimised over signs."""
+
+    reading: Literal["inf_of_max", "max_of_inf"] = Field(
+        "inf_of_max", description="one choice of signs for both directions, or one for each as printed in (6.16)"
+    )
+    undecided: Literal["absolute", "prefix"] = Field("absolute", description="bound of the search over signs")
+    samples: int = Field(1500, ge=10, le=100000, description="points on which the search starts, drawn by area")
+    limit: int = Field(2000, ge=2, le=1000000, description="most evaluations on all points")
+    exact: bool = Field(True, description="search on all points with proof, or on samples only")
+
+
+@register("distance", "mean_hausdorff")
+def mean_hausdorff_distance(
+    options: MeanHausdorff,
+    *,
+    source_surface: Surface,
+    target_surface: Surface,
+    source: EigenSystem,
+    target: EigenSystem,
+) -> Distance:
+    """Spectral distance d_n of (6.17) by an exact search over the signs of the eigenfunctions."""
+    return _distance(options, source_surface, target_surface, source, target, "mean")
+
+
+@register("distance", "hausdorff")
+def hausdorff_distance(
+    options: MeanHausdorff,
+    *,
+    source_surface: Surface,
+    target_surface: Surface,
+    source: EigenSystem,
+    target: EigenSystem,
+) -> Distance:
+    """Hausdorff distance of the embeddings, least over signs: obeys the triangle inequality."""
+    return _distance(options, source_surface, target_surface, source, target, "largest")
+
+
+def _distance(
+    options: MeanHausdorff,
+    source_surface: Surface,
+    target_surface: Surface,
+    source: EigenSystem,
+    target: EigenSystem,
+    summary: Literal["mean", "largest"],
+) -> Distance:
+    chosen = dict(options)
+    parts = {name: chosen.pop(name) for name in ("n", "weighting", "time")}
+    pair = (
+        spectral_embedding(system, surface.mesh.vertex_areas, **parts)
+        for system, surface in ((source, source_surface), (target, target_surface))
+    )
+    return spectral_distance(*pair, **chosen, summary=summary)

@@ -1,0 +1,50 @@
+"""Spectral distances between all members of a collection of surfaces."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.embedding.pairwise import Pairing, pairwise_distances, triangle_metrics
+from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.workflow.registry import Options, register
+
+
+class Pairs(Options):
+    """What is compared, and how."""
+
+    method: Literal[
+        "mean_hausdorff", "hausdorff", "wasserstein", "block_orthogonal", "least_over_blocks", "sup_inf", "sup_inf_mean"
+    ] = Field("mean_hausdorff", description="distance of a pair; the last three try bases on a grid")
+    n: int = Field(4, ge=1, le=200, description="number of eigenfunctions")
+    weighting: Literal["global_point", "biharmonic", "heat_kernel", "diffusion"] = Field(
+        "global_point", description="weight of each eigenfunction: (6.4), 1/lambda, or (3.11)"
+    )
+    time: float = Field(0.02, gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")
+    exact: bool = Field(True, description="search signs on all points with proof, or on samples only")
+    samples: int = Field(
+        1500, ge=10, le=100000, description="points of each surface in searches, transport and on grids"
+    )
+    limit: int = Field(2000, ge=2, le=1000000, description="most evaluations of a search for signs")
+    gap: float = Field(0.03, ge=0, lt=1, description="eigenvalues nearer than this, relatively, belong to one block")
+    angles: int = Field(24, ge=1, le=1000, description="bases of each plane on a grid")
+    seed: int = Field(0, ge=0, description="seed of samples and bases")
+
+
+@register("distance_matrix", "pairs")
+def pairs_matrix(options: Pairs, *, surfaces: dict[str, Surface], systems: dict[str, EigenSystem]) -> DistanceMatrix:
+    """Spectral distance of every pair, the worst triangle, and the share of pairs proved least."""
+    chosen = dict(options)
+    parts = {name: chosen.pop(name) for name in ("n", "weighting", "time")}
+    pairing = Pairing(**chosen)
+    embeddings = {
+        label: spectral_embedding(systems[label], surface.mesh.vertex_areas, **parts)
+        for label, surface in surfaces.items()
+    }
+    values, proved = pairwise_distances(embeddings, pairing)
+    triples = triangle_metrics(values)
+    largest = {"largest_distance": float(values.max()), "proved": proved, "pairs": len(values) * (len(values) - 1) / 2}
+    name = f"{options.method} distance, n = {options.n}"
+    return DistanceMatrix(tuple(embeddings), values, name=name, metrics={**triples, **largest})

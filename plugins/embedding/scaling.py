@@ -1,0 +1,49 @@
+"""Embeddings of a collection in the plane or in space."""
+
+from pydantic import Field
+
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.embeddings import (
+    classical_scaling,
+    neighbour_embedding,
+    principal_components,
+    stress_majorisation,
+)
+from surfexp.statistics.point_embedding import PointEmbedding
+from surfexp.workflow.registry import Options, register
+
+
+class Scaling(Options):
+    """The dimension."""
+
+    dimensions: int = Field(2, ge=1, le=50, description="dimension of the embedding")
+
+
+class Seeded(Scaling):
+    """The dimension and the random start."""
+
+    seed: int = Field(0, ge=0, description="seed of the random starts")
+
+
+@register("embedding", "classical")
+def classical_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+    """Classical multidimensional scaling, deterministic, the default."""
+    return classical_scaling(distance_matrix, options.dimensions)
+
+
+@register("embedding", "smacof")
+def smacof_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+    """Multidimensional scaling of least stress by majorisation, from seeded starts."""
+    return stress_majorisation(distance_matrix, options.dimensions, options.seed)
+
+
+@register("embedding", "pca")
+def pca_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+    """Principal components of the weighted signatures themselves."""
+    return principal_components(distance_matrix, options.dimensions)
+
+
+@register("embedding", "tsne")
+def tsne_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+    """Neighbour embedding t-SNE, which keeps neighbours but no distances."""
+    return neighbour_embedding(distance_matrix, options.dimensions, options.seed)

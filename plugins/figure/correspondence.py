@@ -1,0 +1,60 @@
+"""A map between surfaces in colours."""
+
+from dataclasses import replace
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.figures.figure import Figure
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.workflow.registry import Options, register
+
+LABEL = "label"
+
+
+class Correspondence(Options):
+    """Views and size."""
+
+    source_views: list[str] = Field(["left"], description="directions of view of the source")
+    target_views: list[str] = Field(["left"], description="directions of view of the target")
+    width: int = Field(1700, ge=200, le=8000, description="pixels across")
+
+
+@register("figure", "correspondence")
+def correspondence_figure(
+    options: Correspondence, *, source_surface: Surface, target_surface: Surface, distance: Distance
+) -> Figure:
+    """The labels of the source, or its positions as colours, carried to the target; errors of labels in black."""
+    if LABEL in source_surface.scalars:
+        palette = _palette(int(source_surface.scalars[LABEL].max()) + 1)
+        colors = palette[source_surface.scalars[LABEL].astype(int)]
+    else:
+        vertices = source_surface.mesh.vertices
+        colors = 0.15 + 0.8 * (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0)
+    carried = colors[distance.correspondence]
+    views = [SurfaceView(source_surface.mesh, colors, view, title="source") for view in options.source_views]
+    views += [SurfaceView(target_surface.mesh, carried, view, title="carried") for view in options.target_views]
+    accuracy = distance.metrics.get("label accuracy")
+    if accuracy is not None:
+        labels = source_surface.scalars[LABEL][distance.correspondence]
+        wrong = labels != target_surface.scalars[LABEL]
+        shown = np.where(wrong[:, None], 0.12, carried)
+        views += [
+            SurfaceView(target_surface.mesh, shown, view, title="wrong ones black") for view in options.target_views
+        ]
+    share = f"; {100 * accuracy:.1f} % of the area is named right" if accuracy is not None else ""
+    caption = f"{source_surface.name} carried to {target_surface.name} by {distance.method}{share}."
+    return replace(surface_panel(views, width=options.width, caption=caption), title=distance.method)
+
+
+def _palette(count: int) -> Floats:
+    """Colours far apart, by turns of the golden angle in hue at three brightnesses."""
+    from matplotlib.colors import hsv_to_rgb
+
+    k = np.arange(count)
+    hues = (0.618034 * k) % 1.0
+    return np.asarray(hsv_to_rgb(np.stack([hues, 0.55 + 0.3 * (k % 2), 0.95 - 0.17 * (k % 3)], axis=1)))

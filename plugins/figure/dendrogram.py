@@ -1,0 +1,47 @@
+"""A collection as a tree of clusters."""
+
+from pydantic import Field
+from scipy.cluster.hierarchy import dendrogram, linkage
+from scipy.spatial.distance import squareform
+
+from surfexp.figures.axes import COLORS, add_axes
+from surfexp.figures.figure import Figure
+from surfexp.figures.typography import canvas, drawn, points
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.workflow.registry import Options, register
+
+
+class Dendrogram(Options):
+    """The linkage and what is written."""
+
+    linkage: str = Field("average", description="scipy's name of the linkage: average, complete, single")
+    title: str = Field("", description="heading in the figure; default: what is compared")
+    caption: str = Field("", description="sentence below the figure")
+    width: int = Field(1100, ge=300, le=4000, description="pixels across")
+
+
+@register("figure", "dendrogram")
+def dendrogram_figure(options: Dendrogram, *, distance_matrix: DistanceMatrix) -> Figure:
+    """Hierarchical clustering of a collection by its distances, names coloured by class."""
+    title = options.title or f"clusters by {distance_matrix.name.replace('_', ' ')}"
+    tree = linkage(squareform(distance_matrix.values, checks=False), options.linkage)
+    classes = list(dict.fromkeys(distance_matrix.classes))
+    count = len(distance_matrix.labels)
+    with canvas(options.width, round(options.width * (0.16 + 0.034 * count))) as figure:
+        axes = add_axes(figure, title, "distance at which clusters join", "")
+        size = points(0.0155 * options.width)
+        drawing = dendrogram(
+            tree, ax=axes, orientation="left", labels=list(distance_matrix.labels), color_threshold=0.0,
+            above_threshold_color="#555555",
+        )  # fmt: skip
+        axes.grid(False)
+        for side in ("left", "right", "top"):
+            axes.spines[side].set_visible(False)
+        axes.tick_params(axis="y", labelsize=size, length=0)
+        for text, member in zip(axes.get_yticklabels(), drawing["leaves"], strict=True):
+            text.set_color(COLORS[classes.index(distance_matrix.classes[member]) % len(COLORS)])
+        box = axes.get_position()
+        axes.set_position((0.03, box.y0, 0.97 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
+        pixels = drawn(figure)
+    caption = options.caption or "Each leaf is a shape; clusters join at the mean distance of their members."
+    return Figure(pixels, caption, title)

@@ -1,0 +1,53 @@
+"""A collection as points, figures 4.2, 4.6, 4.7 and 4.8."""
+
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.figures.axes import COLORS, FONT, MARKERS, add_axes
+from surfexp.figures.figure import Figure
+from surfexp.figures.typography import canvas, drawn
+from surfexp.figures.typography import points as text_size
+from surfexp.statistics.point_embedding import PointEmbedding
+from surfexp.workflow.registry import Options, register
+
+# right end of the axes, the classes stand beyond it
+LEGEND = 0.78
+
+
+class Scatter(Options):
+    """What is written beside the points."""
+
+    title: str = Field("", description="heading in the figure; default: the method and what is compared")
+    caption: str = Field("", description="sentence below the figure")
+    names: bool = Field(False, description="write the owner of each member beside its point")
+    width: int = Field(1000, ge=300, le=4000, description="pixels across")
+
+
+@register("figure", "scatter")
+def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
+    """The first two coordinates of an embedding, a colour and a marker for each class."""
+    points = embedding.points[:, :2] if embedding.points.shape[1] > 1 else np.pad(embedding.points, [(0, 0), (0, 1)])
+    title = options.title or f"{embedding.method} of {embedding.name.replace('_', ' ')}"
+    classes, em = np.asarray(embedding.classes), FONT * options.width
+    with canvas(options.width, round(0.68 * options.width)) as figure:
+        axes = add_axes(figure, title, "first coordinate", "second coordinate")
+        box = axes.get_position()
+        axes.set_position([box.x0, box.y0, LEGEND - box.x0, box.height])
+        for k, name in enumerate(dict.fromkeys(embedding.classes)):
+            color, marker = COLORS[k % len(COLORS)], MARKERS[k % len(MARKERS)]
+            axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
+        if options.names:
+            _write_owners(axes, embedding, points)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
+        pixels = drawn(figure)
+    caption = options.caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
+    return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)})
+
+
+def _write_owners(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:
+    for label, place in zip(embedding.labels, points, strict=True):
+        owner = label.partition(" @ ")[2]
+        axes.annotate(owner, place, xytext=(5, 4), textcoords="offset points", fontsize=8, color="#777777")

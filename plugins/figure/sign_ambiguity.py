@@ -1,0 +1,83 @@
+"""The embeddings that signs allow, figure 6.2."""
+
+from itertools import product
+
+import numpy as np
+from matplotlib.patches import Ellipse
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.nearest import mutual_distances
+from surfexp.figures.axes import COLORS
+from surfexp.figures.figure import Figure
+from surfexp.figures.typography import canvas, drawn, points
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class SignAmbiguity(Options):
+    """How many functions, and how it is drawn."""
+
+    n: int = Field(3, ge=2, le=4, description="eigenfunctions; 2^n panels")
+    dots: int = Field(1500, ge=100, le=20000, description="points of each surface that are drawn")
+    width: int = Field(1600, ge=400, le=6000, description="pixels across")
+
+
+@register("figure", "sign_ambiguity")
+def sign_ambiguity_figure(
+    options: SignAmbiguity, *, source_surface: Surface, target_surface: Surface, distance: Distance
+) -> Figure:
+    """All 2^n embeddings of the target over the source, with their distances, the least one ringed (figure 6.2)."""
+    n = min(options.n, distance.source_points.shape[1])
+    source = distance.source_points[:, :n]
+    target = (distance.target_points @ distance.basis.T)[:, :n]
+    first, second = (s.mesh.vertex_areas / s.mesh.area for s in (source_surface, target_surface))
+    choices = list(product((1.0, -1.0), repeat=n))
+    values = []
+    for signs in choices:
+        forward, backward = mutual_distances(source, target * signs)
+        values.append(max(float(forward @ first), float(backward @ second)))
+    best = int(np.argmin(values))
+    columns = 4
+    rows = -(-len(choices) // columns)
+    rng = np.random.default_rng(0)
+    some = [rng.permutation(len(cloud))[: options.dots] for cloud in (source, target)]
+    em = 0.0125 * options.width
+    with canvas(options.width, round(options.width * (0.235 * rows))) as figure:
+        for k, (signs, value) in enumerate(zip(choices, values, strict=True)):
+            axes = figure.add_subplot(rows, columns, k + 1, projection="3d" if n > 2 else None)
+            for cloud, picked, color in ((source, some[0], "#9a9a9a"), (target * signs, some[1], COLORS[0])):
+                axes.scatter(*cloud[picked, :3].T, s=6.0, c=color, linewidths=0, alpha=0.8)
+            if n > 2:
+                axes.view_init(18, -55)
+                axes.set_box_aspect(np.ptp(source[:, :3], axis=0), zoom=1.38)
+            axes.set_axis_off()
+            mark = "(" + " ".join("+" if sign > 0 else "−" for sign in signs) + ")"
+            is_best = k == best
+            axes.set_position(((k % columns) / columns, 1.0 - (k // columns + 1) / rows, 1.0 / columns, 0.9 / rows))
+            figure.text(
+                (k % columns + 0.5) / columns,
+                1.0 - (k // columns + 0.06) / rows,
+                f"{mark}  {value:.4f}" + ("  least" if is_best else ""),
+                fontsize=points(1.15 * em),
+                fontweight="bold" if is_best else "normal",
+                color=COLORS[1] if is_best else "#222222",
+                ha="center",
+                va="center",
+            )
+        figure.add_artist(
+            Ellipse(
+                ((best % columns + 0.5) / columns, 1.0 - (best // columns + 0.56) / rows),
+                0.95 / columns,
+                0.84 / rows,
+                fill=False,
+                edgecolor=COLORS[1],
+                linewidth=points(0.14 * em),
+            )
+        )
+        pixels = drawn(figure)
+    caption = (
+        f"{target_surface.name} (blue) over {source_surface.name} (grey) in the first {n} eigenfunctions: all {2**n} choices of "
+        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding. Compare figure 6.2."
+    )
+    return Figure(pixels, caption, f"{2**n} embeddings", {"least": values[best], "next": float(np.sort(values)[1])})

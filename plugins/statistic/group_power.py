@@ -1,0 +1,24 @@
+"""Power of a comparison of two groups, section 4.5."""
+
+from pydantic import Field
+
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.group_power import group_power
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class GroupPower(Options):
+    """Sizes of the groups, and the test."""
+
+    sizes: list[int] = Field([3, 4, 5, 6], description="members of each of the two groups")
+    level: float = Field(0.05, gt=0, lt=1, description="level of the test")
+    draws: int = Field(200, ge=10, le=100000, description="groups that are drawn for each size")
+    permutations: int = Field(199, ge=19, le=100000, description="permutations of each test")
+    seed: int = Field(0, ge=0, description="seed of draws and permutations")
+
+
+@register("statistic", "group_power")
+def group_power_statistic(options: GroupPower, *, distance_matrix: DistanceMatrix) -> Statistic:
+    """How often groups of each size are told apart by a permutation test of their energy distance."""
+    return group_power(distance_matrix, **dict(options))

@@ -1,0 +1,21 @@
+"""Nodal counts against the number of the mode, section 4.5."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.signature import Signature
+from surfexp.statistics.nodal_trend import nodal_trend
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class Trend(Options):
+    """What is looked at."""
+
+    part: str = Field("", description="part of the signature; empty: the signature itself")
+
+
+@register("statistic", "nodal_trend")
+def nodal_trend_statistic(options: Trend, *, surface: Surface, signature: Signature) -> Statistic:
+    """Mean of count over mode number, its exponent, and how far it is below the bounds of Courant and Pleijel."""
+    return nodal_trend(signature.part(options.part), surface.name)

@@ -1,0 +1,36 @@
+"""Errors of spectra against exact ones, theorem 3.2.1."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.statistics.spectrum_error import convergence_orders, spectrum_error
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class SpectrumError(Options):
+    """Which values are looked at."""
+
+    low: int = Field(8, ge=1, le=1000, description="values that error_low looks at")
+    high: int = Field(24, ge=1, le=1000, description="values that error_high looks at")
+
+
+@register("statistic", "spectrum_error", accepts={"surface": ("icosphere", "disk", "rectangle")})
+def spectrum_error_statistic(options: SpectrumError, *, surface: Surface, eigensolver: EigenSystem) -> Statistic:
+    """Relative errors of the eigenvalues of a sphere, disk or rectangle against the exact ones."""
+    return spectrum_error(surface, eigensolver, options.low, options.high)
+
+
+class Orders(Options):
+    """Which error is fitted."""
+
+    metric: Literal["error_low", "error_high"] = Field("error_high", description="metric that is fitted")
+
+
+@register("statistic", "convergence_orders")
+def orders_statistic(options: Orders, *, errors: dict[str, Statistic]) -> Statistic:
+    """Orders of convergence in the edge length, fitted for each method of an axis "method @ level"."""
+    return convergence_orders(errors, options.metric)

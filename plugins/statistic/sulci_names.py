@@ -1,0 +1,43 @@
+"""Sulcal regions of synthetic subjects named by a template, figure 6.7."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.population import synthetic_subject
+from surfexp.embedding.population_study import make_template, name_regions
+from surfexp.mesh.surface import Surface
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class SulciNames(Options):
+    """The population and the numbers of eigenfunctions."""
+
+    subjects: int = Field(6, ge=1, le=2000, description="subjects, two hemispheres each")
+    sizes: list[int] = Field([3, 4, 10, 20], description="numbers n of eigenfunctions")
+    strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
+    remeshed: bool = Field(True, description="each subject with vertices of its own")
+    seed: int = Field(0, ge=0, description="seed of the population")
+
+
+@register("statistic", "sulci_names")
+def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statistic:
+    """Share of sulcal area named right, by the printed rule, by majority vote, and by majority vote of ZoomOut."""
+    study = make_template(template, 1)
+    scores: list[dict[str, float]] = []
+    for subject in range(options.subjects):
+        for side in ("left", "right"):
+            target = synthetic_subject(
+                template, subject, side, options.strain, remeshed=options.remeshed, seed=options.seed
+            )
+            scores.append(name_regions(study, target, tuple(options.sizes)))
+        report_progress(subject + 1, 1.0 - (subject + 1) / options.subjects)
+    metrics = {name: float(np.mean([score[name] for score in scores])) for name in scores[0]}
+    columns = {"n": np.array(options.sizes, float)}
+    for rule in ("majority", "printed rule", "distance"):
+        columns[rule] = np.array([metrics[f"{rule}, n = {n}"] for n in options.sizes])
+    notes = (
+        f"{2 * options.subjects} synthetic hemispheres, deformed copies of {template.name}, strain {options.strain:g}.",
+    )
+    return Statistic("sulcal regions named right", columns, metrics=metrics, notes=notes)

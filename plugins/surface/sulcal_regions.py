@@ -1,0 +1,29 @@
+"""A cortex with its sulcal regions, figure 6.4."""
+
+from dataclasses import replace
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.labels import LABEL
+from surfexp.embedding.sulcal_regions import sulcal_regions
+from surfexp.mesh.surface import Surface
+from surfexp.workflow.registry import Options, register
+
+
+class SulcalRegions(Options):
+    """Of the segmentation."""
+
+    length: float = Field(0.3, gt=0, le=100, description="details given up, in edge lengths")
+    smallest_share: float = Field(1.5e-3, ge=0, lt=1, description="smallest region as a share of the surface's area")
+
+
+@register("surface", "sulcal_regions")
+def sulcal_regions_surface(options: SulcalRegions, *, original: Surface) -> Surface:
+    """Another surface with the scalar map "label": its sulcal regions from 1, largest first, and 0 on gyri."""
+    regions = sulcal_regions(original.mesh, options.length, options.smallest_share)
+    inside = regions >= 0
+    areas = original.mesh.vertex_areas
+    metrics = {"regions": float(regions.max() + 1), "sulcal share": float(areas[inside].sum() / areas.sum())}
+    scalars = {**original.scalars, LABEL: (regions + 1).astype(np.float64)}
+    return replace(original, scalars=scalars, metrics={**original.metrics, **metrics})

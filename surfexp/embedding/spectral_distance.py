@@ -1,0 +1,122 @@
+"""The spectral distance of two surfaces with simple eigenvalues: minimised over signs, with its certificate."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
+from surfexp.embedding.nearest import mutual_distances, nearest
+from surfexp.embedding.sign_search import Signs, SignSearch, search_signs
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
+
+Reading = Literal["inf_of_max", "max_of_inf"]
+READINGS: dict[str, tuple[Direction, ...]] = {"inf_of_max": ("both",), "max_of_inf": ("forward", "backward")}
+SAMPLED_LIMIT = 1000
+
+
+def spectral_distance(
+    source: SpectralEmbedding,
+    target: SpectralEmbedding,
+    reading: Reading = "inf_of_max",
+    summary: Summary = "mean",
+    undecided: Undecided = "absolute",
+    samples: int = 1500,
+    limit: int = 2000,
+    seed: int = 0,
+    exact: bool = True,
+) -> Distance:
+    """Return d_n of (6.17), minimised over the signs of the target's eigenfunctions.
+
+    Parameters
+    ----------
+    source, target : SpectralEmbedding
+        Of the same n and weighting.
+    reading : "inf_of_max" or "max_of_inf"
+        (6.16) as printed is max_of_inf, whose two infima may be attained by different signs, so that "the" optimal basis is
+        not defined; inf_of_max takes one choice for both directions, and its signs are the optimal basis.
+    summary : "mean" or "largest"
+        Mean over the area as printed in (6.7), which breaks the triangle inequality, or the Hausdorff distance.
+    undecided : "absolute" or "prefix"
+        The bound of the search, see `HausdorffObjective`.
+    samples : int
+        Number of points, drawn by area, on which the search starts.
+    limit : int
+        Most evaluations on all points; with fewer than the proof needs, the gap is returned, not hidden.
+    exact : bool
+        Search on all points; else take the signs that are best on the samples, unproved, and the value at all points.
+
+    Raises
+    ------
+    ValueError
+        If the embeddings differ in n or weighting, or an option is unknown.
+    """
+    check_pair(source, target)
+    if reading not in READINGS:
+        raise ValueError(f"reading {reading!r} is unknown, choose one of {', '.join(READINGS)}")
+    searches, notes = [], []
+    for direction in READINGS[reading]:
+        draws, most = (1, min(limit, SAMPLED_LIMIT)) if exact else (2, SAMPLED_LIMIT)
+        start, agreed, spent = sampled_signs(source, target, direction, summary, samples, seed, draws, most)
+        objective = HausdorffObjective(source, target, direction, summary, undecided, seed)
+        if exact:
+            searches.append(search_signs(objective, source.dimension, start, limit))
+            continue
+        value = objective(start, np.inf)
+        node = np.zeros((1, source.dimension), np.int8)
+        bound = objective(node[0], np.inf)
+        searches.append(SignSearch(start, value, min(bound, value), bound >= value, spent, node, np.array([bound])))
+        if not agreed:
+            notes.append("Two draws of samples prefer different signs: search exactly.")
+    chosen = max(searches, key=lambda search: search.value)
+    signs = chosen.signs.astype(np.float64)
+    moved = target.points * signs
+    forward, backward = mutual_distances(source.points, moved)
+    metrics = {
+        "forward": float(forward @ source.weights),
+        "backward": float(backward @ target.weights),
+        "hausdorff": float(max(forward.max(), backward.max())),
+        "same_signs": float(all((search.signs == chosen.signs).all() for search in searches)),
+    }
+    if not all(search.optimal for search in searches) and exact:
+        notes.append(
+            f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."
+        )
+    return Distance(
+        value=chosen.value,
+        lower_bound=max(search.lower_bound for search in searches),
+        optimal=all(search.optimal for search in searches),
+        evaluations=sum(search.evaluations for search in searches),
+        basis=np.diag(signs),
+        source_points=source.points,
+        target_points=moved,
+        correspondence=nearest(moved, source.points)[0],
+        closed=chosen.closed.astype(np.int64),
+        bounds=chosen.bounds,
+        method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
+        metrics=metrics,
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def sampled_signs(
+    source: SpectralEmbedding,
+    target: SpectralEmbedding,
+    direction: Direction = "both",
+    summary: Summary = "mean",
+    samples: int = 1500,
+    seed: int = 0,
+    draws: int = 2,
+    limit: int = SAMPLED_LIMIT,
+) -> tuple[Signs, bool, int]:
+    """Return the best signs on samples, whether all draws of samples agree, and the number of evaluations."""
+    found: list[SignSearch] = []
+    for draw in range(draws * seed, draws * (seed + 1)):
+        pair = source.sample(samples, draw), target.sample(samples, draw)
+        objective = HausdorffObjective(*pair, direction, summary, seed=seed)
+        start = found[0].signs if found else None
+        found.append(search_signs(objective, source.dimension, start, limit))
+    agreed = all(bool((search.signs == found[0].signs).all()) for search in found)
+    return found[0].signs, agreed, sum(search.evaluations for search in found)

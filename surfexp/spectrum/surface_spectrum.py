@@ -1,0 +1,127 @@
+"""The spectrum of a surface: elements of an order on it, and their first eigenpairs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.operators.elements_nodes import flat_positions, number_nodes
+from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements, assemble_elements, surface_elements
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.nodal_graph import NodalGraph, element_faces, nodal_graph
+from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.smooth_shapes import projections
+
+LARGEST_BAD_ANGLE = 1.0
+
+
+def elements_of(
+    surface: Surface,
+    operator: SurfaceOperator,
+    order: int = 1,
+    curved: bool = False,
+    mass: Mass = "consistent",
+    boundary: Boundary = "neumann",
+) -> SurfaceElements:
+    """Assemble elements on the triangles of an operator, or on the smooth surface that the mesh stands for.
+
+    Parameters
+    ----------
+    surface : Surface
+    operator : SurfaceOperator
+        Its triangles may be intrinsic; then order 1 only.
+    order : 1, 2 or 3
+    curved : bool
+        Put the new nodes of order 2 and 3 on the smooth surface; known for sphere, disk and torus.
+
+    Raises
+    ------
+    ValueError
+        If the order or the shape is unfit.
+    """
+    if curved:
+        onto, onto_rim = projections(surface)
+        return surface_elements(surface.mesh, order, onto, onto_rim, mass, boundary)
+    if order > 1 and not np.array_equal(operator.faces, surface.mesh.faces):
+        raise ValueError(
+            f"elements of order {order} on the triangles of operator {operator.name!r}: choose fem, or order 1"
+        )
+    nodes = number_nodes(operator.faces, operator.vertex_count, order)
+    return assemble_elements(nodes, flat_positions(unfolded_corners(operator), order), mass, boundary)
+
+
+def unfolded_corners(operator: SurfaceOperator) -> Floats:
+    """(m, 3, 2) corners of every triangle in the plane of its frame, the first at the origin."""
+    sides = np.linalg.inv(operator.hat_gradients[:, 1:])
+    return np.stack([np.zeros_like(sides[:, :, 0]), sides[:, :, 0], sides[:, :, 1]], axis=1)
+
+
+def surface_spectrum(
+    surface: Surface,
+    operator: SurfaceOperator,
+    count: int,
+    method: str = "auto",
+    order: int = 1,
+    curved: bool = False,
+    mass: Mass = "consistent",
+    boundary: Boundary = "neumann",
+    tolerance: float = 1e-8,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> EigenSystem:
+    """Find the first pairs of a surface, as functions at all nodes: 0 on the rim under Dirichlet's condition.
+
+    Parameters
+    ----------
+    surface, operator, order, curved, mass, boundary
+        As in `elements_of`.
+    count, method, tolerance, seed, progress
+        As in `eigenpairs`.
+
+    Returns
+    -------
+    EigenSystem
+        With the metrics degrees_of_freedom, edge_length, largest_residual, orthogonality, complete (1 or 0), zero_modes,
+        first_value and last_value.
+    """
+    elements = elements_of(surface, operator, order, curved, mass, boundary)
+    system = eigenpairs(elements.stiffness, elements.mass, count, method, tolerance, seed, progress)
+    scale = float(system.values[-1])
+    metrics = {
+        **elements.metrics,
+        "edge_length": operator.edge_length,
+        "largest_residual": float(system.residuals.max()),
+        "orthogonality": system.orthogonality,
+        "complete": float(system.complete),
+        "zero_modes": float((np.abs(system.values) <= 1e-8 * max(scale, 1e-300)).sum()) if count > 1 else 0.0,
+        "first_value": float(system.values[min(1, count - 1) if boundary == "neumann" else 0]),
+        "last_value": scale,
+        "clusters": float(len(system.clusters)),
+    }
+    notes = list(system.notes)
+    pieces = surface.mesh.component_count
+    if pieces > 1:
+        notes.append(f"The surface has {pieces} components, each with a zero mode of its own.")
+    if surface.mesh.minimum_angle < LARGEST_BAD_ANGLE and operator.name == "fem":
+        notes.append(f"The smallest angle is {surface.mesh.minimum_angle:.2g} degrees: consider intrinsic_delaunay.")
+    return replace(
+        system,
+        vectors=np.asfortranarray(elements.extend(system.vectors)),
+        area=elements.area,
+        order=order,
+        boundary=boundary,
+        metrics={**metrics, **system.metrics},
+        notes=tuple(notes),
+    )
+
+
+def graph_of(operator: SurfaceOperator, system: EigenSystem) -> NodalGraph:
+    """Return the graph over the nodes of a spectrum, for nodal domains."""
+    nodes = number_nodes(operator.faces, operator.vertex_count, system.order)
+    faces: Integers = element_faces(nodes)
+    return nodal_graph(faces, nodes.count)

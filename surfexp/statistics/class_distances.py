@@ -1,0 +1,52 @@
+"""Mean distances between classes, and which pair of them is closest."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.statistic import Statistic
+
+
+def class_distances(matrix: DistanceMatrix, first: str = "", second: str = "") -> Statistic:
+    """Average distances over all members of each pair of classes, in units of the mean of all pairs.
+
+    Parameters
+    ----------
+    matrix : DistanceMatrix
+    first, second : str
+        A pair that is looked at.
+
+    Returns
+    -------
+    Statistic
+        Rows are pairs of classes from near to far, column "distance". Metrics: members, nearest, farthest, and where a pair
+        is named relatives (its distance) and relatives_rank (1 is the closest).
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two classes, or the named pair is unknown.
+    """
+    names = sorted(set(matrix.classes))
+    if len(names) < 2:
+        raise ValueError(f"the collection has one class, {names[0]!r}: distances between classes need at least 2")
+    codes = np.array([names.index(name) for name in matrix.classes])
+    pairs = {
+        (names[a], names[b]): float(matrix.values[np.ix_(codes == a, codes == b)].mean())
+        for a in range(len(names))
+        for b in range(a + 1, len(names))
+    }
+    mean = float(np.mean(list(pairs.values())))
+    ordered = sorted(pairs, key=lambda pair: pairs[pair])
+    values = np.array([pairs[pair] / mean for pair in ordered])
+    metrics = {"members": float(len(codes)), "nearest": float(values[0]), "farthest": float(values[-1])}
+    if first or second:
+        wanted = tuple(sorted((first, second)))
+        if wanted not in pairs:
+            raise ValueError(f"classes {first!r}, {second!r} are not both among {', '.join(names)}")
+        metrics["relatives"] = float(values[ordered.index(wanted)])
+        metrics["relatives_rank"] = float(ordered.index(wanted) + 1)
+    closest = f"The closest classes are {ordered[0][0]} and {ordered[0][1]}, the farthest {ordered[-1][0]} and {ordered[-1][1]}."
+    rows = tuple(f"{a}, {b}" for a, b in ordered)
+    return Statistic(f"distances between classes by {matrix.name}", {"distance": values}, rows, metrics, (closest,))

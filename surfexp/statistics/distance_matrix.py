@@ -1,0 +1,65 @@
+"""Distances between all members of a collection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.statistics.labels import classes_of, groups_of
+
+
+@dataclass(frozen=True, eq=False)
+class DistanceMatrix:
+    """A symmetric matrix of distances, checked when it is made.
+
+    Parameters
+    ----------
+    labels : tuple of str
+        Names of the n members, such as "caudate @ 9861 left".
+    values : (n, n) float64
+        Distances; symmetric, not negative, 0 on the diagonal.
+    classes : tuple of str, optional
+        The class of each member; default: the label before " @ ".
+    groups : tuple of str, optional
+        The person or object to which each belongs; default: the first word after " @ ".
+    coordinates : (n, d) float64, optional
+        Points whose Euclidean distances these are, where there are such.
+    name : str
+        What is measured, for captions.
+    metrics, notes
+        As in `Surface`.
+
+    Raises
+    ------
+    ValueError
+        If the matrix is not n x n, not symmetric, not finite, negative or not 0 on the diagonal.
+    """
+
+    labels: tuple[str, ...]
+    values: Floats
+    classes: tuple[str, ...] = ()
+    groups: tuple[str, ...] = ()
+    coordinates: Floats | None = None
+    name: str = ""
+    metrics: dict[str, float] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "classes", self.classes or classes_of(self.labels))
+        object.__setattr__(self, "groups", self.groups or groups_of(self.labels))
+        n, values = len(self.labels), self.values
+        if values.shape != (n, n) or len(self.classes) != n or len(self.groups) != n:
+            sizes = f"{len(self.classes)} classes and {len(self.groups)} groups"
+            raise ValueError(f"distances have shape {values.shape}, {n} labels, {sizes}; the numbers must agree")
+        scale = max(float(np.abs(values).max(initial=0.0)), 1e-300)
+        if not np.isfinite(values).all():
+            raise ValueError(f"{int((~np.isfinite(values)).sum())} of the {n} x {n} distances are not finite")
+        skew = float(np.abs(values - values.T).max(initial=0.0))
+        if (
+            skew > 1e-9 * scale
+            or values.min(initial=0.0) < 0.0
+            or np.abs(np.diag(values)).max(initial=0.0) > 1e-9 * scale
+        ):
+            raise ValueError(f"distances must be symmetric, not negative and 0 to oneself; asymmetry {skew:.1e}")

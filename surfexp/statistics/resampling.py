@@ -1,0 +1,31 @@
+"""Chance and uncertainty of an accuracy: bootstrap over groups, permutations of classes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Integers
+
+BOOTSTRAPS = 2000
+CENTRAL = (2.5, 97.5)
+
+
+def bootstrap_interval(right: np.ndarray, owners: Integers, rng: np.random.Generator) -> tuple[float, float]:
+    """Return the central 95 % of the accuracy over collections drawn by whole groups."""
+    count = int(owners.max()) + 1
+    hits, sizes = np.bincount(owners, right, count), np.bincount(owners, minlength=count)
+    draws = rng.integers(count, size=(BOOTSTRAPS, count))
+    low, high = np.percentile(hits[draws].sum(axis=1) / sizes[draws].sum(axis=1), CENTRAL)
+    return float(low), float(high)
+
+
+def permuted(codes: Integers, owners: Integers, rng: np.random.Generator) -> Integers:
+    """Return the classes permuted inside each group, or among all where every group has one class only."""
+    several = any(len(np.unique(codes[owners == owner])) > 1 for owner in np.unique(owners))
+    if not several:
+        return np.asarray(rng.permutation(codes))
+    result = codes.copy()
+    for owner in np.unique(owners):
+        here = np.flatnonzero(owners == owner)
+        result[here] = rng.permutation(codes[here])
+    return result

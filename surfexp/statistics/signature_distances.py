@@ -1,0 +1,68 @@
+"""Distances between the signatures of a collection."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.spectrum.signature import Signature
+from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.labels import classes_of
+from surfexp.statistics.separation import separation
+
+
+def signature_distances(
+    signatures: Mapping[str, Signature], part: str = "", alpha: float = 1.0, length: int | None = None
+) -> DistanceMatrix:
+    """Return sqrt(sum_n ((l_n - l'_n) / n^alpha)^2) (4.3) between all members; alpha = 0 is the Euclidean distance.
+
+    Parameters
+    ----------
+    signatures : mapping of label to Signature
+        Labels "class @ owner ..." as `labels` reads them.
+    part : str
+        Which part of the signatures; empty: the signature itself.
+    alpha : float
+    length : int, optional
+        N: how many entries; default: as many as the shortest signature has.
+
+    Returns
+    -------
+    DistanceMatrix
+        `coordinates` are l_n / n^alpha: the distances are Euclidean ones of these points.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two members, one is not finite, or one is shorter than `length`.
+    """
+    labels, rows = tuple(signatures), [signature.part(part) for signature in signatures.values()]
+    if len(rows) < 2:
+        raise ValueError(f"the collection has {len(rows)} members, distances need at least 2")
+    shortest = min(len(row) for row in rows)
+    if length is not None and length > shortest:
+        short = labels[int(np.argmin([len(row) for row in rows]))]
+        raise ValueError(f"length = {length}, but {short!r} has {shortest} entries: take length <= {shortest}")
+    used = length or shortest
+    values = np.stack([row[:used] for row in rows])
+    bad = np.flatnonzero(~np.isfinite(values).all(axis=1))
+    if len(bad):
+        raise ValueError(f"the signature of {labels[bad[0]]!r} is not finite, and {len(bad) - 1} others")
+    name = part or next(iter(signatures.values())).name
+    points = values * np.arange(1.0, used + 1.0) ** -alpha
+    distances = euclidean(points)
+    metrics = {"members": float(len(labels)), "length": float(used), **separation(distances, classes_of(labels))}
+    notes: tuple[str, ...] = ()
+    longest = max(len(row) for row in rows)
+    if length is None and longest > shortest:
+        notes = (f"Signatures have {shortest} to {longest} entries; the first {shortest} are compared.",)
+    return DistanceMatrix(labels, distances, coordinates=points, name=name, metrics=metrics, notes=notes)
+
+
+def euclidean(points: Floats) -> Floats:
+    """(n, n) distances between points, exactly symmetric."""
+    from scipy.spatial.distance import pdist, squareform
+
+    return np.asarray(squareform(pdist(points)))

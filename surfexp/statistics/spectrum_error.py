@@ -1,0 +1,93 @@
+"""Errors of computed spectra against exact ones, and their order under refinement."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from surfexp.figures.order_plot import convergence_order
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.smooth_shapes import exact_spectrum
+from surfexp.statistics.statistic import Statistic
+
+LINE = re.compile(r"(?P<line>.+) @ (?P<level>.+)")
+
+
+def spectrum_error(surface: Surface, system: EigenSystem, low: int = 8, high: int = 24) -> Statistic:
+    """Compare eigenvalues with those of the smooth sphere, disk or rectangle that the mesh stands for.
+
+    Parameters
+    ----------
+    surface : Surface
+    system : EigenSystem
+    low, high : int
+        Errors are the largest relative ones of the first `low` and `high` values that are not 0.
+
+    Returns
+    -------
+    Statistic
+        Columns mode, value, exact, error. Metrics error_low, error_high, edge_length, degrees_of_freedom, and
+        below_exact, the number of values under the exact ones by more than 1e-9, which (3.25) says is 0.
+
+    Raises
+    ------
+    ValueError
+        If fewer values were computed, or the exact ones are unknown.
+    """
+    exact = exact_spectrum(surface, len(system.values), system.boundary)
+    moving = exact > 1e-9 * exact[-1]
+    if moving.sum() < max(low, high):
+        raise ValueError(f"{int(moving.sum())} values above 0 were computed, {max(low, high)} are asked for")
+    found, known = system.values[moving], exact[moving]
+    errors = found / known - 1.0
+    metrics = {
+        "error_low": float(np.abs(errors[:low]).max()),
+        "error_high": float(np.abs(errors[:high]).max()),
+        "below_exact": float((errors < -1e-9).sum()),
+        "edge_length": system.metrics["edge_length"],
+        "degrees_of_freedom": system.metrics["degrees_of_freedom"],
+        "complete": float(system.complete),
+    }
+    columns = {"mode": np.arange(1.0, len(found) + 1.0), "value": found, "exact": known, "error": np.abs(errors)}
+    return Statistic(f"spectrum of the {surface.name}", columns, metrics=metrics)
+
+
+def convergence_orders(errors: Mapping[str, Statistic], metric: str = "error_high") -> Statistic:
+    """Fit the order of an error in the edge length, a line for each method.
+
+    Parameters
+    ----------
+    errors : mapping of label to Statistic
+        Labels "method @ level"; all methods on the same levels.
+    metric : str
+
+    Returns
+    -------
+    Statistic
+        Columns: edge_length, and each method's errors. Metrics: "order METHOD", "finest METHOD".
+
+    Raises
+    ------
+    ValueError
+        If a label does not fit, or methods have different levels.
+    """
+    lines: dict[str, dict[str, Statistic]] = {}
+    for label, found in errors.items():
+        match = LINE.fullmatch(label)
+        if match is None:
+            raise ValueError(f"axis label {label!r}: write 'method @ level', for example 'P1 @ 3'")
+        lines.setdefault(match["line"], {})[match["level"]] = found
+    levels = [tuple(members) for members in lines.values()]
+    if len(set(levels)) != 1 or len(levels[0]) < 2:
+        raise ValueError(f"methods have the levels {levels}: at least two, the same for all, are needed")
+    first = next(iter(lines.values()))
+    sizes = np.array([found.metrics["edge_length"] for found in first.values()])
+    columns, metrics = {"edge_length": sizes}, {}
+    for line, members in lines.items():
+        columns[line] = np.array([found.metrics[metric] for found in members.values()])
+        metrics[f"order {line}"] = convergence_order(sizes, columns[line])
+        metrics[f"finest {line}"] = float(columns[line][np.argmin(sizes)])
+    return Statistic(next(iter(first.values())).name, columns, levels[0], metrics)

@@ -1,0 +1,131 @@
+"""Maps between surfaces: exact on copies, no better than chance where they know nothing, and labels carried over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from surfexp.embedding.disguise import disguise
+from surfexp.embedding.functional_map import (
+    functional_map,
+    nearest_orthogonal,
+    refine_with_field,
+    spectral_icp,
+    zoomout,
+)
+from surfexp.embedding.labels import desikan_killiany, label_accuracy, map_metrics
+from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.embedding.surface_map import Pair, embedding_map, icp_map, vertex_index_map, zoomout_map
+from surfexp.mesh.ellipsoid import ellipsoid
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.elements_surface import surface_elements
+from surfexp.spectrum.eigensolver import eigenpairs
+
+
+def system_of(surface: Surface, k: int = 31):
+    elements = surface_elements(surface.mesh)
+    return eigenpairs(elements.stiffness, elements.mass, k)
+
+
+@pytest.fixture(scope="module")
+def pair() -> Pair:
+    surface = ellipsoid(3, (1.0, 1.35, 0.7))
+    x, y, z = surface.mesh.vertices.T
+    swollen = surface.mesh.vertices * (1.0 + 0.25 * np.sin(2.0 * x + y + 0.5 * z) + 0.1 * y * z)[:, None]
+    mesh = TriangleMesh(swollen, surface.mesh.faces)
+    octants = ((x > 0) + 2 * (y > 0) + 4 * (z > 0)).astype(float)
+    source = Surface(mesh, "lopsided", scalars={"label": octants, "height": z})
+    target = disguise(source, scale=2.0, seed=4)
+    return Pair(source, target, system_of(source), system_of(target))
+
+
+def test_maps_to_a_disguised_copy_are_exact(pair: Pair) -> None:
+    with_field = zoomout_map(pair, 6, 30, field="height", field_modes=30)
+    for found in (embedding_map(pair, 6), icp_map(pair, 6), zoomout_map(pair, 6, 30), with_field):
+        assert found.metrics["label accuracy"] > 0.999
+        assert found.metrics["origin error"] < 1e-3
+
+
+def test_vertex_index_scores_as_chance(pair: Pair) -> None:
+    found = vertex_index_map(pair, 4)
+    assert found.metrics["label accuracy"] < 0.25
+    assert found.metrics["origin error"] > 0.3
+
+
+def test_icp_and_zoomout_mend_a_spoilt_map(pair: Pair) -> None:
+    first, second = pair.areas
+    origin = pair.target_surface.scalars["origin"].astype(int)
+    rng = np.random.default_rng(0)
+    rows = np.where(rng.uniform(size=len(origin)) < 0.15, rng.integers(0, len(first), len(origin)), origin)
+    mended = zoomout(pair.source, pair.target, (first, second), rows, 4, 30, 1)
+    assert (mended == origin).mean() > 0.99 > (rows == origin).mean()
+    source, target = spectral_embedding(pair.source, first, 6), spectral_embedding(pair.target, second, 6)
+    signs = embedding_map(pair, 6).basis
+    turn = np.eye(6)
+    turn[:2, :2] = [[np.cos(0.1), -np.sin(0.1)], [np.sin(0.1), np.cos(0.1)]]
+    rows, basis = spectral_icp(source, target, signs @ turn)
+    assert (rows == origin).mean() > 0.9
+    assert basis == pytest.approx(signs, abs=0.05)
+
+
+def test_the_functional_map_of_the_identity_is_the_identity(pair: Pair) -> None:
+    area = pair.areas[0] / pair.areas[0].sum()
+    phi = pair.source.vectors[:, :10] * np.sqrt(pair.areas[0].sum())
+    matrix = functional_map(phi, phi, area, np.arange(len(phi)))
+    # lumped against consistent mass
+    assert matrix == pytest.approx(np.eye(10), abs=0.06)
+
+
+def test_nearest_orthogonal_matrix() -> None:
+    rng = np.random.default_rng(1)
+    turn = np.linalg.qr(rng.normal(size=(5, 5)))[0]
+    assert nearest_orthogonal(turn @ np.diag([5.0, 3.0, 2.0, 1.0, 0.5])) == pytest.approx(turn, abs=0.7)
+    symmetric = rng.normal(size=(5, 5))
+    symmetric = symmetric @ symmetric.T + np.eye(5)
+    assert nearest_orthogonal(turn @ symmetric) == pytest.approx(turn, abs=1e-10)
+
+
+def test_labels_are_the_same_regions_on_both_sides() -> None:
+    left, right = desikan_killiany("left"), desikan_killiany("right")
+    assert len(left) == len(right) == 10242
+    assert left.min() == right.min() == 0 and left.max() == right.max() == 34
+    # sizes of regions go together, which shuffled numbers would not
+    sizes = np.corrcoef(np.bincount(left), np.bincount(right))[0, 1]
+    assert sizes > 0.95
+    with pytest.raises(ValueError, match="choose left or right"):
+        desikan_killiany("middle")
+
+
+def test_accuracy_counts_area(pair: Pair) -> None:
+    source, target = np.array([0, 1, 2]), np.array([0, 1, 1, 2])
+    assert label_accuracy(source, target, np.array([1.0, 1.0, 2.0, 4.0]), np.array([0, 1, 2, 2])) == (0.75, 0.75)
+    assert label_accuracy(source, target, np.array([1.0, 1.0, 6.0, 4.0]), np.array([0, 1, 2, 2]))[0] == 0.5
+    with pytest.raises(ValueError, match="map has 3 entries"):
+        map_metrics(pair.source_surface, pair.target_surface, np.arange(3))
+
+
+def test_unfit_requests_are_refused(pair: Pair) -> None:
+    areas, rows = pair.areas, np.zeros(len(pair.areas[1]), np.int64)
+    with pytest.raises(ValueError, match="take 1 <= first <= last <= 31"):
+        zoomout(pair.source, pair.target, areas, rows, 10, 80)
+    with pytest.raises(ValueError, match="scalar map 'sulc' is not on lopsided"):
+        zoomout_map(pair, 4, 20, field="sulc")
+    flat = (np.ones(len(areas[0])), np.ones(len(areas[1])))
+    with pytest.raises(ValueError, match="the field is constant at 1"):
+        refine_with_field(pair.source, pair.target, areas, rows, flat, 20)
+    with pytest.raises(ValueError, match="take a positive one"):
+        disguise(pair.source_surface, scale=0.0)
+
+
+def test_a_bent_or_remeshed_copy_keeps_names_and_topology(pair: Pair) -> None:
+    for changed in (disguise(pair.source_surface, bend=0.4), disguise(pair.source_surface, remeshed=True)):
+        assert changed.mesh.is_closed and changed.mesh.genus == 0
+        other = replace(pair, target_surface=changed, target=system_of(changed))
+        found = zoomout_map(other, 6, 30)
+        assert found.metrics["label accuracy"] > 0.93
+    old = {tuple(vertex) for vertex in pair.source_surface.mesh.vertices.round(6).tolist()}
+    new = disguise(pair.source_surface, shuffled=False, rotated=False, remeshed=True).mesh.vertices.round(6).tolist()
+    assert np.mean([tuple(vertex) in old for vertex in new]) < 0.6

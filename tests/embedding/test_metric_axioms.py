@@ -1,0 +1,142 @@
+"""Counterexamples to the printed metric, the distances that hold, and growth on analytic spectra."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
+from surfexp.embedding.counterexamples import clover, named_revolution
+from surfexp.embedding.distance_growth import distance_brackets, logarithmic_slope, squared_norms
+from surfexp.embedding.pairwise import Pairing, pairwise_distances, triangle_metrics
+from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
+from surfexp.embedding.sup_inf import block_group, refines, sup_inf_distance
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import surface_elements
+from surfexp.spectrum.eigensolver import eigenpairs
+
+
+def embed(surface: Surface, n: int) -> SpectralEmbedding:
+    elements = surface_elements(surface.mesh)
+    return spectral_embedding(eigenpairs(elements.stiffness, elements.mass, n + 1), surface.mesh.vertex_areas, n)
+
+
+@pytest.fixture(scope="module")
+def revolutions() -> dict[str, SpectralEmbedding]:
+    return {name: embed(named_revolution(name), 1) for name in ("cigar", "needle_ball", "two_balls")}
+
+
+@pytest.fixture(scope="module")
+def clovers() -> dict[str, SpectralEmbedding]:
+    squeezed = {"a": (0.03, 0.0), "double": (0.0, 0.0), "c": (0.03, 30.0)}
+    return {name: embed(clover(3, squeeze=share, angle=angle), 2) for name, (share, angle) in squeezed.items()}
+
+
+def test_the_mean_hausdorff_distance_breaks_the_triangle_and_the_true_metrics_do_not(revolutions) -> None:
+    ratios = {
+        method: triangle_metrics(pairwise_distances(revolutions, Pairing(method, samples=150))[0])["triangle_ratio"]
+        for method in ("mean_hausdorff", "hausdorff", "wasserstein")
+    }
+    assert ratios["mean_hausdorff"] > 3.0
+    assert ratios["hausdorff"] <= 1.0 + 1e-9 and ratios["wasserstein"] <= 1.0 + 1e-9
+
+
+def test_a_double_eigenvalue_breaks_the_triangle_and_the_sup_inf_mends_it(clovers) -> None:
+    first, second, third = (embedding.values for embedding in clovers.values())
+    assert second[1] / second[0] < 1.005 < 1.03 < first[1] / first[0]
+    assert first == pytest.approx(third, rel=2e-3)
+    ratios = {
+        method: triangle_metrics(pairwise_distances(clovers, Pairing(method, samples=200, gap=0.01))[0])[
+            "triangle_ratio"
+        ]
+        for method in ("least_over_blocks", "sup_inf")
+    }
+    assert ratios["least_over_blocks"] > 1.5
+    assert ratios["sup_inf"] <= 1.0
+
+
+def test_the_needle_ball_covers_the_range_of_the_others(revolutions) -> None:
+    ranges = {name: np.ptp(embedding.points) for name, embedding in revolutions.items()}
+    assert ranges["needle_ball"] > ranges["two_balls"] > ranges["cigar"]
+
+
+def test_triangle_metrics_by_hand() -> None:
+    matrix = np.array([[0.0, 1.0, 3.0], [1.0, 0.0, 1.0], [3.0, 1.0, 0.0]])
+    found = triangle_metrics(matrix)
+    assert found["triangle_ratio"] == pytest.approx(1.5) and found["triangles_broken"] == pytest.approx(1 / 3)
+    assert triangle_metrics(matrix[:2, :2]) == {"triangle_ratio": 0.0, "triangles_broken": 0.0}
+
+
+def test_random_triples_of_tori_obey_the_triangle_by_hausdorff() -> None:
+    rng = np.random.default_rng(0)
+    shapes = {str(k): torus_embedding(float(ratio), 4, 12) for k, ratio in enumerate(rng.uniform(1.1, 3.0, 16))}
+    table, proved = pairwise_distances(shapes, Pairing("hausdorff"))
+    assert proved == 1.0
+    # 560 triples
+    assert len(list(combinations(shapes, 3))) == 560
+    assert triangle_metrics(table)["triangles_broken"] == 0.0
+
+
+def test_groups_of_bases() -> None:
+    group = block_group(((0, 1), (1, 3)), angles=6)
+    assert len(group) == 2 * 12
+    for matrix in group:
+        assert matrix @ matrix.T == pytest.approx(np.eye(3), abs=1e-12)
+        assert np.abs(matrix[0, 1:]).max() == 0.0
+    assert refines(((0, 1), (1, 2)), ((0, 2),)) and not refines(((0, 2),), ((0, 1), (1, 2)))
+    with pytest.raises(ValueError, match="take fewer angles"):
+        block_group(((0, 2), (2, 4), (4, 6)), angles=24)
+
+
+def test_the_sup_inf_of_simple_spectra_is_the_least_over_signs(revolutions) -> None:
+    first, second = (revolutions[name].sample(100, 0) for name in ("cigar", "two_balls"))
+    simple = ((0, 1),)
+    expected = spectral_distance(first, second, summary="largest").value
+    assert sup_inf_distance(first, second, simple, simple) == pytest.approx(expected, rel=1e-9)
+
+
+def test_analytic_embeddings_agree_with_each_other_and_with_elements() -> None:
+    sphere, round_one = sphere_embedding(24, 1500), spheroid_embedding(1.0, 24)
+    assert round_one.values == pytest.approx(sphere.values, rel=1e-4)
+    for embedding in (sphere, round_one, torus_embedding(1.3, 24)):
+        gram = (embedding.points * embedding.weights[:, None]).T @ embedding.points
+        assert gram * np.sqrt(np.outer(embedding.values, embedding.values)) == pytest.approx(np.eye(24), abs=0.02)
+    assert torus_embedding(1.0, 4).values == pytest.approx(4.0 * np.pi**2)
+    from surfexp.mesh.ellipsoid import ellipsoid
+
+    meshed = embed(ellipsoid(4, (1.0, 1.0, 0.8)), 8)
+    assert meshed.values == pytest.approx(spheroid_embedding(0.8, 8).values, rel=0.01)
+
+
+def test_the_norm_grows_by_a_quarter_over_pi_with_the_logarithm() -> None:
+    sizes = [25, 50, 100, 200, 400]
+    for embedding in (torus_embedding(1.1, 400, 12), spheroid_embedding(0.8, 400, 20, 20), sphere_embedding(440, 200)):
+        assert 4 * np.pi * logarithmic_slope(sizes, squared_norms(embedding, sizes)) == pytest.approx(1.0, abs=0.05)
+    tame = torus_embedding(1.1, 400, 12, "biharmonic")
+    norms = squared_norms(tame, sizes)
+    assert norms[-1] / norms[-2] < 1.01
+
+
+def test_brackets_hold_the_distance() -> None:
+    first, second = torus_embedding(1.3, 8, 16), torus_embedding(1.5, 8, 16)
+    lower, upper = distance_brackets(first, second, [2, 4, 8])
+    assert (lower <= upper + 1e-12).all()
+    best = spectral_distance(first.truncated(4), second.truncated(4)).value
+    assert lower[1] <= best <= upper[1] + 1e-12
+
+
+SENSELESS = (
+    lambda: torus_embedding(0.0, 5),
+    lambda: spheroid_embedding(-1.0, 5),
+    lambda: clover(3, 2),
+    lambda: named_revolution("egg"),
+)
+
+
+@pytest.mark.parametrize("make", SENSELESS)
+def test_senseless_shapes_are_refused(make) -> None:
+    with pytest.raises(ValueError, match=r"take a positive one|are needed|unknown, choose one of"):
+        make()

@@ -1,0 +1,141 @@
+"""The search over signs equals enumeration, its bounds are bounds, and its log is replayed by other code."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+from embedded_clouds import cloud
+from scipy.spatial import cKDTree
+
+from surfexp.embedding.mean_hausdorff import HausdorffObjective
+from surfexp.embedding.sign_search import (
+    branch_and_bound,
+    check_certificate,
+    enumerate_signs,
+    greedy_signs,
+    search_signs,
+)
+from surfexp.embedding.spectral_embedding import SpectralEmbedding
+from surfexp.embedding.wasserstein import WassersteinObjective
+
+
+def by_trees(source: SpectralEmbedding, target: SpectralEmbedding):
+    """The objective by other means: trees on coordinates and on absolute values."""
+
+    def objective(signs: np.ndarray, cutoff: float = np.inf) -> float:
+        known = signs != 0
+        x = np.where(known, source.points, np.abs(source.points))
+        y = np.where(known, target.points * signs, np.abs(target.points))
+        forward, backward = cKDTree(y).query(x)[0], cKDTree(x).query(y)[0]
+        return max(float(forward @ source.weights), float(backward @ target.weights))
+
+    return objective
+
+
+def all_values(objective, n: int) -> dict[tuple[int, ...], float]:
+    return {signs: objective(np.array(signs, np.int8), np.inf) for signs in product((1, -1), repeat=n)}
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_branch_and_bound_equals_enumeration(seed: int) -> None:
+    n = 2 + seed % 8
+    source, target = cloud(n, 40, seed), cloud(n, 36, seed + 1000)
+    for direction in ("forward", "both"):
+        objective = HausdorffObjective(source, target, direction, undecided=("absolute", "prefix")[seed % 2])
+        everything = enumerate_signs(objective, n)
+        found = branch_and_bound(objective, n)
+        assert found.value == pytest.approx(everything.value, rel=1e-12)
+        assert found.optimal and found.lower_bound == found.value
+
+
+@pytest.mark.parametrize("n", [10, 11, 12])
+def test_branch_and_bound_equals_enumeration_in_many_dimensions(n: int) -> None:
+    source, target = cloud(n, 24, n), cloud(n, 24, n + 50)
+    objective = by_trees(source, target)
+    assert branch_and_bound(HausdorffObjective(source, target), n).value == pytest.approx(
+        min(all_values(objective, n).values()), rel=1e-9
+    )
+
+
+def test_near_symmetric_pairs_defeat_greedy_and_not_the_search() -> None:
+    misled = 0
+    for seed in range(12):
+        source = cloud(7, 40, seed, symmetric=1.0)
+        rng = np.random.default_rng(seed)
+        signs = rng.choice([-1.0, 1.0], 7)
+        noise = rng.normal(size=source.points.shape) * np.geomspace(0.6, 0.1, 7)
+        target = replace(source, points=source.points * signs + noise)
+        objective = HausdorffObjective(source, target)
+        best = min(all_values(by_trees(source, target), 7).values())
+        found = branch_and_bound(objective, 7)
+        assert found.value == pytest.approx(best, rel=1e-9) and found.optimal
+        misled += objective(greedy_signs(objective, 7)[0], np.inf) > best * (1.0 + 1e-6)
+    assert misled >= 1
+
+
+def test_bounds_are_at_most_the_best_completion() -> None:
+    source, target = cloud(6, 40, 3), cloud(6, 44, 4)
+    for undecided in ("absolute", "prefix"):
+        objective = HausdorffObjective(source, target, undecided=undecided)
+        values = all_values(objective, 6)
+        for prefix in product((1, -1), repeat=3):
+            node = np.array([*prefix, 0, 0, 0], np.int8)
+            least = min(value for signs, value in values.items() if signs[:3] == prefix)
+            assert objective(node, np.inf) <= least * (1 + 1e-12)
+            early = objective(node, 0.3 * least)
+            assert early <= least * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("limit", [12, 25, 60])
+def test_a_stopped_search_says_so_and_its_bound_holds(limit: int) -> None:
+    source, target = cloud(9, 40, 7), cloud(9, 40, 8)
+    objective = HausdorffObjective(source, target)
+    best = branch_and_bound(objective, 9).value
+    stopped = branch_and_bound(objective, 9, np.ones(9, np.int8), limit)
+    assert stopped.lower_bound <= best + 1e-12 <= stopped.value + 1e-9
+    assert stopped.optimal == (stopped.lower_bound >= stopped.value)
+    assert not check_certificate(stopped, by_trees(source, target))
+
+
+def test_the_log_is_replayed_by_an_independent_objective_at_twenty_dimensions() -> None:
+    source = cloud(20, 300, 1)
+    signs = np.where(np.arange(20) % 3 == 0, -1.0, 1.0)
+    noise = 0.1 * np.random.default_rng(5).normal(size=source.points.shape)
+    target = replace(source, points=source.points * signs + noise)
+    found = search_signs(HausdorffObjective(source, target), 20)
+    assert (found.signs == signs).all() and found.optimal
+    assert found.evaluations < 400
+    assert check_certificate(found, by_trees(source, target)) == []
+
+
+def test_a_forged_log_is_found_out() -> None:
+    source, target = cloud(7, 40, 1), cloud(7, 40, 2)
+    objective = by_trees(source, target)
+    found = branch_and_bound(HausdorffObjective(source, target), 7)
+    assert check_certificate(found, objective) == []
+    assert check_certificate(replace(found, closed=found.closed[1:], bounds=found.bounds[1:]), objective)
+    assert check_certificate(replace(found, value=0.9 * found.value), objective)
+    assert check_certificate(replace(found, lower_bound=1.1 * found.value), objective)
+    shallow = found.closed.copy()
+    shallow[0, -1] = -shallow[0, -1]
+    assert check_certificate(replace(found, closed=shallow), objective)
+    assert check_certificate(replace(found, bounds=np.where(found.bounds > 0, 9.0, 9.0), value=9.0), objective)
+
+
+def test_the_same_search_serves_hausdorff_and_wasserstein() -> None:
+    source, target = cloud(6, 30, 5), cloud(6, 30, 6)
+    for objective in (HausdorffObjective(source, target, summary="largest"), WassersteinObjective(source, target)):
+        assert branch_and_bound(objective, 6).value == pytest.approx(min(all_values(objective, 6).values()), rel=1e-9)
+
+
+def test_senseless_requests_are_refused() -> None:
+    objective = HausdorffObjective(cloud(3, 10, 0), cloud(3, 10, 1))
+    with pytest.raises(ValueError, match="n = 0 signs"):
+        search_signs(objective, 0)
+    with pytest.raises(ValueError, match="limit = 1"):
+        search_signs(objective, 3, None, 1)
+    with pytest.raises(ValueError, match="embeddings differ"):
+        HausdorffObjective(cloud(3, 10, 0), cloud(4, 10, 1))

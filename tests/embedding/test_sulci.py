@@ -1,0 +1,167 @@
+"""Synthetic subjects, sulcal regions, their names and lengths, and the paired tests on them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
+from surfexp.embedding.population import random_displacement, stretch, synthetic_subject
+from surfexp.embedding.population_study import make_template, measure_population, name_regions
+from surfexp.embedding.sulcal_lengths import carried_length, geodesic_length, region_ends
+from surfexp.embedding.sulcal_regions import (
+    components,
+    names_by_distance,
+    names_by_majority,
+    naming_accuracy,
+    sulcal_regions,
+)
+from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.mesh.icosphere import icosphere
+
+
+@pytest.fixture(scope="module")
+def cortex():
+    return fsaverage5("left", "pial")
+
+
+@pytest.fixture(scope="module")
+def template(cortex):
+    return make_template(cortex, 2)
+
+
+def test_displacements_have_the_strain_that_is_asked_for() -> None:
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-60, 60, (4000, 3))
+    step = 1e-4
+    for strain in (0.02, 0.1):
+        found = []
+        for seed in range(6):
+            base = random_displacement(points, strain, 50.0, seed)
+            slopes = [
+                (random_displacement(points + step * axis, strain, 50.0, seed) - base) / step for axis in np.eye(3)
+            ]
+            # all nine derivatives; each of three directions has a third of the squares
+            found.append(np.sqrt(np.mean(np.sum(np.square(slopes), axis=0))))
+        assert np.mean(found) == pytest.approx(strain, rel=0.15)
+
+
+def test_a_stretch_lengthens_its_region_and_nothing_far_away() -> None:
+    points = np.stack([np.linspace(-50, 50, 201), np.zeros(201), np.zeros(201)], axis=1)
+    inside = np.abs(points[:, 0]) < 10
+    moved = stretch(points, inside, 0.06)
+    length = np.ptp(moved[inside, 0])
+    assert length == pytest.approx(1.06 * np.ptp(points[inside, 0]), rel=1e-9)
+    assert np.abs(moved - points)[np.abs(points[:, 0]) > 40].max() < 0.01
+    with pytest.raises(ValueError, match="at least 3 are needed"):
+        stretch(points, np.zeros(201, bool), 0.1)
+
+
+def test_subjects_repeat_differ_and_mirror(cortex) -> None:
+    first = synthetic_subject(cortex, 0, "left", remeshed=False)
+    again = synthetic_subject(cortex, 0, "left", remeshed=False)
+    assert np.array_equal(first.mesh.vertices, again.mesh.vertices)
+    other = synthetic_subject(cortex, 0, "right", remeshed=False)
+    assert other.mesh.is_closed and other.mesh.genus == 0
+    outward = (other.mesh.face_cross_products * (other.mesh.vertices[other.mesh.faces].mean(axis=1))).sum()
+    assert outward > 0
+    assert not np.allclose(np.sort(first.mesh.areas), np.sort(other.mesh.areas))
+    assert abs(first.mesh.area / cortex.mesh.area - 1.0) < 0.05
+    assert synthetic_subject(cortex, 1, "left").metrics["vertices"] > 8000
+    with pytest.raises(ValueError, match="choose left or right"):
+        synthetic_subject(cortex, 0, "middle")
+
+
+def test_components_of_two_caps() -> None:
+    mesh = icosphere(4).mesh
+    z = mesh.vertices[:, 2]
+    labels = components(mesh, (z > 0.6) | (z < -0.8))
+    assert (labels[z > 0.6] == 0).all() and (labels[z < -0.8] == 1).all()
+    assert (labels[np.abs(z) < 0.5] == -1).all()
+    assert components(mesh, (z > 0.6) | (z < -0.8), 2.0).max() == 0
+    with pytest.raises(ValueError, match="the mask has shape"):
+        components(mesh, np.ones(3, bool))
+
+
+def test_regions_of_the_cortex_lie_in_sulci(cortex) -> None:
+    regions = sulcal_regions(cortex.mesh)
+    assert 15 <= regions.max() + 1 <= 45
+    depth = cortex.scalars["sulc"]
+    assert depth[regions >= 0].mean() > 0 > depth[regions < 0].mean()
+    sizes = np.bincount(regions[regions >= 0], cortex.mesh.vertex_areas[regions >= 0])
+    assert (np.diff(sizes) <= 1e-9).all() and sizes.min() > 1.5e-3 * cortex.mesh.area
+
+
+def test_names_by_hand() -> None:
+    regions, areas = np.array([0, 0, 0, 1, 1, -1]), np.array([1.0, 1.0, 1.0, 1.0, 5.0, 1.0])
+    template = np.array([0, 1, -1])
+    rows = np.array([0, 0, 1, 0, 1, 2])
+    assert names_by_majority(regions, areas, template, rows).tolist() == [0, 1]
+    assert names_by_majority(regions, areas, template, np.full(6, 2)).tolist() == [-1, -1]
+    points = np.array([[0.0], [0.1], [0.2], [1.0], [1.1], [5.0]])
+    found = names_by_distance(regions, areas, points, np.array([0, 1]), np.ones(2), np.array([[1.0], [0.1]]))
+    assert found.tolist() == [1, 0]
+    assert naming_accuracy(np.array([0, 1]), np.array([0, 0]), regions, areas) == pytest.approx(3.0 / 9.0)
+    assert naming_accuracy(np.array([0, 1]), np.array([0, -1]), regions, areas) == 1.0
+
+
+def test_a_strip_has_its_length() -> None:
+    mesh = icosphere(5).mesh
+    longitude = np.arctan2(mesh.vertices[:, 1], mesh.vertices[:, 0])
+    strip = (np.abs(mesh.vertices[:, 2]) < 0.08) & (np.abs(longitude) < 0.8)
+    start, end = region_ends(mesh, strip)
+    assert geodesic_length(mesh, start, end) == pytest.approx(1.6, rel=0.06)
+    assert geodesic_length(mesh, start, start) == 0.0
+    assert carried_length(mesh, mesh, np.arange(len(mesh.vertices)), (start, end)) == geodesic_length(mesh, start, end)
+    with pytest.raises(ValueError, match="no whole face"):
+        region_ends(mesh, np.arange(len(mesh.vertices)) == 7)
+
+
+def test_regions_of_a_subject_are_named(template, cortex) -> None:
+    scores = name_regions(template, synthetic_subject(cortex, 3, "right"), (4,))
+    assert scores["majority, ZoomOut"] > 0.97
+    assert scores["printed rule, n = 4"] > 0.85
+
+
+@pytest.mark.slow
+def test_the_planted_difference_is_found_and_changes_sign_with_the_sides(template) -> None:
+    table = measure_population(template, 8, asymmetry=0.1)
+    lengths = table["true"]
+    relative = (2 * (lengths["left"] - lengths["right"]) / (lengths["left"] + lengths["right"]))[:, 0]
+    assert relative.mean() == pytest.approx(0.09, abs=0.025)
+    found = table["carried ends"]
+    tests = paired_tests({"first": found["left"][:, 0]}, {"first": found["right"][:, 0]})
+    swapped = paired_tests({"first": found["right"][:, 0]}, {"first": found["left"][:, 0]})
+    assert tests.effect[0] > 0 and tests.p_t[0] < 0.05
+    assert swapped.difference[0] == pytest.approx(-tests.difference[0])
+
+
+def test_paired_tests_agree_with_scipy_and_holm_by_hand() -> None:
+    rng = np.random.default_rng(2)
+    left = {name: rng.normal(10.0 + shift, 1.0, 40) for name, shift in (("a", 1.0), ("b", 0.5), ("c", 0.0))}
+    right = {name: rng.normal(10.0, 1.0, 40) for name in "abc"}
+    left["c"][3] = np.nan
+    tests = paired_tests(left, right)
+    assert tests.p_t[0] == pytest.approx(stats.ttest_rel(left["a"], right["a"]).pvalue)
+    assert tests.p_wilcoxon[1] == pytest.approx(stats.wilcoxon(left["b"], right["b"]).pvalue)
+    assert tests.subjects.tolist() == [40, 40, 39]
+    order = np.argsort(tests.p_t)
+    holm = np.minimum(np.maximum.accumulate(tests.p_t[order] * [3, 2, 1]), 1.0)
+    assert tests.p_t_holm[order] == pytest.approx(holm)
+    assert tests.effect_low[0] < tests.effect[0] < tests.effect_high[0]
+    assert paired_tests(right, left).effect == pytest.approx(-tests.effect)
+    same = paired_tests({"x": np.arange(5.0)}, {"x": np.arange(5.0)})
+    assert same.p_t[0] == 1.0 and same.effect[0] == 0.0
+    with pytest.raises(ValueError, match="at least 3 are needed"):
+        paired_tests({"x": np.array([1.0, np.nan, 2.0])}, {"x": np.ones(3)})
+    with pytest.raises(ValueError, match="pairs are needed"):
+        paired_tests({"x": np.ones(4)}, {"x": np.ones(3)})
+
+
+def test_false_positives_are_nominal_and_power_grows() -> None:
+    rng = np.random.default_rng(5)
+    rates = [false_positive_rate(rng.normal(0.3, 1.0, 40), 400, seed=k) for k in range(10)]
+    assert np.mean(rates) == pytest.approx(0.05, abs=0.015)
+    power = power_by_subjects(rng.normal(0.6, 1.0, 200), [5, 20, 80], 300)
+    assert power[0] < power[1] < power[2] and power[2] > 0.95

@@ -1,0 +1,32 @@
+"""The examples of collections print what they promise."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
+    return capsys.readouterr().out.splitlines()
+
+
+def test_classify_bodies(capsys: pytest.CaptureFixture[str]) -> None:
+    spectra, counts = printed("classify_bodies", capsys)
+    assert spectra.startswith("shape_dna: 1.00 right") and counts.startswith("nodal_counts: ")
+
+
+def test_brain_structure(capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = printed("brain_structure", capsys)
+    assert first.startswith("genus 0") and second.endswith("complete: True")
+
+
+def test_embed_shapes(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = printed("embed_shapes", capsys)
+    places = [line.split(":")[1] for line in lines[:-1]]
+    assert places[0] == places[1] and places[2] == places[3] and places[0] != places[2]
+    assert float(lines[-1].split()[-1]) < 0.2
