@@ -100,6 +100,8 @@ def _backward_error(matrix: csc_array, solution: Floats, right_hand_side: Floats
 
 
 def _cholespy(matrix: csc_array) -> Solve:
+    if matrix.diagonal().min() <= 0.0:  # cholespy writes beyond its arrays when entries of the diagonal are missing
+        raise ValueError("not positive definite")
     solver = cholespy.CholeskySolverD(
         matrix.shape[0],
         matrix.indptr.astype(np.int32),
