@@ -40,12 +40,21 @@ class Comparison:
 
     @property
     def varying(self) -> list[str]:
-        """The plugin names and options that tell rows apart (an option only between rows of one plugin); of one row its own."""
+        """The plugin names and options that tell rows apart, each once; of one row its own plugin.
+
+        An option counts only between rows of one plugin. One that several inputs share, alike in every row, is shown
+        at the first of them.
+        """
         names = dict.fromkeys(name for row in self.rows for name in row.parameters)
         if len(self.rows) == 1:
             return [f"{self.rows[0].leaf.settings['target']}.name"]
         shown = [name for name in names if self._differs(name)]
-        return sorted(shown, key=lambda name: (not name.endswith(".name"), list(names).index(name)))
+        shown.sort(key=lambda name: (not name.endswith(".name"), list(names).index(name)))
+        alike = {(name.rpartition(".")[2], self._cells(name)): name for name in reversed(shown)}
+        return [name for name in shown if alike[name.rpartition(".")[2], self._cells(name)] == name]
+
+    def _cells(self, name: str) -> tuple[str, ...]:
+        return tuple(str(row.parameters.get(name, "–")) for row in self.rows)
 
     def _differs(self, name: str) -> bool:
         stage = name.rpartition(".")[0]
