@@ -9,6 +9,7 @@ from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 
 def listen(elements: SurfaceElements) -> None:
+    """Print the first eigenvalues of a drum and the numbers of their nodal domains."""
     system = eigenpairs(elements.stiffness, elements.mass, 5, "slicing", tolerance=1e-10)
     graph = nodal_graph(element_faces(elements.nodes), elements.nodes.count)
     thresholds = nodal_thresholds(system.values, elements.area, elements.nodes.count)

@@ -11,6 +11,7 @@ from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summ
 from surfexp.embedding.nearest import mutual_distances, nearest
 from surfexp.embedding.sign_search import Signs, SignSearch, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
+from surfexp.mesh.triangle_mesh import Floats
 
 Reading = Literal["inf_of_max", "max_of_inf"]
 READINGS: dict[str, tuple[Direction, ...]] = {"inf_of_max": ("both",), "max_of_inf": ("forward", "backward")}
@@ -58,36 +59,23 @@ def spectral_distance(
         raise ValueError(f"reading {reading!r} is unknown, choose one of {', '.join(READINGS)}")
     searches, notes = [], []
     for direction in READINGS[reading]:
+        objective = HausdorffObjective(source, target, direction, summary, undecided, seed)
         draws, most = (1, min(limit, SAMPLED_LIMIT)) if exact else (2, SAMPLED_LIMIT)
         start, agreed, spent = sampled_signs(source, target, direction, summary, samples, seed, draws, most)
-        objective = HausdorffObjective(source, target, direction, summary, undecided, seed)
-        if exact:
-            searches.append(search_signs(objective, source.dimension, start, limit))
-            continue
-        value = objective(start, np.inf)
-        node = np.zeros((1, source.dimension), np.int8)
-        bound = objective(node[0], np.inf)
-        searches.append(SignSearch(start, value, min(bound, value), bound >= value, spent, node, np.array([bound])))
-        if not agreed:
-            notes.append("Two draws of samples prefer different signs: search exactly.")
+        searches.append(
+            search_signs(objective, source.dimension, start, limit) if exact else _unproved(objective, start, spent)
+        )
+        notes += [] if agreed else ["Two draws of samples prefer different signs: search exactly."]
     chosen = max(searches, key=lambda search: search.value)
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
-    forward, backward = mutual_distances(source.points, moved)
-    metrics = {
-        "forward": float(forward @ source.weights),
-        "backward": float(backward @ target.weights),
-        "hausdorff": float(max(forward.max(), backward.max())),
-        "same_signs": float(all((search.signs == chosen.signs).all() for search in searches)),
-    }
-    if not all(search.optimal for search in searches) and exact:
-        notes.append(
-            f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."
-        )
+    optimal = all(search.optimal for search in searches)
+    if exact and not optimal:
+        notes += [f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."]
     return Distance(
         value=chosen.value,
         lower_bound=max(search.lower_bound for search in searches),
-        optimal=all(search.optimal for search in searches),
+        optimal=optimal,
         evaluations=sum(search.evaluations for search in searches),
         basis=np.diag(signs),
         source_points=source.points,
@@ -96,9 +84,29 @@ def spectral_distance(
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
         method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
-        metrics=metrics,
+        metrics={
+            **_directions(source, target, moved),
+            "same_signs": float(all((search.signs == chosen.signs).all() for search in searches)),
+        },
         notes=tuple(dict.fromkeys(notes)),
     )
+
+
+def _directions(source: SpectralEmbedding, target: SpectralEmbedding, moved: Floats) -> dict[str, float]:
+    """Mean distance from each surface to the other, and the largest."""
+    forward, backward = mutual_distances(source.points, moved)
+    return {
+        "forward": float(forward @ source.weights),
+        "backward": float(backward @ target.weights),
+        "hausdorff": float(max(forward.max(), backward.max())),
+    }
+
+
+def _unproved(objective: HausdorffObjective, signs: Signs, evaluations: int) -> SignSearch:
+    """Return given signs with their value on all points; the bound is that of no sign decided."""
+    node = np.zeros((1, len(signs)), np.int8)
+    value, bound = objective(signs, np.inf), objective(node[0], np.inf)
+    return SignSearch(signs, value, min(bound, value), bound >= value, evaluations, node, np.array([bound]))
 
 
 def sampled_signs(

@@ -70,9 +70,8 @@ def eliminate(
             child_rows = rows[row_starts[child] : row_starts[child + 1]]
             size = len(child_rows)
             bottom = min(bottom, begins[child])
-            extend(
-                stack[begins[child] : begins[child] + size * size].reshape(size, size), child_rows, place, panel, update
-            )
+            child_update = stack[begins[child] : begins[child] + size * size].reshape(size, size)
+            extend(child_update, child_rows, place, panel, update)
             child = sibling[child]
         top = bottom
         replaced += eliminate_front(panel, pivots[start:end], smallest, update)
