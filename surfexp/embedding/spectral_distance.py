@@ -69,6 +69,7 @@ def spectral_distance(
     chosen = max(searches, key=lambda search: search.value)
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
+    same = float(all((search.signs == chosen.signs).all() for search in searches))
     optimal = all(search.optimal for search in searches)
     if exact and not optimal:
         notes += [f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."]
@@ -84,10 +85,7 @@ def spectral_distance(
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
         method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
-        metrics={
-            **_directions(source, target, moved),
-            "same_signs": float(all((search.signs == chosen.signs).all() for search in searches)),
-        },
+        metrics=_directions(source, target, moved) | {"same_signs": same},
         notes=tuple(dict.fromkeys(notes)),
     )
 
