@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import resource
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from statistics import median
 from typing import TypeVar
 
@@ -65,3 +68,13 @@ class IterationClock:
         self.cpu += cpu - self._last[0]
         self.wall += wall - self._last[1]
         self._last = (cpu, wall)
+
+
+def peak_memory() -> float:
+    """Bytes; on Linux of this program alone, since there `getrusage` begins with those of the process that started it."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        line = next(row for row in status.read_text().splitlines() if row.startswith("VmHWM"))
+        return 1024.0 * int(line.split()[1])
+    unit = 1 if sys.platform == "darwin" else 1024
+    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)

@@ -6,12 +6,14 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from benchmarks.eigenpairs import eigensystem
 from benchmarks.line import Line, race
 from benchmarks.measurement import measure
 from benchmarks.scenes import cortex_scene
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.nodal_domains import nodal_counts
 from surfexp.spectrum.nodal_graph import nodal_graph
 
@@ -26,7 +28,8 @@ def lines(quick: bool) -> list[Line]:
     """Return the line of 300 functions on 39,994 vertices."""
     size, count = (10000, 40) if quick else (39994, 300)
     mesh = cortex_scene(size).surface.mesh
-    vectors = eigensystem(size, count)[0].vectors
+    operator = fem(mesh)
+    vectors = eigenpairs(stiffness(operator), mass_matrix(operator), count).vectors
     edges = np.unique(np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     ours, cost = measure(lambda: nodal_counts(nodal_graph(mesh.faces, len(mesh.vertices)), vectors))
     theirs, their_cost = measure(lambda: _components(edges, vectors))

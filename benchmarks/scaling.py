@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import resource
-import sys
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from multiprocessing import get_context
-from pathlib import Path
 
 import numpy as np
 
 from benchmarks.line import Line
-from benchmarks.measurement import Cost, measure
+from benchmarks.measurement import Cost, measure, peak_memory
 from surfexp.mesh.torus import periodic_grid_faces, torus_points
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
@@ -63,19 +60,9 @@ def _in_own_process(rows: int, columns: int) -> tuple[Cost, float]:
 
 def _cost_and_memory(rows: int, columns: int) -> tuple[Cost, float]:
     _solve(40, 16)
-    before = _peak_memory()
+    before = peak_memory()
     _, cost = measure(partial(_solve, rows, columns))
-    return cost, _peak_memory() - before
-
-
-def _peak_memory() -> float:
-    """Bytes; on Linux of this program alone, since there `getrusage` begins with those of the process that started it."""
-    status = Path("/proc/self/status")
-    if status.exists():
-        line = next(row for row in status.read_text().splitlines() if row.startswith("VmHWM"))
-        return 1024.0 * int(line.split()[1])
-    unit = 1 if sys.platform == "darwin" else 1024
-    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
+    return cost, peak_memory() - before
 
 
 def _solve(rows: int, columns: int) -> None:

@@ -84,11 +84,16 @@ def _exact_graph(size: int) -> Line:
 
 
 def _vtk(vtk: Any, mesh: TriangleMesh, height: Floats) -> ReebGraph:
+    from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+
+    surface, points, cells, field = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray(), numpy_to_vtk(height)
+    points.SetData(numpy_to_vtk(mesh.vertices))
+    rows = np.column_stack([np.full(len(mesh.faces), 3), mesh.faces]).ravel()
+    cells.SetCells(len(mesh.faces), numpy_to_vtkIdTypeArray(rows))
+    surface.SetPoints(points)
+    surface.SetPolys(cells)
     graph = vtk.vtkReebGraph()
-    for i in range(len(mesh.faces)):
-        corners = mesh.faces[i].tolist()
-        graph.StreamTriangle(*(part for v in corners for part in (v, float(height[v]))))
-    graph.CloseStream()
+    graph.Build(surface, field)
     output = vtk.vtkReebGraph.SafeDownCast(graph)
     names = output.GetVertexData().GetAbstractArray("Vertex Ids")
     vertices = np.array([int(names.GetTuple1(i)) for i in range(output.GetNumberOfVertices())])

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from surfexp.workflow.fingerprint import compiled_state
 
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True)
 settings.load_profile("unhurried")
@@ -16,10 +17,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 ROOT = Path(__file__).resolve().parent.parent
-_state = hashlib.sha256(b"".join(path.read_bytes() for path in sorted((ROOT / "surfexp").rglob("*.py")))).hexdigest()[
-    :20
-]
-os.environ["NUMBA_CACHE_DIR"] = str(ROOT / "results" / "cache" / "numba" / f"tests-{_state}")
+os.environ["NUMBA_CACHE_DIR"] = str(ROOT / "results" / "cache" / "numba" / compiled_state())
 
 
 @pytest.fixture

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 distributions = cache(importlib.metadata.packages_distributions)
+DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 PACKAGE = Path(__file__).resolve().parent.parent
 
 
@@ -70,11 +71,11 @@ def edited_since(moment: float, file: Path) -> bool:
 
 
 @cache
-def numba_state(file: Path, code: str) -> str:
-    """Name of the compilation cache of a plugin: one for all plugins of this package, one each for those of others."""
-    meanings = sorted(_meaning(path) for path in PACKAGE.rglob("*.py"))
-    own = digest([meanings, package_version("numba"), sys.version_info[:2]])
-    return own if file.parent.parent == PACKAGE.parent / "plugins" else digest([own, code])
+def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
+    """Name of the compilation cache of a plugin: digest of every module that compiles and of all that it imports."""
+    compiled = [path for path in (*PACKAGE.rglob("*.py"), *code_closure(file)[0]) if _compiles(path)]
+    meanings = sorted({_meaning(part) for path in compiled for part in code_closure(path)[0]})
+    return digest([meanings, package_version("numba"), sys.version_info[:2]])
 
 
 @cache
@@ -89,12 +90,15 @@ def package_version(module: str) -> str:
 
 
 @cache
+def _compiles(path: Path) -> bool:
+    return b"njit" in path.read_bytes()
+
+
+@cache
 def _meaning(path: Path) -> str:
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-            continue
-        if ast.get_docstring(node, clean=False) is not None:
+        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
             node.body = node.body[1:]
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
 

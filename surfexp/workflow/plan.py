@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from surfexp.workflow.configuration import Context, Settings, merge, one_line, settings_of, stage
 from surfexp.workflow.errors import UserError, unknown
-from surfexp.workflow.fingerprint import code_digest, digest, file_digest, numba_state
+from surfexp.workflow.fingerprint import code_digest, compiled_state, digest, file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.registry import PLUGINS, Plugin, plugin
 from surfexp.workflow.store import write_text
@@ -162,9 +162,7 @@ class _Resolver:
                 )
             return key
         if axis not in self.axes:
-            raise unknown(
-                f"axis for list input {role!r} of {method.kind}/{method.name} (set 'over')", str(axis), self.axes
-            )
+            raise unknown(f"axis of list input {role!r} of {method.kind}/{method.name} (over)", str(axis), self.axes)
         members = _members(self.axes[axis])
         keys = {str(label): self.node(wanted.kind, merge(context, part), path) for label, part in members.items()}
         return keys if wanted.shape == "dict" else list(keys.values())
@@ -174,7 +172,7 @@ class _Resolver:
         code = code_digest(method.file)
         content = {name: _content(value, method.options.model_fields[name]) for name, value in options.items()}
         key = digest([method.kind, method.name, content, inputs, code])
-        where, cache = str(method.file), numba_state(method.file, code)
+        where, cache = str(method.file), compiled_state(method.file)
         self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs)
         return key
 

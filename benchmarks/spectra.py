@@ -1,0 +1,153 @@
+"""One spectrum in a process of its own: by us, by LaPy with CHOLMOD, or by a tuned eigsh with CHOLMOD."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+from multiprocessing import get_context
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from benchmarks import THREADS
+from benchmarks.line import Line, not_installed
+from benchmarks.measurement import Cost, measure, peak_memory
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.eigensystem import measure as measure_vectors
+
+RESIDUAL = 1e-8
+LAPY, TUNED = "LaPy with CHOLMOD", "eigsh with CHOLMOD, tuned"
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """What one solver gave and took.
+
+    Parameters
+    ----------
+    values : (k,) array
+    residual : float
+        Largest relative residual.
+    complete : bool
+        Whether no eigenvalue is proved to be missed.
+    cost : Cost
+    memory : float
+        Bytes by which the peak resident memory of the process grew.
+    """
+
+    values: Floats
+    residual: float
+    complete: bool
+    cost: Cost
+    memory: float
+
+
+def ours(mesh: TriangleMesh, count: int, threads: int = 1, runs: int = 3) -> Spectrum:
+    """Return the spectrum by slicing."""
+    return _apart(_slicing, mesh, count, threads, runs)
+
+
+def lapy(mesh: TriangleMesh, count: int, threads: int = 1) -> Spectrum:
+    """Return the spectrum by LaPy with its CHOLMOD switched on; it has no tolerance to set."""
+    return _apart(_lapy, mesh, count, threads, 1)
+
+
+def tuned(mesh: TriangleMesh, count: int) -> Spectrum:
+    """Return the spectrum by ARPACK with a basis of 2.2 k and the tolerance 1e-9, which reaches about our residual."""
+    return _apart(_tuned, mesh, count, 1, 1)
+
+
+def race(work: str, rival: str, least: float, one: Spectrum, other: Spectrum, *, wall: bool = False) -> Line:
+    """Return the line; it is met only where ours is complete, within the residual, and at most 1.2 of LaPy's memory."""
+    ratio = other.cost.wall / one.cost.wall if wall else other.cost.cpu / one.cost.cpu
+    memory = one.memory / other.memory
+    agree = float(np.abs(one.values[1:] - other.values[1:]).max() / one.values[-1])
+    accuracy = f"{describe(one)}; rival {other.residual:.1e}, {_gigabytes(other)}; values agree to {agree:.0e}"
+    fair = one.complete and one.residual <= RESIDUAL and agree < 1e-8 and (rival != LAPY or memory <= 1.2)
+    note = "ratio of wall seconds" if wall else ""
+    return Line(
+        work, rival, f"{least:g}×", f"{ratio:.1f}×", fair and ratio >= least, one.cost, other.cost, accuracy, note
+    )
+
+
+def describe(spectrum: Spectrum) -> str:
+    """Return residual, completeness and memory in words."""
+    proved = "complete by inertia" if spectrum.complete else "not proved complete"
+    return f"largest relative residual {spectrum.residual:.1e}, {proved}, {_gigabytes(spectrum)}"
+
+
+def has_cholmod() -> bool:
+    """Return whether LaPy and scikit-sparse are there."""
+    return all(find_spec(name) is not None for name in ("lapy", "sksparse"))
+
+
+def without_cholmod(work: str, rival: str, least: float) -> Line:
+    """Return the line of a rival that cannot be run; scikit-sparse needs the SuiteSparse library of the system."""
+    return not_installed(work, rival, least, "lapy or scikit-sparse (which needs libsuitesparse-dev)")
+
+
+def _gigabytes(spectrum: Spectrum) -> str:
+    return f"{spectrum.memory / 2**30:.2f} GiB"
+
+
+def _apart(
+    solve: Callable[[TriangleMesh, int], tuple[Floats, Floats, bool]],
+    mesh: TriangleMesh,
+    count: int,
+    threads: int,
+    runs: int,
+) -> Spectrum:
+    os.environ[THREADS] = str(threads)
+    try:
+        with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+            return pool.submit(_measured, solve, mesh, count, runs).result()
+    finally:
+        del os.environ[THREADS]
+
+
+def _measured(
+    solve: Callable[[TriangleMesh, int], tuple[Floats, Floats, bool]], mesh: TriangleMesh, count: int, runs: int
+) -> Spectrum:
+    solve(icosphere(3).mesh, 20)
+    before = peak_memory()
+    (values, vectors, complete), cost = measure(partial(solve, mesh, count), runs)
+    memory = peak_memory() - before
+    residual = float(measure_vectors(*_matrices(mesh), np.asfortranarray(vectors)).residuals.max())
+    return Spectrum(values, residual, complete, cost, memory)
+
+
+def _matrices(mesh: TriangleMesh) -> tuple[csr_array, csr_array]:
+    operator = fem(mesh)
+    return stiffness(operator), mass_matrix(operator)
+
+
+def _slicing(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
+    found = eigenpairs(*_matrices(mesh), count, "slicing", RESIDUAL)
+    return found.values, found.vectors, found.complete
+
+
+def _lapy(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
+    from lapy import Solver, TriaMesh
+
+    values, vectors = Solver(TriaMesh(mesh.vertices, mesh.faces), use_cholmod=True).eigs(count)
+    return values, vectors, False
+
+
+def _tuned(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
+    from sksparse.cholmod import cholesky
+
+    a, b = _matrices(mesh)
+    shift = -0.01 * 4.0 * np.pi / float(b.sum())
+    inverse = LinearOperator(a.shape, matvec=cholesky((a - shift * b).tocsc()), dtype=np.float64)
+    start = np.random.default_rng(0).normal(size=a.shape[0])
+    values, vectors = eigsh(a, count, b, sigma=shift, OPinv=inverse, v0=start, ncv=int(2.2 * count) + 20, tol=1e-9)
+    return values, vectors, False
