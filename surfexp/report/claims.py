@@ -13,16 +13,17 @@ from surfexp.report.table import Row, format_number
 
 
 class Claim(BaseModel):
-    """One published statement as an experiment's `claims:` writes it.
+    """One statement as an experiment's `claims:` writes it, published or the experiment's own.
 
     The number is the mean of `metric` over the rows that match `of`, divided by its mean over those that match `over`
-    when that is given. It reproduces the claim when it lies in the interval `holds`.
+    when that is given. It reproduces the claim when it lies in the interval `holds`. A statement with nothing printed
+    is the experiment's own, and "holds" or "does not hold".
     """
 
     model_config = ConfigDict(extra="forbid")
 
     claim: str = Field(description="the statement, with its place in the dissertation")
-    printed: str = Field("", description="the number as printed")
+    printed: str = Field("", description="the number as printed, or the word stated; empty for a statement of our own")
     metric: str = Field(description="a metric of the rows, or seconds")
     of: dict[str, Any] = Field({}, description="parameters that select rows")
     over: dict[str, Any] | None = Field(None, description="parameters of the rows to divide by")
@@ -40,6 +41,14 @@ class Verdict:
     low: float | None
     high: float | None
     verdict: str
+
+    @property
+    def interval(self) -> str:
+        """The numbers that reproduce the claim, for a table."""
+        low, high = (None if end is None else format_number(end) for end in self.claim.holds)
+        if low is None or high is None:
+            return f"≥ {low}" if low is not None else f"≤ {high}" if high is not None else "any"
+        return low if low == high else f"{low} to {high}"
 
     @property
     def number(self) -> str:
@@ -64,7 +73,8 @@ def _judge(claim: Claim, rows: Sequence[Row]) -> Verdict:
     low, high = min(above) / max(below), max(above) / min(below)
     lower, upper = claim.holds
     holds = (lower is None or value >= lower) and (upper is None or value <= upper)
-    return Verdict(claim, value, low, high, "reproduced" if holds else claim.otherwise)
+    words = ("reproduced", claim.otherwise) if claim.printed else ("holds", "does not hold")
+    return Verdict(claim, value, low, high, words[0] if holds else words[1])
 
 
 def _values(metric: str, wanted: Mapping[str, Any], rows: Sequence[Row]) -> list[float]:
@@ -78,11 +88,12 @@ def _values(metric: str, wanted: Mapping[str, Any], rows: Sequence[Row]) -> list
 def as_markdown(experiment: str, title: str, verdicts: Sequence[Verdict]) -> str:
     """One section of `docs/reproduction.md`."""
     lines = [f"## {title or experiment}", "", f"`surfexp run experiment={experiment}`", ""]
-    lines += ["| claim | printed | found | verdict | why |", "|---|---|---|---|---|"]
+    lines += ["| claim | printed | holds for | found | verdict | why |", "|---|---|---|---|---|---|"]
     for item in verdicts:
         cells = (
             item.claim.claim,
             item.claim.printed or "–",
+            item.interval,
             item.number,
             f"**{item.verdict}**",
             item.claim.cause or "–",

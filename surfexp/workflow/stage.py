@@ -94,9 +94,9 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
         return [one(child) for child in value] if isinstance(value, list) else {k: one(v) for k, v in value.items()}
 
     options, inputs = method.options(**node.options), {role: some(value) for role, value in node.inputs.items()}
-    started = time.perf_counter()
+    started = time.process_time()
     result = method.function(options, **inputs)
-    _progress["seconds"] = time.perf_counter() - started
+    _progress["seconds"] = time.process_time() - started
     expected = KINDS[node.kind].result
     if not isinstance(result, expected):
         raise TypeError(f"returned {type(result).__name__}, a {node.kind} plugin returns {expected.__name__}")
