@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Sequence
 from importlib import import_module
@@ -26,6 +28,8 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "new": ("new", "write a plugin file with its test: surfexp new KIND NAME"),
     "view": ("view", "turn a surface in a window (needs open3d): surfexp view FILE"),
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
+    "collect": ("collect", "an axis of your own surfaces: surfexp collect FOLDER --to NAME, then run axes=NAME"),
+    "fetch": ("fetch", "get a public collection: surfexp fetch tosca [--to FOLDER]"),
     "doctor": ("doctor", "versions, system libraries, disk; how to mend what is missing"),
 }
 
@@ -55,6 +59,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not given or given[0] in ("--help", "-h", "help"):
         print(usage())
         return 0
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: Snakemake is not left behind
     try:
         if given[0] not in COMMANDS:
             raise unknown("command", given[0], COMMANDS)

@@ -240,7 +240,8 @@ def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
     assert not (laboratory / "results" / "store").exists()
 
 
-def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path) -> None:
+@pytest.mark.parametrize("by", ["ctrl-c", "kill"])
+def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path, by: str) -> None:
     command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -248,7 +249,10 @@ def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path) -> 
     deadline = time.monotonic() + 200
     while not list(laboratory.glob("results/store/*/*/record.json")) and time.monotonic() < deadline:
         time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGINT)
+    if by == "kill":
+        os.kill(process.pid, signal.SIGTERM)
+    else:
+        os.killpg(process.pid, signal.SIGINT)
     _, error = process.communicate(timeout=60)
     assert process.returncode == 130 and "interrupted" in error and "Traceback" not in error, error
     surfexp("run", "experiment=chain")
