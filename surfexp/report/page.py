@@ -8,7 +8,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, select_autoescape
 
 from surfexp.figures.encode import encode_png
+from surfexp.figures.figure import Figure
 from surfexp.report.claims import judge
+from surfexp.report.costs import cost_figure
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.workflow import store
 from surfexp.workflow.plan import Plan
@@ -20,12 +22,13 @@ def write_report(plan: Plan, results: Path) -> Path:
     rows = rows_of(plan, results)
     groups = comparisons(rows)
     figures = _write_figures(plan, results, folder / "figures")
+    costs = {group.title: _costs_of(group, folder / "figures", k) for k, group in enumerate(groups)}
     store.write_text(folder / "metrics.csv", to_csv(rows))
     environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=select_autoescape())
     environment.filters.update(number=format_number, heading=short_name)
     page = environment.get_template("report.html.j2").render(
         settings=plan.settings,
-        groups=[(group, _figures_of(group, figures)) for group in groups],
+        groups=[(group, _figures_of(group, figures) + costs[group.title]) for group in groups],
         failures=[row for row in rows if row.failure],
         best=_best,
         verdicts=judge(plan.settings.claims, rows),
@@ -47,15 +50,31 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
             figure = store.load(results, "figure", key)
             name = f"{plan.nodes[key].plugin}-{key[:8]}.png"
             if not (folder / name).exists():
-                temporary = folder / f".{name}"
-                temporary.write_bytes(encode_png(figure.pixels))
-                temporary.rename(folder / name)
-            height, width = figure.pixels.shape[:2]
-            wanted[key] = {"file": name, "figure": figure, "width": width, "height": height}
+                _write(figure, folder / name)
+            wanted[key] = _shown(name, figure)
     for file in folder.glob("*.png"):
         if file.name not in {item["file"] for item in wanted.values()}:
             file.unlink()
     return wanted
+
+
+def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, Any]]:
+    figure, name = cost_figure(group), f"cost-{number}.png"
+    if figure is None:
+        return []
+    _write(figure, folder / name)
+    return [_shown(name, figure)]
+
+
+def _write(figure: Figure, file: Path) -> None:
+    temporary = file.with_name(f".{file.name}")
+    temporary.write_bytes(encode_png(figure.pixels))
+    temporary.rename(file)
+
+
+def _shown(name: str, figure: Figure) -> dict[str, Any]:
+    height, width = figure.pixels.shape[:2]
+    return {"file": name, "figure": figure, "width": width, "height": height}
 
 
 def _figures_of(group: Comparison, figures: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
@@ -69,8 +88,8 @@ HIGHER_IS_BETTER = ("dice", "accuracy", "psnr")
 
 def _best(group: Comparison, name: str, row: Row) -> bool:
     """Whether a row holds the best value of a metric whose good direction is known."""
-    values = [other.metrics[name] for other in group.rows if name in other.metrics]
-    if name not in row.metrics or len(set(values)) < 2:
+    values = [other.metrics[name] for other in group.rows if name in other.metrics and not other.limited]
+    if name not in row.metrics or row.limited or len(set(values)) < 2:
         return False
     if name.startswith(HIGHER_IS_BETTER):
         return row.metrics[name] == max(values)

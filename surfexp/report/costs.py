@@ -1,0 +1,32 @@
+"""The figure that only a report can draw, since clocks are in the records of stages: gap against seconds."""
+
+from __future__ import annotations
+
+from statistics import median
+
+import numpy as np
+
+from surfexp.figures.cost_plot import cost_plot
+from surfexp.figures.figure import Figure
+from surfexp.report.table import Comparison
+
+GAP, TOLERANCE, SEED = "relative_gap", "solver.tolerance", "image.seed"
+CAPTION = "Measured, one run for each tolerance; the band is the range over the seeds of the noise."
+
+
+def cost_figure(group: Comparison) -> Figure | None:
+    """Draw certified gap against seconds where a comparison has several solvers at several tolerances, else nothing."""
+    found: dict[str, dict[str, list[tuple[float, float]]]] = {}
+    for row in group.rows:
+        gap = row.metrics.get(GAP, 0.0)
+        if gap > 0.0 and row.seconds > 0.0 and not row.failure and TOLERANCE in row.parameters:
+            places = found.setdefault(str(row.parameters["solver.name"]).replace("_", " "), {})
+            places.setdefault(str(row.parameters[TOLERANCE]), []).append((gap, row.seconds))
+    if len(found) < 2 or sum(len(places) > 1 for places in found.values()) < 2:
+        return None
+    methods = {}
+    for name, places in found.items():
+        gaps = np.array([median(gap for gap, _ in runs) for runs in places.values()])
+        clocks = [[clock for _, clock in runs] for runs in places.values()]
+        methods[name] = gaps, np.array([(median(times), min(times), max(times)) for times in clocks])
+    return cost_plot(methods, title="Cost", caption=CAPTION)
