@@ -7,8 +7,12 @@ import importlib
 import time
 
 from benchmarks import ROOT
+from benchmarks.gap_curves import gap_curves
 from benchmarks.line import Line
 from benchmarks.table import conditions, describe, page
+from surfexp.figures.encode import encode_png
+
+PICTURE = ROOT / "docs" / "gap_against_time.png"
 
 SECTIONS = {
     "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling"),
@@ -42,6 +46,7 @@ def main() -> None:
             sections.setdefault(heading, []).extend(found)
             print("\n".join(describe(line) for line in found), flush=True)
     if not options.names and not options.quick:
+        PICTURE.write_bytes(encode_png(gap_curves().pixels))
         (ROOT / "BENCHMARKS.md").write_text(page(sections, compilation), encoding="utf-8")
 
 

@@ -36,7 +36,7 @@ def warm_up() -> None:
 def lines(quick: bool) -> list[Line]:
     """Return the lines of the linear conformal map, of the conformal flow and of the level-set method."""
     scene = cortex_scene(10000 if quick else 39994)
-    points, steps = (48, 20) if quick else (GRID_POINTS, 400)
+    points, steps = (48, 20) if quick else (GRID_POINTS, 3000)
     ours, cost = measure(lambda: _intrinsic(scene))
     excess = _excess(scene, ours)
     rivals = [
@@ -71,7 +71,7 @@ def _level_set(scene: Scene, points: int, steps: int) -> Solution:
     mesh = scene.surface.mesh
     spacing = float(np.ptp(mesh.vertices, axis=0).max()) / points
     method = replace(level_set(mesh, spacing), tolerance=1e-3, step_limit=steps)
-    return ConvexChanVese(updates=2).run(scene.image, fem(mesh), method)
+    return ConvexChanVese().run(scene.image, fem(mesh), method)
 
 
 def _excess(scene: Scene, solution: Solution) -> float:

@@ -57,6 +57,9 @@ def page(sections: Mapping[str, Sequence[Line]], compilation: Mapping[str, float
         rows = [_row(line) for line in lines]
         parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|", *rows]) + "\n")
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
+    parts.append(
+        "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
+    )
     spent = ", ".join(f"{name} {seconds:.1f} s" for name, seconds in compilation.items())
     parts.append(f"## Compilation\n\nFirst call on a small case, compiled or read from the cache on disk: {spent}.\n")
     return "\n".join(parts)
