@@ -37,7 +37,7 @@ def filtered_nodal_counts(graph: NodalGraph, vectors: Floats, saddles: Floats, p
     """
     _check(graph, vectors)
     columns = np.ascontiguousarray(vectors.T)
-    return _count(graph.starts, graph.neighbours, columns, np.asarray(saddles, float), np.asarray(peaks, float))
+    return _count(*graph.sweep, columns, np.asarray(saddles, float), np.asarray(peaks, float))
 
 
 def nodal_thresholds(values: Floats, area: float, node_count: int) -> tuple[Floats, Floats]:
@@ -105,34 +105,41 @@ def _check(graph: NodalGraph, vectors: Floats) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _count(starts: Integers, neighbours: Integers, columns: Floats, saddles: Floats, peaks: Floats) -> Integers:
+def _count(
+    order: Integers, starts: Integers, earlier: Integers, columns: Floats, saddles: Floats, peaks: Floats
+) -> Integers:
+    """Pieces grow as the sweep passes: a node joins those of its earlier neighbours of its sign, which become one."""
     n = columns.shape[1]
     result = np.zeros(len(columns), np.int64)
-    # +1 and -1 for nodes above the level that wait, 0 for those below it or seen
-    waiting, queue = np.empty(n, np.int8), np.empty(n, np.int32)
+    sign, label, parent, top = np.empty(n, np.int8), np.empty(n, np.int32), np.empty(n, np.int32), np.empty(n)
     for c in range(len(columns)):
-        values, level, peak = columns[c], saddles[c], peaks[c]
-        for i in range(n):
-            waiting[i] = 0 if abs(values[i]) < level or values[i] == 0.0 else (1 if values[i] >= 0.0 else -1)
-        for root in range(n):
-            sign = waiting[root]
-            if sign == 0:
+        pieces = np.int32(0)
+        for place in range(n):
+            value = columns[c, order[place]]
+            height = abs(value)
+            sign[place] = 0 if height < saddles[c] or value == 0.0 else (1 if value > 0.0 else -1)
+            if sign[place] == 0:
                 continue
-            queue[0] = root
-            waiting[root] = 0
-            head, tail, highest = 0, 1, abs(values[root])
-            while head < tail:
-                node = queue[head]
-                head += 1
-                for p in range(starts[node], starts[node + 1]):
-                    other = neighbours[p]
-                    if waiting[other] == sign:
-                        waiting[other] = 0
-                        highest = max(highest, abs(values[other]))
-                        queue[tail] = other
-                        tail += 1
-            if highest >= peak:
-                result[c] += 1
+            own = np.int32(-1)
+            for p in range(starts[place], starts[place + 1]):
+                if sign[earlier[p]] != sign[place] or label[earlier[p]] == own:
+                    continue
+                other = label[earlier[p]]
+                while parent[other] != other:
+                    other = parent[other]
+                if own >= 0 and other != own:
+                    own, other = min(own, other), max(own, other)
+                    parent[other] = own
+                    top[own] = max(top[own], top[other])
+                else:
+                    own = other
+            if own < 0:
+                own, pieces = pieces, pieces + np.int32(1)
+                parent[own], top[own] = own, 0.0
+            label[place] = own
+            top[own] = max(top[own], height)
+        for piece in range(pieces):
+            result[c] += parent[piece] == piece and top[piece] >= peaks[c]
     return result
 
 

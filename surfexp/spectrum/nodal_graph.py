@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array, csr_array, tril
+from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from surfexp.mesh.triangle_mesh import Integers
 from surfexp.operators.elements_nodes import ElementNodes
@@ -31,6 +33,19 @@ class NodalGraph:
 
     starts: Integers
     neighbours: Integers
+
+    @cached_property
+    def sweep(self) -> tuple[Integers, Integers, Integers]:
+        """The nodes in an order of small bandwidth (Cuthill and McKee), and of each place its neighbours at earlier places.
+
+        (n,) int32 nodes, then (n + 1,) int32 starts and int32 places in the manner of the lists above.
+        """
+        count = len(self.starts) - 1
+        entries = np.ones(len(self.neighbours), np.int8)
+        graph = csr_array((entries, self.neighbours, self.starts), shape=(count, count))
+        order = reverse_cuthill_mckee(graph, symmetric_mode=True)
+        earlier = tril(graph[order][:, order], -1, format="csr")
+        return order.astype(np.int32), earlier.indptr.astype(np.int32), earlier.indices.astype(np.int32)
 
 
 def nodal_graph(faces: Integers, count: int) -> NodalGraph:
