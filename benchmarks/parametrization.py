@@ -36,7 +36,7 @@ def warm_up() -> None:
 def lines(quick: bool) -> list[Line]:
     """Return the lines of the linear conformal map, of the conformal flow and of the level-set method."""
     scene = cortex_scene(10000 if quick else 39994)
-    points, steps = (48, 20) if quick else (GRID_POINTS, 3000)
+    points, steps = (48, 20) if quick else (GRID_POINTS, 1000)
     ours, cost = measure(lambda: _intrinsic(scene))
     excess = _excess(scene, ours)
     rivals = [

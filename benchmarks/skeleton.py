@@ -36,6 +36,7 @@ def lines(quick: bool) -> list[Line]:
     found = [_marching(size) for size in sizes]
     found.append(_exact_graph(10000 if quick else 39994))
     found.append(_sampled_graph(10000 if quick else 160000))
+    found.append(_crossings(10000 if quick else 160000))
     return [*found, _patch(0.6, 0.15), *([] if quick else [_patch(0.19, 1.5)])]
 
 
@@ -116,6 +117,25 @@ def _sampled_graph(size: int) -> Line:
     graph, cost = measure(lambda: reeb_graph(mesh, height, levels))
     accuracy = f"{graph.metrics['b1']:.0f} loops for 2 handles"
     return _within(f"Reeb graph of {size:,} V, 200 levels", 2.0, cost, accuracy, graph.metrics["b1"] == 2)
+
+
+def _crossings(size: int) -> Line:
+    mesh = genus_surface(2, size).mesh
+    height = mesh.vertices @ np.array([0.3, 0.5, 0.8])
+    counts, costs, crossings = (25, 50, 100, 200, 400, 800), [], []
+    for count in counts:
+        levels = choose_levels(mesh, height, count, "uniform")
+        graph, cost = measure(lambda levels=levels: reeb_graph(mesh, height, levels))
+        costs.append(cost)
+        crossings.append(len(graph.contour_points))
+    seconds = np.array([cost.cpu for cost in costs])
+    slope, fixed = np.polyfit(np.array(crossings[:4], float), seconds[:4], 1)
+    growth = float(seconds[-1] / (fixed + slope * crossings[-1]))
+    work = f"Reeb graph of {len(mesh.vertices):,} V: {counts[0]} to {counts[-1]} levels, {crossings[-1]:,} crossings"
+    seen = ", ".join(f"{n / 1000:.0f}k {t:.3g} s" for n, t in zip(crossings, seconds, strict=True))
+    note = f"{1e9 * slope:.0f} ns for a crossing and {fixed:.2g} s for the mesh, from the first four"
+    result, met = f"{growth:.2f}× the line", growth <= 1.25
+    return Line(work, "the line through 25 to 200 levels", "1.25× the line", result, met, costs[-1], None, seen, note)
 
 
 def _patch(edge_length: float, least: float) -> Line:
