@@ -12,10 +12,12 @@ import time
 from pathlib import Path
 
 from mutation.fault import Fault
-from mutation.faults import FAULTS
+from mutation.geometry_faults import GEOMETRY_FAULTS
+from mutation.variational_faults import VARIATIONAL_FAULTS
 
 ROOT = Path(__file__).resolve().parent.parent
 PASSED, FAILED = 0, 1
+FAULTS = VARIATIONAL_FAULTS + GEOMETRY_FAULTS
 SEEDED = "import surfexp; assert surfexp.__path__[0].startswith({root!r}), surfexp.__path__"
 
 

@@ -15,7 +15,7 @@ ADJOINT = "operators/test_fem.py::test_divergence_is_the_negative_adjoint_of_the
 LIBIGL = "operators/test_fem.py::test_libigl_agrees"
 COAREA = "variational/test_level_sets.py::test_coarea_formula_is_exact"
 
-FAULTS = (
+VARIATIONAL_FAULTS = (
     Fault(
         "adjoint with a wrong sign at one corner",
         "operators/calculus.py",

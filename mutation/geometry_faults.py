@@ -1,0 +1,114 @@
+"""The table of faults in spectra, statistics, skeletons and spectral distances."""
+
+from __future__ import annotations
+
+from mutation.fault import Fault
+
+DISK = "spectrum/test_heat.py::test_disk"
+SPHERE = "spectrum/test_heat.py::test_sphere"
+COUNTS = "spectrum/test_nodal.py::test_counts_and_labels_equal_scipy"
+BUMP = "spectrum/test_nodal.py::test_a_bump_below_the_peak_threshold_is_no_domain"
+MISSED = "spectrum/test_eigensolver.py::test_a_planted_gap_is_caught"
+INERTIA = "linalg/test_ldlt.py::test_inertia_equals_dense_counts_at_random_shifts_on_a_clustered_spectrum"
+PLANE = "statistics/test_embeddings.py::test_points_of_the_plane_are_recovered"
+PEOPLE = "statistics/test_classifiers.py::test_nobody_is_judged_by_their_own_other_side"
+FRONT = "skeleton/test_flux.py::test_fast_marching_converges_to_arcs_on_the_sphere"
+HANDLES = "skeleton/test_reeb_graph.py::test_loops_are_handles_on_random_surfaces_and_functions"
+CONTRACTION = "skeleton/test_reeb_graph.py::test_the_sampled_graph_is_a_contraction_of_the_exact_one"
+STOPPED = "embedding/test_sign_search.py::test_a_stopped_search_says_so_and_its_bound_holds"
+ENUMERATION = "embedding/test_sign_search.py::test_branch_and_bound_equals_enumeration"
+SHIFTED = "embedding/test_distances.py::test_wasserstein_of_a_shift_and_of_sorted_numbers"
+
+GEOMETRY_FAULTS = (
+    Fault(
+        "boundary term of the heat trace twice as large",
+        "spectrum/heat_trace.py",
+        "boundary_length / (8.0 * np.sqrt",
+        "boundary_length / (4.0 * np.sqrt",
+        (DISK,),
+    ),
+    Fault(
+        "constant of the heat trace without pi, as printed",
+        "spectrum/heat_trace.py",
+        "return euler_characteristic / 6.0",
+        "return euler_characteristic / (6.0 * np.pi)",
+        (SPHERE,),
+    ),
+    Fault(
+        "pieces of one sign that meet stay apart",
+        "spectrum/nodal_domains.py",
+        "                    parent[other] = own",
+        "                    parent[other] = other",
+        (COUNTS,),
+    ),
+    Fault(
+        "a piece that has grown keeps its first peak",
+        "spectrum/nodal_domains.py",
+        "            top[own] = max(top[own], height)",
+        "            top[own] = max(top[own], 0.0)",
+        (COUNTS, BUMP),
+    ),
+    Fault(
+        "a slice is complete though pairs are missing",
+        "spectrum/spectrum_slice.py",
+        "complete = len(values) == expected and",
+        "complete = len(values) <= expected and",
+        (MISSED,),
+    ),
+    Fault(
+        "inertia counts positive pivots as negative",
+        "linalg/ldlt.py",
+        "(self._pivots < 0",
+        "(self._pivots > 0",
+        (INERTIA,),
+    ),
+    Fault(
+        "double centring with the other sign",
+        "statistics/embeddings.py",
+        "eigh(-0.5 * centring",
+        "eigh(0.5 * centring",
+        (PLANE,),
+    ),
+    Fault(
+        "training on the person who is judged",
+        "statistics/classifiers.py",
+        "np.flatnonzero(owners != owner)",
+        "np.flatnonzero(owners >= 0)",
+        (PEOPLE,),
+    ),
+    Fault(
+        "fronts that only follow edges",
+        "skeleton/fast_marching.py",
+        "    if not fixed[other]:",
+        "    if fixed[other]:",
+        (FRONT,),
+    ),
+    Fault(
+        "regular vertices told by their upper side alone",
+        "skeleton/exact_reeb_graph.py",
+        "regular = upper == 2 and lower == 2",
+        "regular = upper == 2",
+        (HANDLES, CONTRACTION),
+    ),
+    Fault(
+        "a stopped search claims its value as the bound",
+        "embedding/sign_search.py",
+        "lower = float(min(bounds))",
+        "lower = value",
+        (STOPPED,),
+    ),
+    Fault(
+        "branches closed that could still be better",
+        "embedding/sign_search.py",
+        "            if depth + 1 < n and found < value:",
+        "            if depth + 1 < n and found < 0.9 * value:",
+        (ENUMERATION,),
+    ),
+    Fault(
+        "transport of squared distances",
+        "embedding/wasserstein.py",
+        "ot.emd2(*weights, cdist(first, second))",
+        "ot.emd2(*weights, cdist(first, second) ** 2)",
+        (SHIFTED,),
+    ),
+)
