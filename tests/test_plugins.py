@@ -24,6 +24,13 @@ SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
+GRID = {
+    "along": 8,
+    "across": 3,
+    "permutations": 20,
+    "halvings": 2,
+    "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+}
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
     ("surface", "hand"): {"count": 4000},
@@ -65,6 +72,8 @@ SMALL = {
     ("surface", "revolution"): {"rows": 16, "columns": 12},
     ("surface", "atrophied"): {"depth": 0.1, "inputs": {"original": {"surface": SPHERE}}},
     ("signature", "spectral"): {"count": 24},
+    ("signature", "brainprint"): {"count": 20},
+    ("surface", "flat_torus"): {"n": 8},
     ("distance_matrix", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
     ("classifier", "random_forest"): {"permutations": 2},
     ("statistic", "isospectral_drums"): {"divisions": 4, "count": 8},
@@ -87,6 +96,9 @@ SMALL = {
     ("operator", "flux_weighted"): {"inputs": {"surface": {"surface": STRIP}}},
     ("feature", "boundary_distance"): {"inputs": {"surface": {"surface": STRIP}}},
     ("feature", "flux"): {"inputs": {"surface": {"surface": STRIP}}},
+    ("feature", "scalar_map"): {
+        "inputs": {"surface": {"surface": {"name": "callosum", "edge_length": 1.0, "pixel": 1.0, "signal": 1.0}}}
+    },
     ("skeleton", "hamilton_jacobi"): {"inputs": {"surface": {"surface": STRIP}}},
     ("skeleton", "reeb_graph"): {"count": 8},
     ("statistic", "genus_check"): {"directions": 2, "counts": [10]},
@@ -97,6 +109,14 @@ SMALL = {
         "permutations": 20,
         "halvings": 2,
         "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+    },
+    ("surface", "donor_cingulate"): {"edge_length": 3.0},
+    ("statistic", "level_set_parametrization"): GRID,
+    ("figure", "level_set_grid"): {
+        "inputs": {
+            "surface": {"surface": STRIP},
+            "statistic": {"statistic": {"name": "level_set_parametrization", **GRID}},
+        }
     },
     ("figure", "skeleton_group"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
     ("figure", "level_sets"): {
@@ -169,7 +189,12 @@ CONTEXT = {
         "members": {f"{name} @ {i}": {"surface": MEMBERS[name] | {"n_u": 20 + i}} for name in MEMBERS for i in (1, 2)},
     },
 }
-NEEDS = {("surface", "point_cloud"): "open3d", ("solver", "conic"): "cvxpy"}
+NEEDS = {
+    ("surface", "point_cloud"): "open3d",
+    ("solver", "conic"): "cvxpy",
+    ("signature", "brainprint"): "lapy",
+    ("embedding", "umap"): "umap",
+}
 
 
 def configuration(kind: str, name: str, folder: Path) -> dict[str, typing.Any]:

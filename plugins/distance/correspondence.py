@@ -49,6 +49,13 @@ class Zoomout(Start):
     field_modes: int = Field(60, ge=2, le=2000, description="size of the functional map of the last refinement")
 
 
+class Wave(Start):
+    """Bands of energy."""
+
+    energies: int = Field(100, ge=2, le=10000, description="number of energies")
+    width: float = Field(7.0, gt=0, le=1000, description="width of a band in steps between energies")
+
+
 @register("distance", "embedding_map")
 def embedding_map_distance(
     options: Sampled, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
@@ -83,7 +90,7 @@ def heat_kernel_signature_distance(
 
 @register("distance", "wave_kernel_signature")
 def wave_kernel_signature_distance(
-    options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
+    options: Wave, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
     """Nearest neighbours in the wave kernel signature, for comparison."""
     return signature_map(Pair(source_surface, target_surface, source, target), "wave", **dict(options))

@@ -1,10 +1,13 @@
 """The spectral distance of chapter 6, exact over signs, with its certificate."""
 
+from dataclasses import replace
 from typing import Literal
 
+import numpy as np
 from pydantic import Field
 
 from surfexp.embedding.distance import Distance
+from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
@@ -33,6 +36,7 @@ class MeanHausdorff(Embedded):
     samples: int = Field(1500, ge=10, le=100000, description="points on which the search starts, drawn by area")
     limit: int = Field(2000, ge=2, le=1000000, description="most evaluations on all points")
     exact: bool = Field(True, description="search on all points with proof, or on samples only")
+    faces: bool = Field(False, description="measure the distance to faces too, in the signs that are best for vertices")
 
 
 @register("distance", "mean_hausdorff")
@@ -71,8 +75,16 @@ def _distance(
 ) -> Distance:
     chosen = dict(options)
     parts = {name: chosen.pop(name) for name in ("n", "weighting", "time")}
-    pair = (
+    to_faces = chosen.pop("faces")
+    first, second = (
         spectral_embedding(system, surface.mesh.vertex_areas, **parts)
         for system, surface in ((source, source_surface), (target, target_surface))
     )
-    return spectral_distance(*pair, **chosen, summary=summary)
+    found = spectral_distance(first, second, **chosen, summary=summary)
+    if not to_faces:
+        return found
+    meshes = source_surface.mesh, target_surface.mesh
+    on_faces = distance_on_faces(first, second.rotated(found.basis), meshes[0].faces, meshes[1].faces, summary)
+    edges = max(mesh.edge_length / np.sqrt(mesh.area) for mesh in meshes)
+    extra = {"distance to faces": on_faces, "gap of vertices": found.value - on_faces, "edge length": edges}
+    return replace(found, metrics={**found.metrics, **extra})

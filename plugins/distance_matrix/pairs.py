@@ -1,10 +1,11 @@
 """Spectral distances between all members of a collection of surfaces."""
 
+from math import comb
 from typing import Literal
 
 from pydantic import Field
 
-from surfexp.embedding.pairwise import Pairing, pairwise_distances, triangle_metrics
+from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -43,8 +44,12 @@ def pairs_matrix(options: Pairs, *, surfaces: dict[str, Surface], systems: dict[
         label: spectral_embedding(systems[label], surface.mesh.vertex_areas, **parts)
         for label, surface in surfaces.items()
     }
-    values, proved = pairwise_distances(embeddings, pairing)
-    triples = triangle_metrics(values)
-    largest = {"largest_distance": float(values.max()), "proved": proved, "pairs": len(values) * (len(values) - 1) / 2}
-    name = f"{options.method} distance, n = {options.n}"
-    return DistanceMatrix(tuple(embeddings), values, name=name, metrics={**triples, **largest})
+    values, bounds = pairwise_distances(embeddings, pairing)
+    count, labels = len(values), tuple(embeddings)
+    sizes = {"pairs": float(comb(count, 2)), "triples": float(comb(count, 3)), "largest_distance": float(values.max())}
+    metrics = {**triangle_metrics(values), **sizes, **gap_metrics(values, bounds)}
+    searched = options.method in ("mean_hausdorff", "hausdorff", "wasserstein")
+    notes = unproved_pairs(labels, values, bounds) if searched else ()
+    return DistanceMatrix(
+        labels, values, name=f"{options.method} distance, n = {options.n}", metrics=metrics, notes=notes
+    )

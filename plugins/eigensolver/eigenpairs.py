@@ -18,6 +18,7 @@ class Eigenpairs(Options):
     count: int = Field(50, ge=1, le=5000, description="number of pairs, k")
     order: Literal[1, 2, 3] = Field(1, description="order of the elements")
     curved: bool = Field(False, description="nodes of order 2, 3 on the smooth surface: sphere, disk, torus")
+    patches: bool = Field(False, description="nodes of order 2, 3 on cubic patches through vertices and normals")
     mass: Literal["consistent", "lumped", "averaged"] = Field("consistent", description="mass matrix")
     boundary: Literal["neumann", "dirichlet"] = Field("neumann", description="condition on the boundary")
     tolerance: float = Field(1e-8, ge=1e-12, le=1e-2, description="largest relative residual")

@@ -5,6 +5,7 @@ from pydantic import Field
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.embeddings import (
     classical_scaling,
+    manifold_embedding,
     neighbour_embedding,
     principal_components,
     stress_majorisation,
@@ -47,3 +48,9 @@ def pca_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> Point
 def tsne_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
     """Neighbour embedding t-SNE, which keeps neighbours but no distances."""
     return neighbour_embedding(distance_matrix, options.dimensions, options.seed)
+
+
+@register("embedding", "umap")
+def umap_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+    """Neighbour embedding UMAP, where umap-learn is installed; keeps neighbourhoods but no distances."""
+    return manifold_embedding(distance_matrix, options.dimensions, options.seed)

@@ -34,4 +34,7 @@ def reeb_graph_skeleton(options: ReebGraph, *, surface: Surface, feature: Featur
     metrics = {"edge_length": surface.mesh.edge_length}
     if skeleton.metrics["components"] == 1:
         metrics |= skeleton_lengths(surface.mesh, feature.values, skeleton)
-    return replace(skeleton, metrics={**skeleton.metrics, **metrics})
+    notes = skeleton.notes
+    if len(levels) < options.count:
+        notes += (f"The feature is flat in places: {len(levels)} of {options.count} levels differ.",)
+    return replace(skeleton, metrics={**skeleton.metrics, **metrics}, notes=notes)

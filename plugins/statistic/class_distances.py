@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.statistics.class_distances import class_distances
+from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
@@ -19,3 +20,18 @@ class ClassDistances(Options):
 def class_distances_statistic(options: ClassDistances, *, distance_matrix: DistanceMatrix) -> Statistic:
     """Mean distances between all pairs of classes, and the rank of one pair."""
     return class_distances(distance_matrix, options.first, options.second)
+
+
+class ClassReadings(Options):
+    """Statements that were read off a picture."""
+
+    near: list[tuple[str, str]] = Field(
+        [("cat", "lioness"), ("david", "michael")], description="pairs of classes that are said to be close"
+    )
+    outlying: list[str] = Field(["centaur"], description="classes that are said to be far from all others")
+
+
+@register("statistic", "class_readings")
+def class_readings_statistic(options: ClassReadings, *, distance_matrix: DistanceMatrix) -> Statistic:
+    """Statements about near and outlying classes as ranks of distances; those of absent classes are left out."""
+    return class_readings(distance_matrix, options.near, options.outlying)

@@ -1,5 +1,7 @@
 """Power of a comparison of two groups, section 4.5."""
 
+from typing import Literal
+
 from pydantic import Field
 
 from surfexp.statistics.distance_matrix import DistanceMatrix
@@ -11,10 +13,13 @@ from surfexp.workflow.registry import Options, register
 class GroupPower(Options):
     """Sizes of the groups, and the test."""
 
-    sizes: list[int] = Field([3, 4, 5, 6], description="members of each of the two groups")
+    sizes: list[int] = Field([3, 4, 5, 6], description="units in each of the two groups")
     level: float = Field(0.05, gt=0, lt=1, description="level of the test")
     draws: int = Field(200, ge=10, le=100000, description="groups that are drawn for each size")
     permutations: int = Field(199, ge=19, le=100000, description="permutations of each test")
+    unit: Literal["member", "person"] = Field(
+        "member", description="what is drawn and changes groups; members of one person are not exchangeable"
+    )
     seed: int = Field(0, ge=0, description="seed of draws and permutations")
 
 

@@ -7,18 +7,20 @@ from pydantic import Field
 
 from surfexp.spectrum.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.spectrum.isospectral_graphs import compare_graphs
 from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT, transplantation_pairs
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
-NAMED = "gordon_webb_wolpert"
+NAMED = {"gordon_webb_wolpert": "Gordon-Webb-Wolpert drums", "berard": "drums of Berard's transplantation"}
 
 
 class IsospectralDrums(Options):
     """Which pair, which tile, and how it is meshed."""
 
-    pair: Literal["gordon_webb_wolpert", "0", "1", "2", "3", "4", "5", "6"] = Field(
-        "gordon_webb_wolpert", description="by name, or the number of one of the seven pairs"
+    pair: Literal["gordon_webb_wolpert", "berard", "0", "1", "2", "3", "4", "5", "6"] = Field(
+        "gordon_webb_wolpert",
+        description="by name (berard: the same gluing, for any tile), or the number of one of the seven pairs",
     )
     tile: Literal["right_isosceles", "scalene", "obtuse"] = Field("right_isosceles", description="shape of the tile")
     divisions: int = Field(14, ge=2, le=100, description="divisions of a side of the tile")
@@ -31,7 +33,7 @@ class IsospectralDrums(Options):
 @register("statistic", "isospectral_drums")
 def isospectral_drums(options: IsospectralDrums) -> Statistic:
     """Spectra and nodal counts of two drums of seven equal tiles that sound the same."""
-    named = options.pair == NAMED
+    named = options.pair in NAMED
     pair = GORDON_WEBB_WOLPERT if named else transplantation_pairs()[int(options.pair)]
     found = compare_drums(
         pair,
@@ -46,6 +48,7 @@ def isospectral_drums(options: IsospectralDrums) -> Statistic:
     metrics = {
         "spectral_difference": found.spectral_difference,
         "complete": float(found.first.complete and found.second.complete),
+        "transplanted": found.transplanted,
         "first_differing_mode": float(differing[0]) if len(differing) else 0.0,
         "differing_modes": float(len(differing)),
         "congruent": float(found.outline_difference < 1e-6),
@@ -61,5 +64,30 @@ def isospectral_drums(options: IsospectralDrums) -> Statistic:
         "first counts": found.first_counts.astype(np.float64),
         "second counts": found.second_counts.astype(np.float64),
     }
-    name = "Gordon-Webb-Wolpert drums" if named else f"drums of pair {options.pair}"
+    name = NAMED.get(options.pair, f"drums of pair {options.pair}")
     return Statistic(f"{name}, {options.tile.replace('_', ' ')} tile", columns, metrics=metrics)
+
+
+class IsospectralGraphs(Options):
+    """No option."""
+
+
+@register("statistic", "isospectral_graphs")
+def isospectral_graphs(options: IsospectralGraphs) -> Statistic:
+    """Graphs glued as the drums are: equal spectra of adjacency and Laplacian, and whether they are the same graph."""
+    found = [compare_graphs(pair) for pair in transplantation_pairs()]
+    columns = {
+        "vertices": np.array([float(graph.vertices) for graph in found]),
+        "adjacency difference": np.array([graph.adjacency_difference for graph in found]),
+        "Laplacian difference": np.array([graph.laplacian_difference for graph in found]),
+        "isomorphic": np.array([float(graph.isomorphic) for graph in found]),
+    }
+    metrics = {
+        "graphs": float(2 * len(found)),
+        "vertices": columns["vertices"].max(),
+        "adjacency_difference": columns["adjacency difference"].max(),
+        "laplacian_difference": columns["Laplacian difference"].max(),
+        "isomorphic": columns["isomorphic"].sum(),
+    }
+    rows = tuple(f"pair {number}" for number in range(len(found)))
+    return Statistic("isospectral graphs", columns, rows, {name: float(value) for name, value in metrics.items()})

@@ -14,6 +14,7 @@ from surfexp.workflow.registry import Options, register
 class SkeletonStudy(Options):
     """Weight and levels, the same for every member."""
 
+    group: str = Field("", description="what the members are, for the name")
     alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
     contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent of the weights; 1 as printed")
     levels: Literal["uniform", "area_quantile", "arc_length"] = Field("arc_length", description="where the levels lie")
@@ -42,4 +43,5 @@ def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surf
     metrics = {**topology_metrics(skeletons), **miss_metrics(surfaces, skeletons), **found.metrics}
     metrics["cut_branches"] = float(np.mean([item.metrics["cut_branches"] for item in skeletons.values()]))
     weight = "weight 1" if not options.alpha else f"alpha {options.alpha:g}"
-    return Statistic(f"{weight}, {options.levels.replace('_', ' ')} levels", columns, metrics=metrics)
+    name = f"{weight}, {options.levels.replace('_', ' ')} levels"
+    return Statistic(f"{options.group}, {name}" if options.group else name, columns, metrics=metrics)

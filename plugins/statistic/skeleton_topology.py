@@ -1,6 +1,7 @@
 """Whether the skeletons of a group have one topology."""
 
 import numpy as np
+from pydantic import Field
 
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.skeleton import Skeleton
@@ -10,7 +11,9 @@ from surfexp.workflow.registry import Options, register
 
 
 class SkeletonTopology(Options):
-    """Nothing to choose."""
+    """What is compared."""
+
+    group: str = Field("", description="what the members are, for the name")
 
 
 @register("statistic", "skeleton_topology")
@@ -18,4 +21,5 @@ def skeleton_topology_statistic(options: SkeletonTopology, *, skeletons: dict[st
     """Share of chains among the skeletons of a group, and how many different topologies there are."""
     found = np.array([topology(skeleton) for skeleton in skeletons.values()], dtype=float)
     columns = dict(zip(("leaves", "branch_nodes", "loops"), found.T, strict=True))
-    return Statistic("topology of skeletons", columns, tuple(skeletons), topology_metrics(skeletons))
+    name = f"topology of skeletons, {options.group}" if options.group else "topology of skeletons"
+    return Statistic(name, columns, tuple(skeletons), topology_metrics(skeletons))

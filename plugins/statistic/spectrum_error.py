@@ -18,9 +18,9 @@ class SpectrumError(Options):
     high: int = Field(24, ge=1, le=1000, description="values that error_high looks at")
 
 
-@register("statistic", "spectrum_error", accepts={"surface": ("icosphere", "disk", "rectangle")})
+@register("statistic", "spectrum_error", accepts={"surface": ("icosphere", "disk", "rectangle", "flat_torus")})
 def spectrum_error_statistic(options: SpectrumError, *, surface: Surface, eigensolver: EigenSystem) -> Statistic:
-    """Relative errors of the eigenvalues of a sphere, disk or rectangle against the exact ones."""
+    """Relative errors of the eigenvalues of a sphere, disk, rectangle or flat torus against the exact ones."""
     return spectrum_error(surface, eigensolver, options.low, options.high)
 
 

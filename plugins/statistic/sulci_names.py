@@ -4,7 +4,8 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.embedding.population import synthetic_subject
-from surfexp.embedding.population_study import make_template, name_regions
+from surfexp.embedding.population_study import name_regions
+from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register

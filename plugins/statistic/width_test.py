@@ -13,6 +13,7 @@ from surfexp.workflow.registry import Options, register
 class WidthTest(Options):
     """How the groups are compared."""
 
+    group: str = Field("", description="what the first group is, for the name")
     positions: int = Field(40, ge=3, le=1000, description="positions along the skeleton")
     permutations: int = Field(1000, ge=20, le=100000, description="random exchanges of membership")
     level: float = Field(0.05, gt=0, lt=1, description="level of the test, over all positions together")
@@ -49,4 +50,5 @@ def width_test_statistic(options: WidthTest, *, first: dict[str, Surface], secon
         "corrected_p": test.corrected,
         "uncorrected_p": test.uncorrected,
     }
-    return Statistic("widths of two groups", columns, metrics=metrics)
+    name = f"widths of two groups, {options.group}" if options.group else "widths of two groups"
+    return Statistic(name, columns, metrics=metrics)

@@ -15,6 +15,12 @@ class Callosum(Options):
     edge_length: float = Field(0.6, ge=0.05, le=2, description="side of the triangles, mm")
     pixel: float = Field(0.7, ge=0.1, le=1.5, description="side of the mask's pixels, mm: the jagged edge")
     turn: float = Field(0.0, ge=-90, le=90, description="degrees between the mask's grid and the shape")
+    signal: float | None = Field(
+        None,
+        ge=-100,
+        le=100,
+        description="height of a bump in a synthetic map, in deviations of its noise; default: no map",
+    )
 
 
 @register("surface", "callosum")

@@ -29,7 +29,7 @@ def drum_surface(options: DrumOptions) -> Surface:
     gluing = getattr(GORDON_WEBB_WOLPERT, options.which)
     drum = glued_drum(gluing, TILE_SHAPES[options.tile], *tile_mesh(options.divisions, options.grading))
     a, b, c = np.moveaxis(drum.corners, 1, 0)
-    turned = np.cross(b - a, c - a) < 0
+    turned = np.linalg.det(np.stack([b - a, c - a], axis=1)) < 0
     faces = np.where(turned[:, None], drum.faces[:, [0, 2, 1]], drum.faces)
     vertices = np.column_stack([drum.vertices, np.zeros(len(drum.vertices))])
     return with_metrics(Surface(TriangleMesh(vertices, faces), f"{options.which} drum"))

@@ -1,10 +1,12 @@
-"""The average human cortex with the names of its gyri."""
+"""The average human cortex with the names of its gyri, or labels of one's own."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
 
+from surfexp.embedding.label_files import read_labels
 from surfexp.embedding.labels import LABEL, desikan_killiany
 from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.mesh.surface import Surface
@@ -16,11 +18,20 @@ class LabelledFsaverage5(Options):
 
     hemisphere: Literal["left", "right"] = Field("left", description="hemisphere of the brain")
     sheet: Literal["pial", "white", "inflated"] = Field("white", description="which of the nested surfaces")
+    labels: Path | None = Field(
+        None, description=".annot or .label.gii with one label a vertex, such as Destrieux's; default: Desikan-Killiany"
+    )
 
 
 @register("surface", "labelled_fsaverage5")
 def labelled_fsaverage5_surface(options: LabelledFsaverage5) -> Surface:
-    """One hemisphere of fsaverage5 with the scalar map "label", the 35 Desikan-Killiany regions."""
+    """One hemisphere of fsaverage5 with the scalar map "label": the 35 Desikan-Killiany regions, or those of a file."""
     surface = fsaverage5(options.hemisphere, options.sheet)
-    labels = desikan_killiany(options.hemisphere).astype(float)
-    return replace(surface, scalars={**surface.scalars, LABEL: labels})
+    if options.labels is None:
+        labels = desikan_killiany(options.hemisphere)
+    else:
+        labels = read_labels(options.labels)[0]
+        count = len(surface.mesh.vertices)
+        if len(labels) != count:
+            raise ValueError(f"{options.labels} has {len(labels)} labels, {surface.name} has {count} vertices")
+    return replace(surface, scalars={**surface.scalars, LABEL: labels.astype(float)})

@@ -40,7 +40,9 @@ def command(name: str, arguments: list[str]) -> int:
         "--group", default=GROUP, help="regular expression with (?P<class>...), (?P<owner>...), (?P<detail>...)"
     )
     parser.add_argument("--surface", default="file", help="plugin that reads a path; tosca repairs what is defective")
-    parser.add_argument("--axis", default="shapes", help="name of the axis that the experiment asks for; default: shapes")
+    parser.add_argument(
+        "--axis", default="shapes", help="name of the axis that the experiment asks for; default: shapes"
+    )
     parser.add_argument("--to", help="name of the collection; default: the folder's")
     parser.add_argument("--force", action="store_true", help="replace a collection of that name")
     given = parser.parse_args(arguments)

@@ -65,6 +65,10 @@ class HausdorffObjective:
         value = self.summarise(forward, self.source_weights)
         return max(value, self.summarise(backward, self.target_weights)) if self.both else value
 
+    def lower_bound(self, signs: Signs, cutoff: float = np.inf) -> float:
+        """Return a bound that no completion of the signs undercuts, in single precision with its rounding taken off."""
+        return self._single_precision(*self._arranged(signs), cutoff)
+
     def _arranged(self, signs: Signs) -> tuple[Floats, Floats]:
         known = int((signs != 0).sum())
         if self.undecided == "prefix" and known < self.n:
@@ -98,6 +102,20 @@ class HausdorffObjective:
             return bound
         nearest = np.sqrt(np.maximum(backward - slack.max(), 0.0))
         return max(bound, self.summarise(nearest, self.target_weights))
+
+
+def summarised(
+    forward: Floats,
+    backward: Floats,
+    source: SpectralEmbedding,
+    target: SpectralEmbedding,
+    direction: Direction,
+    summary: Summary,
+) -> float:
+    """Return the objective from the distance of each source point to the target, and of each target point back."""
+    summarise = _mean if summary == "mean" else _largest
+    there, back = summarise(forward, source.weights), summarise(backward, target.weights)
+    return {"forward": there, "backward": back, "both": max(there, back)}[direction]
 
 
 def _mean(distances: Floats, weights: Floats) -> float:

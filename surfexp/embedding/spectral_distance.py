@@ -7,9 +7,9 @@ from typing import Literal
 import numpy as np
 
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
+from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided, summarised
 from surfexp.embedding.nearest import mutual_distances, nearest
-from surfexp.embedding.sign_search import Signs, SignSearch, search_signs
+from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Signs, SignSearch, greedy_signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -62,13 +62,18 @@ def spectral_distance(
         objective = HausdorffObjective(source, target, direction, summary, undecided, seed)
         draws, most = (1, min(limit, SAMPLED_LIMIT)) if exact else (2, SAMPLED_LIMIT)
         start, agreed, spent = sampled_signs(source, target, direction, summary, samples, seed, draws, most)
-        searches.append(
-            search_signs(objective, source.dimension, start, limit) if exact else _unproved(objective, start, spent)
-        )
+        if exact:
+            searches.append(search_signs(objective, source.dimension, start, limit))
+        else:
+            distances = mutual_distances(source.points, target.points * start)
+            value = summarised(*distances, source, target, direction, summary)
+            searches.append(_unproved(objective, start, spent, value))
         notes += [] if agreed else ["Two draws of samples prefer different signs: search exactly."]
     chosen = max(searches, key=lambda search: search.value)
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
+    if exact or len(searches) > 1:
+        distances = mutual_distances(source.points, moved)
     same = float(all((search.signs == chosen.signs).all() for search in searches))
     optimal = all(search.optimal for search in searches)
     if exact and not optimal:
@@ -85,14 +90,15 @@ def spectral_distance(
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
         method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
-        metrics=_directions(source, target, moved) | {"same_signs": same},
+        metrics=_directions(source, target, *distances) | {"same_signs": same},
         notes=tuple(dict.fromkeys(notes)),
     )
 
 
-def _directions(source: SpectralEmbedding, target: SpectralEmbedding, moved: Floats) -> dict[str, float]:
+def _directions(
+    source: SpectralEmbedding, target: SpectralEmbedding, forward: Floats, backward: Floats
+) -> dict[str, float]:
     """Mean distance from each surface to the other, and the largest."""
-    forward, backward = mutual_distances(source.points, moved)
     return {
         "forward": float(forward @ source.weights),
         "backward": float(backward @ target.weights),
@@ -100,10 +106,10 @@ def _directions(source: SpectralEmbedding, target: SpectralEmbedding, moved: Flo
     }
 
 
-def _unproved(objective: HausdorffObjective, signs: Signs, evaluations: int) -> SignSearch:
+def _unproved(objective: HausdorffObjective, signs: Signs, evaluations: int, value: float) -> SignSearch:
     """Return given signs with their value on all points; the bound is that of no sign decided."""
     node = np.zeros((1, len(signs)), np.int8)
-    value, bound = objective(signs, np.inf), objective(node[0], np.inf)
+    bound = objective.lower_bound(node[0])
     return SignSearch(signs, value, min(bound, value), bound >= value, evaluations, node, np.array([bound]))
 
 
@@ -119,10 +125,13 @@ def sampled_signs(
 ) -> tuple[Signs, bool, int]:
     """Return the best signs on samples, whether all draws of samples agree, and the number of evaluations."""
     found: list[SignSearch] = []
+    start, spent = None, 0
     for draw in range(draws * seed, draws * (seed + 1)):
         pair = source.sample(samples, draw), target.sample(samples, draw)
         objective = HausdorffObjective(*pair, direction, summary, seed=seed)
-        start = found[0].signs if found else None
+        if start is None and source.dimension > LARGEST_ENUMERATION:
+            start, spent = greedy_signs(objective.lower_bound, source.dimension)
         found.append(search_signs(objective, source.dimension, start, limit))
+        start = found[0].signs
     agreed = all(bool((search.signs == found[0].signs).all()) for search in found)
-    return found[0].signs, agreed, sum(search.evaluations for search in found)
+    return found[0].signs, agreed, spent + sum(search.evaluations for search in found)

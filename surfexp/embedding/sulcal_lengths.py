@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +24,19 @@ def region_mesh(mesh: TriangleMesh, inside: NDArray[np.bool_]) -> tuple[Triangle
     return TriangleMesh(mesh.vertices[kept], np.searchsorted(kept, faces)), kept
 
 
+def closed_region(mesh: TriangleMesh, inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return a region grown by one ring of edges and shrunk by one, which closes gaps of the width of an edge."""
+    first, second = mesh.edges.T
+    inside = np.asarray(inside, dtype=bool)
+    grown = inside.copy()
+    grown[first[inside[second]]] = True
+    grown[second[inside[first]]] = True
+    shrunk = grown.copy()
+    shrunk[first[~grown[second]]] = False
+    shrunk[second[~grown[first]]] = False
+    return shrunk
+
+
 def region_ends(mesh: TriangleMesh, inside: NDArray[np.bool_]) -> tuple[int, int]:
     """Return the vertices at which the first eigenfunction of a region (free boundary) is least and largest."""
     part, kept = region_mesh(mesh, inside)
@@ -30,14 +45,17 @@ def region_ends(mesh: TriangleMesh, inside: NDArray[np.bool_]) -> tuple[int, int
     return int(kept[first.argmin()]), int(kept[first.argmax()])
 
 
-def geodesic_length(mesh: TriangleMesh, start: int, end: int) -> float:
-    """Return the exact length of the shortest way on the triangles between two vertices."""
+def geodesic_lengths(mesh: TriangleMesh, pairs: Sequence[tuple[int, int]]) -> list[float]:
+    """Return the exact length of the shortest way on the triangles between the vertices of each pair."""
     from pygeodesic.geodesic import PyGeodesicAlgorithmExact
 
-    if start == end:
-        return 0.0
     exact = PyGeodesicAlgorithmExact(np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int32))
-    return float(exact.geodesicDistance(start, end)[0])
+    return [0.0 if start == end else float(exact.geodesicDistance(start, end)[0]) for start, end in pairs]
+
+
+def geodesic_length(mesh: TriangleMesh, start: int, end: int) -> float:
+    """Return the exact length of the shortest way on the triangles between two vertices."""
+    return geodesic_lengths(mesh, [(start, end)])[0]
 
 
 def carried_vertex(points: Floats, place: Floats) -> int:
@@ -53,8 +71,8 @@ def carried_vertex(points: Floats, place: Floats) -> int:
     return int(np.argmin(((points - place) ** 2).sum(axis=1)))
 
 
-def carried_length(target: TriangleMesh, template: TriangleMesh, rows: Integers, ends: tuple[int, int]) -> float:
-    """Return the length on the target between the vertices that a map sends nearest to two template vertices.
+def carried_ends(template: TriangleMesh, rows: Integers, ends: tuple[int, int]) -> tuple[int, int]:
+    """Return the target vertices that a map sends nearest to two template vertices.
 
     Parameters
     ----------
@@ -65,4 +83,4 @@ def carried_length(target: TriangleMesh, template: TriangleMesh, rows: Integers,
     """
     places = template.vertices[rows]
     start, end = (carried_vertex(places, template.vertices[vertex]) for vertex in ends)
-    return geodesic_length(target, start, end)
+    return start, end

@@ -98,14 +98,24 @@ def zoomout_map(
     return pair.scored(distance, rows, f"ZoomOut with {field}")
 
 
-def signature_map(pair: Pair, signature: Literal["heat", "wave"] = "heat", n: int = 10, seed: int = 0) -> Distance:
-    """Nearest neighbours in the heat or wave kernel signature, on surfaces scaled to area 1."""
+def signature_map(
+    pair: Pair,
+    signature: Literal["heat", "wave"] = "heat",
+    n: int = 10,
+    seed: int = 0,
+    energies: int = 100,
+    width: float = 7.0,
+) -> Distance:
+    """Nearest neighbours in the heat or wave kernel signature, on surfaces scaled to area 1.
+
+    `energies` and `width` are those of `wave_kernel_signature`: a band is `width` steps between energies wide.
+    """
     features = []
     for system, areas in zip((pair.source, pair.target), pair.areas, strict=True):
         area = float(areas.sum())
         scaled = replace(system, values=system.values * area, vectors=system.vectors * np.sqrt(area))
         if signature == "wave":
-            features.append(wave_kernel_signature(scaled))
+            features.append(wave_kernel_signature(scaled, energies, width))
         else:
             heat = heat_kernel_signature(scaled, np.geomspace(1e-3, 0.1, 30))
             features.append(heat / (heat * (areas / area)[:, None]).sum(axis=0))

@@ -10,6 +10,7 @@ from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.skeleton.planar_patch import triangulate_region
+from surfexp.skeleton.planted_map import planted_map
 
 # share of the midline, turning angle in degrees from the x axis (forward), half width in mm: splenium, isthmus, body, genu, rostrum
 SHARES = np.array([0.0, 0.10, 0.22, 0.34, 0.50, 0.64, 0.74, 0.82, 0.91, 1.0])
@@ -73,7 +74,12 @@ def callosum_shape(seed: int = 0, thinning: float = 0.0, samples: int = 801) -> 
 
 
 def callosum(
-    seed: int = 0, thinning: float = 0.0, edge_length: float = 0.6, pixel: float = 0.7, turn: float = 0.0
+    seed: int = 0,
+    thinning: float = 0.0,
+    edge_length: float = 0.6,
+    pixel: float = 0.7,
+    turn: float = 0.0,
+    signal: float | None = None,
 ) -> Surface:
     """A flat patch of about 2,000 vertices with the staircase edge of a mask; x is forward, y up, in mm.
 
@@ -85,6 +91,8 @@ def callosum(
         Of the triangles, and of the mask, in mm.
     turn : float
         Degrees by which the mask's grid is turned against the shape, for another staircase.
+    signal : float, optional
+        Height of the bump in a synthetic map, which becomes the scalar map "signal", as in `planted_map`.
 
     Raises
     ------
@@ -113,7 +121,11 @@ def callosum(
     back[:2, :2] = rotation
     mesh = type(mesh)(mesh.vertices @ back, mesh.faces)
     known = {"seed": float(seed), "thinning": thinning}
-    return with_metrics(Surface(mesh, f"callosum {seed}", "mm", coordinates=mesh.vertices[:, :2], metrics=known))
+    scalars = {}
+    if signal is not None:
+        scalars["signal"] = planted_map(mesh.vertices[:, :2], shape, signal, seed)
+    flat = mesh.vertices[:, :2]
+    return with_metrics(Surface(mesh, f"callosum {seed}", "mm", scalars, coordinates=flat, metrics=known))
 
 
 def true_midline(surface: Surface) -> Floats:

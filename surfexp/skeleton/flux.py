@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 from surfexp.operators.calculus import gradient
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -51,6 +51,30 @@ def flux(mesh: TriangleMesh, distance: Floats) -> Floats:
     count = np.bincount(mesh.edges.ravel(), minlength=len(mesh.vertices))
     total = np.bincount(first, outward, len(count)) + np.bincount(second, backward, len(count))
     return total / np.maximum(count, 1)
+
+
+def skeleton_points(mesh: TriangleMesh, flux_values: Floats, threshold: float = -0.35) -> Integers:
+    """Vertices where the flux is least among the neighbours and below a threshold, increasing: points of the skeleton.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    flux_values : (n,) float64
+        As in `flux`.
+    threshold : float
+        Negative; the nearer to 0, the more of the branches that run into corners of the boundary are touched.
+
+    Raises
+    ------
+    ValueError
+        If the threshold is not negative.
+    """
+    if not threshold < 0:
+        raise ValueError(f"flux threshold is {threshold}, it must be negative; -0.35 is a usual choice")
+    least = flux_values < threshold
+    for one, other in (mesh.edges.T, mesh.edges.T[::-1]):
+        least[one[flux_values[one] > flux_values[other]]] = False
+    return np.flatnonzero(least)
 
 
 def flux_weights(flux_values: Floats, alpha: float = 0.25, contrast: float = 1.0) -> Floats:

@@ -6,8 +6,8 @@ import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.skeleton.level_contours import level_contours
-from surfexp.skeleton.reeb_graph import slab_components
 from surfexp.skeleton.skeleton import arc_components
+from surfexp.skeleton.slabs import slab_components
 
 
 def printed_loops(mesh: TriangleMesh, values: Floats, levels: Floats) -> int:

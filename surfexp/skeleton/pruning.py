@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfexp.mesh.triangle_mesh import Integers
 from surfexp.skeleton.skeleton import CAP, JUNCTION, Skeleton, graph_metrics
@@ -35,6 +36,16 @@ def pruned(skeleton: Skeleton, persistence: float) -> Skeleton:
     ValueError
         If the persistence is not in 0..1.
     """
+    upper, alive, cuts = _cut(skeleton, persistence)
+    return _remaining(skeleton, upper, alive, cuts)
+
+
+def surviving_nodes(skeleton: Skeleton, persistence: float) -> NDArray[np.bool_]:
+    """(N,) which nodes of a skeleton `pruned` leaves."""
+    return _cut(skeleton, persistence)[1]
+
+
+def _cut(skeleton: Skeleton, persistence: float) -> tuple[Arcs, NDArray[np.bool_], int]:
     if not 0.0 <= persistence <= 1.0:
         raise ValueError(f"persistence is {persistence}, a share of the feature's range in 0..1 is needed")
     lower: Arcs = [set() for _ in skeleton.positions]
@@ -58,7 +69,7 @@ def pruned(skeleton: Skeleton, persistence: float) -> Skeleton:
             upper[below] = upper[below] - {fork} | {above}
             lower[above] = lower[above] - {fork} | {below}
             alive[fork] = False
-    return _remaining(skeleton, upper, alive, cuts)
+    return upper, alive, cuts
 
 
 def _branches(

@@ -25,6 +25,20 @@ from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 
 
+def signed_eigenmap(
+    mesh: TriangleMesh, alpha: float = 0.0, contrast: float = 1.0, ahead: Floats | None = None
+) -> Floats:
+    """(n,) first eigenmap of a patch, with the flux weights (5.10) unless alpha is 0, signed to rise ahead (by default with x)."""
+    operator = fem(mesh)
+    if alpha:
+        weights = flux_weights(flux(mesh, boundary_distance(mesh)), alpha, contrast)
+        operator = weighted_operator(operator, weights)
+    values = eigenmap(operator).values
+    place = mesh.vertices[:, 0] if ahead is None else mesh.vertices @ ahead
+    rising = float((values * (place - place.mean()) * mesh.vertex_areas).sum())
+    return values if rising >= 0 else -values
+
+
 def eigenmap_skeleton(
     mesh: TriangleMesh,
     alpha: float = 0.0,
@@ -45,13 +59,7 @@ def eigenmap_skeleton(
     persistence : float
         As in `pruned`.
     """
-    operator = fem(mesh)
-    if alpha:
-        weights = flux_weights(flux(mesh, boundary_distance(mesh)), alpha, contrast)
-        operator = weighted_operator(operator, weights)
-    values = eigenmap(operator).values
-    x = mesh.vertices[:, 0] - mesh.vertices[:, 0].mean()
-    values = values if float((values * x * mesh.vertex_areas).sum()) >= 0 else -values
+    values = signed_eigenmap(mesh, alpha, contrast)
     skeleton = pruned(reeb_graph(mesh, values, choose_levels(mesh, values, count, levels), name), persistence)
     lengths = skeleton_lengths(mesh, values, skeleton)
     return replace(skeleton, metrics={**skeleton.metrics, **lengths}), values

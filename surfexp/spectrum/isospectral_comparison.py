@@ -9,10 +9,11 @@ import numpy as np
 from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.operators.elements_surface import Boundary
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.eigensystem import EigenSystem, measure
 from surfexp.spectrum.isospectral_drums import drum_elements, glued_drum, tile_layout, tile_mesh
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.nodal_signature import counted_domains
+from surfexp.spectrum.transplantation import transplant
 from surfexp.spectrum.transplantation_pairs import TILES, Gluing, TransplantationPair
 
 TILE_SHAPES = {
@@ -31,6 +32,8 @@ class DrumComparison:
     first, second : EigenSystem
     first_counts, second_counts : (k,) int64
         Filtered nodal numbers.
+    transplanted : float
+        Largest residual, relative to the last eigenvalue, of the eigenfunctions of the first drum carried to the second.
     outline_difference : float
         Largest difference of the sorted distances between the corners of the two outlines; infinite where their numbers
         differ. Above 0 the drums are not congruent.
@@ -40,6 +43,7 @@ class DrumComparison:
     second: EigenSystem
     first_counts: Integers
     second_counts: Integers
+    transplanted: float
     outline_difference: float
 
     @property
@@ -65,18 +69,25 @@ def compare_drums(
     tolerance: float = 1e-11,
 ) -> DrumComparison:
     """Mesh both drums of a pair tile by tile, and compare spectra, nodal counts and outlines."""
-    systems, counts = [], []
+    systems, counts, assembled = [], [], []
     for gluing in (pair.first, pair.second):
         elements = drum_elements(glued_drum(gluing, triangle, *tile_mesh(divisions, grading)), order, boundary)
         found = eigenpairs(elements.stiffness, elements.mass, count, tolerance=tolerance)
         system = replace(
             found, vectors=elements.extend(found.vectors), area=elements.area, order=order, boundary=boundary
         )
+        assembled.append(elements)
         graph = nodal_graph(element_faces(elements.nodes), elements.nodes.count)
         systems.append(system)
         counts.append(counted_domains(system, graph, "filtered").astype(np.int64))
-    difference = outline_difference(pair.first, pair.second, triangle)
-    return DrumComparison(systems[0], systems[1], counts[0], counts[1], difference)
+    carried = transplant(pair, systems[0].vectors, assembled[0].nodes, assembled[1].nodes, boundary)[0]
+    moved = carried[assembled[1].free]
+    measurement = measure(assembled[1].stiffness, assembled[1].mass, moved / np.linalg.norm(moved, axis=0))
+    return DrumComparison(
+        *(systems[0], systems[1], counts[0], counts[1]),
+        transplanted=float(measurement.errors.max() / systems[0].values[-1]),
+        outline_difference=outline_difference(pair.first, pair.second, triangle),
+    )
 
 
 def outline_difference(first: Gluing, second: Gluing, triangle: Floats) -> float:

@@ -93,4 +93,8 @@ def exact_spectrum(surface: Surface, count: int, boundary: str = "neumann") -> F
     if surface.name == "rectangle":
         width, height = np.ptp(vertices, axis=0)[:2]
         return rectangle_spectrum(count, float(width), float(height), boundary)
-    raise ValueError(f"the spectrum of {surface.name!r} is not known in closed form, choose sphere, disk or rectangle")
+    if surface.name.endswith("flat torus"):
+        return flat_torus_spectrum(count, surface.name.startswith("hexagonal"))
+    raise ValueError(
+        f"the spectrum of {surface.name!r} is not known in closed form, choose sphere, disk, rectangle or flat torus"
+    )

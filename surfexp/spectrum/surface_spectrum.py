@@ -9,6 +9,7 @@ import numpy as np
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
+from surfexp.operators.elements_patches import patch_positions
 from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements, assemble_elements, surface_elements
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensolver import eigenpairs
@@ -27,6 +28,7 @@ def elements_of(
     curved: bool = False,
     mass: Mass = "consistent",
     boundary: Boundary = "neumann",
+    patches: bool = False,
 ) -> SurfaceElements:
     """Assemble elements on the triangles of an operator, or on the smooth surface that the mesh stands for.
 
@@ -38,12 +40,16 @@ def elements_of(
     order : 1, 2 or 3
     curved : bool
         Put the new nodes of order 2 and 3 on the smooth surface; known for sphere, disk and torus.
+    patches : bool
+        Put them on cubic patches through the vertices, for a mesh whose smooth shape nobody knows.
 
     Raises
     ------
     ValueError
         If the order or the shape is unfit.
     """
+    if curved and patches:
+        raise ValueError("curved and patches are two ways to place the same nodes: choose one")
     if curved:
         onto, onto_rim = projections(surface)
         return surface_elements(surface.mesh, order, onto, onto_rim, mass, boundary)
@@ -52,6 +58,8 @@ def elements_of(
             f"elements of order {order} on the triangles of operator {operator.name!r}: choose fem, or order 1"
         )
     nodes = number_nodes(operator.faces, operator.vertex_count, order)
+    if patches:
+        return assemble_elements(nodes, patch_positions(surface.mesh, order), mass, boundary)
     return assemble_elements(nodes, flat_positions(unfolded_corners(operator), order), mass, boundary)
 
 
@@ -73,12 +81,13 @@ def surface_spectrum(
     tolerance: float = 1e-8,
     seed: int = 0,
     progress: Progress | None = None,
+    patches: bool = False,
 ) -> EigenSystem:
     """Find the first pairs of a surface, as functions at all nodes: 0 on the rim under Dirichlet's condition.
 
     Parameters
     ----------
-    surface, operator, order, curved, mass, boundary
+    surface, operator, order, curved, mass, boundary, patches
         As in `elements_of`.
     count, method, tolerance, seed, progress
         As in `eigenpairs`.
@@ -89,7 +98,7 @@ def surface_spectrum(
         With the metrics degrees_of_freedom, edge_length, largest_residual, orthogonality, complete (1 or 0), zero_modes,
         first_value and last_value.
     """
-    elements = elements_of(surface, operator, order, curved, mass, boundary)
+    elements = elements_of(surface, operator, order, curved, mass, boundary, patches)
     system = eigenpairs(elements.stiffness, elements.mass, count, method, tolerance, seed, progress)
     scale = float(system.values[-1])
     metrics = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfexp.mesh.triangle_mesh import Floats
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.statistic import Statistic
 
@@ -28,19 +29,12 @@ def class_distances(matrix: DistanceMatrix, first: str = "", second: str = "") -
     ValueError
         If there are fewer than two classes, or the named pair is unknown.
     """
-    names = sorted(set(matrix.classes))
-    if len(names) < 2:
-        raise ValueError(f"the collection has one class, {names[0]!r}: distances between classes need at least 2")
-    codes = np.array([names.index(name) for name in matrix.classes])
-    pairs = {
-        (names[a], names[b]): float(matrix.values[np.ix_(codes == a, codes == b)].mean())
-        for a in range(len(names))
-        for b in range(a + 1, len(names))
-    }
+    names, distances = pair_distances(matrix)
+    pairs = {(names[a], names[b]): float(distances[a, b]) for a in range(len(names)) for b in range(a + 1, len(names))}
     mean = float(np.mean(list(pairs.values())))
     ordered = sorted(pairs, key=lambda pair: pairs[pair])
     values = np.array([pairs[pair] / mean for pair in ordered])
-    metrics = {"members": float(len(codes)), "nearest": float(values[0]), "farthest": float(values[-1])}
+    metrics = {"members": float(len(matrix.labels)), "nearest": float(values[0]), "farthest": float(values[-1])}
     if first or second:
         wanted = tuple(sorted((first, second)))
         if wanted not in pairs:
@@ -50,3 +44,21 @@ def class_distances(matrix: DistanceMatrix, first: str = "", second: str = "") -
     closest = f"The closest classes are {ordered[0][0]} and {ordered[0][1]}, the farthest {ordered[-1][0]} and {ordered[-1][1]}."
     rows = tuple(f"{a}, {b}" for a, b in ordered)
     return Statistic(f"distances between classes by {matrix.name}", {"distance": values}, rows, metrics, (closest,))
+
+
+def pair_distances(matrix: DistanceMatrix) -> tuple[list[str], Floats]:
+    """Return the class names, sorted, and the (c, c) mean distances between their members, 0 on the diagonal.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two classes.
+    """
+    names = sorted(set(matrix.classes))
+    if len(names) < 2:
+        raise ValueError(f"the collection has one class, {names[0]!r}: distances between classes need at least 2")
+    belongs = np.equal.outer(np.array(names), np.array(matrix.classes)).astype(np.float64)
+    sizes = belongs.sum(axis=1)
+    means = np.asarray(belongs @ matrix.values @ belongs.T / np.outer(sizes, sizes))
+    np.fill_diagonal(means, 0.0)
+    return names, means

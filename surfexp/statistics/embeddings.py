@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from typing import Any
+
 import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats
@@ -80,6 +83,26 @@ def neighbour_embedding(matrix: DistanceMatrix, dimensions: int = 2, seed: int =
         dimensions, perplexity=perplexity, metric="precomputed", init="random", random_state=seed, method="exact"
     )
     return _embedding(matrix, np.asarray(method.fit_transform(matrix.values), dtype=np.float64), "t-SNE", {})
+
+
+def manifold_embedding(matrix: DistanceMatrix, dimensions: int = 2, seed: int = 0) -> PointEmbedding:
+    """Embed by UMAP (McInnes, Healy and Melville 2018), which keeps neighbourhoods and no distances.
+
+    Raises
+    ------
+    ImportError
+        If umap-learn is not installed.
+    """
+    _check(matrix, dimensions)
+    try:
+        umap: Any = import_module("umap")
+    except ImportError:
+        raise ImportError("umap needs umap-learn, which is not installed: pip install umap-learn") from None
+    neighbours = max(2, min(15, len(matrix.labels) - 1))
+    method = umap.UMAP(
+        neighbours, dimensions, metric="precomputed", init="random", random_state=seed, n_jobs=1, low_memory=False
+    )
+    return _embedding(matrix, np.asarray(method.fit_transform(matrix.values), dtype=np.float64), "UMAP", {})
 
 
 def stress(distances: Floats, points: Floats) -> float:

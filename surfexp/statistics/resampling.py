@@ -19,6 +19,15 @@ def bootstrap_interval(right: np.ndarray, owners: Integers, rng: np.random.Gener
     return float(low), float(high)
 
 
+def exact_interval(hits: int, trials: int) -> tuple[float, float]:
+    """Return the 95 % interval of Clopper and Pearson (1934) of a share that was found in `hits` of `trials`."""
+    from scipy.stats import beta
+
+    tail = (100.0 - (CENTRAL[1] - CENTRAL[0])) / 200.0
+    low = float(beta.ppf(tail, hits, trials - hits + 1)) if hits else 0.0
+    return low, float(beta.ppf(1.0 - tail, hits + 1, trials - hits)) if hits < trials else 1.0
+
+
 def permuted(codes: Integers, owners: Integers, rng: np.random.Generator) -> Integers:
     """Return the classes permuted inside each group, or among all where every group has one class only."""
     several = any(len(np.unique(codes[owners == owner])) > 1 for owner in np.unique(owners))

@@ -10,7 +10,7 @@ import pytest
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
 from surfexp.embedding.counterexamples import clover, named_revolution
 from surfexp.embedding.distance_growth import distance_brackets, logarithmic_slope, squared_norms
-from surfexp.embedding.pairwise import Pairing, pairwise_distances, triangle_metrics
+from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.sup_inf import block_group, refines, sup_inf_distance
@@ -70,14 +70,26 @@ def test_triangle_metrics_by_hand() -> None:
     assert triangle_metrics(matrix[:2, :2]) == {"triangle_ratio": 0.0, "triangles_broken": 0.0}
 
 
-def test_random_triples_of_tori_obey_the_triangle_by_hausdorff() -> None:
+@pytest.mark.parametrize("method", ["hausdorff", "wasserstein", "sup_inf"])
+def test_random_triples_of_tori_obey_the_triangle(method: str) -> None:
     rng = np.random.default_rng(0)
-    shapes = {str(k): torus_embedding(float(ratio), 4, 12) for k, ratio in enumerate(rng.uniform(1.1, 3.0, 16))}
-    table, proved = pairwise_distances(shapes, Pairing("hausdorff"))
-    assert proved == 1.0
-    # 560 triples
+    shapes = {str(k): torus_embedding(float(ratio), 3, 12) for k, ratio in enumerate(rng.uniform(1.1, 3.0, 16))}
+    values, bounds = pairwise_distances(shapes, Pairing(method, samples=60, gap=0.0))
+    # 560 triples, more than the 500 that were asked for
     assert len(list(combinations(shapes, 3))) == 560
-    assert triangle_metrics(table)["triangles_broken"] == 0.0
+    assert triangle_metrics(values)["triangles_broken"] == 0.0
+    assert values.min() >= 0.0 and (np.diag(values) == 0.0).all() and np.array_equal(values, values.T)
+    assert values[np.tril_indices(16, -1)].min() > 0.0
+    assert gap_metrics(values, bounds)["proved"] == (0.0 if method == "sup_inf" else 1.0)
+
+
+def test_gaps_by_hand() -> None:
+    values, bounds = np.array([[0.0, 2.0, 4.0], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0]]), np.zeros((3, 3))
+    bounds[1, 0] = bounds[0, 1] = 1.5
+    bounds[2, 0] = bounds[0, 2] = 4.0
+    assert gap_metrics(values, bounds) == pytest.approx({"proved": 2 / 3, "mean gap": 0.25 / 3, "largest gap": 0.25})
+    assert unproved_pairs("abc", values, bounds) == ("a to b: 2.0000 is the best found, at least 1.5000 is proved.",)
+    assert gap_metrics(values[:1, :1], bounds[:1, :1])["proved"] == 1.0
 
 
 def test_groups_of_bases() -> None:

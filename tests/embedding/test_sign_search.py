@@ -39,16 +39,27 @@ def all_values(objective, n: int) -> dict[tuple[int, ...], float]:
     return {signs: objective(np.array(signs, np.int8), np.inf) for signs in product((1, -1), repeat=n)}
 
 
-@pytest.mark.parametrize("seed", range(50))
-def test_branch_and_bound_equals_enumeration(seed: int) -> None:
-    n = 2 + seed % 8
-    source, target = cloud(n, 40, seed), cloud(n, 36, seed + 1000)
+def check_against_enumeration(source: SpectralEmbedding, target: SpectralEmbedding, undecided: str) -> None:
+    n = source.dimension
     for direction in ("forward", "both"):
-        objective = HausdorffObjective(source, target, direction, undecided=("absolute", "prefix")[seed % 2])
+        objective = HausdorffObjective(source, target, direction, undecided=undecided)
         everything = enumerate_signs(objective, n)
         found = branch_and_bound(objective, n)
         assert found.value == pytest.approx(everything.value, rel=1e-12)
         assert found.optimal and found.lower_bound == found.value
+
+
+@pytest.mark.parametrize("seed", range(50))
+def test_branch_and_bound_equals_enumeration(seed: int) -> None:
+    n = 2 + seed % 8
+    check_against_enumeration(cloud(n, 40, seed), cloud(n, 36, seed + 1000), ("absolute", "prefix")[seed % 2])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(51))
+def test_branch_and_bound_equals_enumeration_of_up_to_4096_signs(seed: int) -> None:
+    n = 10 + seed % 3
+    check_against_enumeration(cloud(n, 30, seed), cloud(n, 28, seed + 1000), ("absolute", "prefix")[seed // 3 % 2])
 
 
 @pytest.mark.parametrize("n", [10, 11, 12])
@@ -58,6 +69,17 @@ def test_branch_and_bound_equals_enumeration_in_many_dimensions(n: int) -> None:
     assert branch_and_bound(HausdorffObjective(source, target), n).value == pytest.approx(
         min(all_values(objective, n).values()), rel=1e-9
     )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n", [8, 10, 12])
+def test_near_symmetric_pairs_of_many_dimensions(n: int) -> None:
+    for seed in range(4):
+        source = cloud(n, 30, seed, symmetric=1.0)
+        rng = np.random.default_rng(seed)
+        noise = rng.normal(size=source.points.shape) * np.geomspace(0.6, 0.1, n)
+        target = replace(source, points=source.points * rng.choice([-1.0, 1.0], n) + noise)
+        check_against_enumeration(source, target, "absolute")
 
 
 def test_near_symmetric_pairs_defeat_greedy_and_not_the_search() -> None:

@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from surfexp.embedding.asymmetry import asymmetry_study, power_study
+from surfexp.embedding.length_table import chosen, length_columns, table_of
 from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
 from surfexp.embedding.population import random_displacement, stretch, synthetic_subject
-from surfexp.embedding.population_study import make_template, measure_population, name_regions
-from surfexp.embedding.sulcal_lengths import carried_length, geodesic_length, region_ends
+from surfexp.embedding.population_study import measure_population, name_regions
+from surfexp.embedding.sulcal_lengths import carried_ends, closed_region, geodesic_length, region_ends
+from surfexp.embedding.sulcal_lines import sulcal_line
+from surfexp.embedding.sulcal_measurement import measure_sulci
 from surfexp.embedding.sulcal_regions import (
     components,
     names_by_distance,
@@ -17,8 +21,13 @@ from surfexp.embedding.sulcal_regions import (
     naming_accuracy,
     sulcal_regions,
 )
+from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.reading import read_mesh
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.writing import write_mesh
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +122,17 @@ def test_a_strip_has_its_length() -> None:
     start, end = region_ends(mesh, strip)
     assert geodesic_length(mesh, start, end) == pytest.approx(1.6, rel=0.06)
     assert geodesic_length(mesh, start, start) == 0.0
-    assert carried_length(mesh, mesh, np.arange(len(mesh.vertices)), (start, end)) == geodesic_length(mesh, start, end)
+    assert carried_ends(mesh, np.arange(len(mesh.vertices)), (start, end)) == (start, end)
+    line = sulcal_line(mesh, strip)
+    assert line.chain
+    assert line.lengths["line with ends"] == pytest.approx(1.6, rel=0.03)
+    assert line.lengths["geodesic"] == pytest.approx(1.6, rel=0.03)
+    assert line.lengths["mean distance"] == pytest.approx(1.6, rel=0.03)
+    # of a cosine, the outermost of 50 uniform levels leave a tenth at either end
+    share = 1.0 - 2.0 / np.pi * np.arccos(1.0 - 2.0 / 51.0)
+    assert line.lengths["printed line"] == pytest.approx(share * 1.6, rel=0.03)
+    assert np.linalg.norm(line.points, axis=1) == pytest.approx(1.0, abs=0.01)
+    assert np.abs(line.points[:, 2]).max() < 0.08
     with pytest.raises(ValueError, match="no whole face"):
         region_ends(mesh, np.arange(len(mesh.vertices)) == 7)
 
@@ -124,17 +143,101 @@ def test_regions_of_a_subject_are_named(template, cortex) -> None:
     assert scores["printed rule, n = 4"] > 0.85
 
 
+def test_a_ring_of_growth_and_shrinking_closes_a_gap_and_no_more() -> None:
+    mesh = icosphere(3).mesh
+    cap = mesh.vertices[:, 2] > 0.3
+    whole = closed_region(mesh, cap)
+    assert (whole >= cap).all() and closed_region(mesh, whole).sum() == whole.sum()
+    torn = whole.copy()
+    torn[np.flatnonzero(mesh.vertices[:, 2] > 0.8)[0]] = False
+    assert np.array_equal(closed_region(mesh, torn), whole)
+    assert not closed_region(mesh, np.zeros(len(cap), bool)).any()
+
+
+def test_a_bare_file_gives_the_lengths_of_the_surface_in_memory(template, cortex, tmp_path) -> None:
+    target = synthetic_subject(cortex, 2, "right", seed=3)
+    write_mesh(tmp_path / "subject.off", target.mesh)
+    vertices, faces, maps = read_mesh(tmp_path / "subject.off")
+    assert maps == {}
+    bare = measure_sulci(template, Surface(TriangleMesh(vertices, faces)))
+    known = measure_sulci(template, target)
+    assert set(known) - set(bare) == {"true"}
+    for name, lengths in bare.items():
+        assert lengths == pytest.approx(known[name], rel=1e-6), name
+    assert known["carried ends"] == pytest.approx(known["true"], rel=0.12)
+
+
 @pytest.mark.slow
-def test_the_planted_difference_is_found_and_changes_sign_with_the_sides(template) -> None:
-    table = measure_population(template, 8, asymmetry=0.1)
-    lengths = table["true"]
-    relative = (2 * (lengths["left"] - lengths["right"]) / (lengths["left"] + lengths["right"]))[:, 0]
-    assert relative.mean() == pytest.approx(0.09, abs=0.025)
-    found = table["carried ends"]
-    tests = paired_tests({"first": found["left"][:, 0]}, {"first": found["right"][:, 0]})
-    swapped = paired_tests({"first": found["right"][:, 0]}, {"first": found["left"][:, 0]})
-    assert tests.effect[0] > 0 and tests.p_t[0] < 0.05
-    assert swapped.difference[0] == pytest.approx(-tests.difference[0])
+def test_mirrored_surfaces_have_equal_lengths_so_sides_may_be_exchanged(template, cortex) -> None:
+    target = synthetic_subject(cortex, 4, "left", remeshed=False, seed=3)
+    mirror = TriangleMesh(target.mesh.vertices * [1.0, 1.0, -1.0], target.mesh.faces[:, ::-1])
+    first, second = measure_sulci(template, target), measure_sulci(template, Surface(mirror))
+    for name, lengths in second.items():
+        assert lengths == pytest.approx(first[name], rel=0.02), name
+
+
+@pytest.fixture(scope="module")
+def lengths():
+    """Lengths of 30 subjects, 2 sides and 2 sulci by two estimators, the first sulcus 4 longer left."""
+    rng = np.random.default_rng(1)
+    table = {}
+    for name, noise in (("true", 1.0), ("rough", 8.0)):
+        left, right = rng.normal(100.0, noise, (2, 30, 2))
+        table[name] = {"left": left + np.array([4.0, 0.0]), "right": right}
+    return table
+
+
+def test_the_table_of_lengths_is_read_back_from_blocks_in_any_order(lengths) -> None:
+    blocks = [
+        length_columns({e: {side: rows[part] for side, rows in sides.items()} for e, sides in lengths.items()}, part)
+        for part in (range(20, 30), range(20))
+    ]
+    rows, columns = blocks[0]
+    assert rows[3] == "subject 20, right, sulcus 2"
+    assert (columns["subject"][3], columns["side"][3], columns["sulcus"][3]) == (20.0, 1.0, 2.0)
+    found = table_of(columns for _, columns in blocks)
+    for name, sides in lengths.items():
+        for side, values in sides.items():
+            assert np.array_equal(found[name][side], values)
+    assert list(chosen(found, ["rough"])) == ["rough"] and list(chosen(found, [])) == ["true", "rough"]
+    with pytest.raises(ValueError, match="do not list 30 subjects"):
+        table_of([columns for _, columns in blocks] + [blocks[0][1]])
+    with pytest.raises(ValueError, match="take tables made alike"):
+        table_of([blocks[0][1], {**blocks[1][1], "more": np.zeros(80)}])
+    with pytest.raises(ValueError, match="'exact' is unknown, choose from true, rough"):
+        chosen(found, ["exact"])
+
+
+def test_exchanging_sides_changes_the_sign_of_every_asymmetry(lengths) -> None:
+    rows, columns, metrics = asymmetry_study(lengths)
+    swapped = {name: {"left": sides["right"], "right": sides["left"]} for name, sides in lengths.items()}
+    others, mirrored, numbers = asymmetry_study(swapped)
+    assert rows == others and len(rows) == 4
+    for name in ("difference", "effect"):
+        assert mirrored[name] == pytest.approx(-columns[name], rel=1e-12)
+    assert mirrored["effect_low"] == pytest.approx(-columns["effect_high"])
+    for name in ("p_t", "p_t_holm", "p_wilcoxon", "p_wilcoxon_holm"):
+        assert mirrored[name] == pytest.approx(columns[name])
+    assert metrics["difference, true"] == pytest.approx(0.04, abs=0.006)
+    assert numbers["difference, true"] == -metrics["difference, true"]
+    assert metrics["p, true"] < 1e-6 < 0.05 < metrics["least p elsewhere, true"]
+
+
+def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(lengths) -> None:
+    power = power_study(lengths, [5, 10, 30], 400)
+    assert (power["true"] >= power["rough"]).all() and power["rough"][0] < power["rough"][2]
+    nothing = {side: np.full((30, 2), np.nan) for side in ("left", "right")}
+    rows, _, metrics = asymmetry_study({**lengths, "none": nothing})
+    assert len(rows) == 4 and "p, none" not in metrics
+    assert power_study({"none": nothing}, [5])["none"].tolist() == [0.0]
+
+
+@pytest.mark.slow
+def test_the_planted_difference_is_found(template) -> None:
+    table = measure_population(template, range(8), asymmetry=0.1)
+    _, _, metrics = asymmetry_study(table)
+    assert metrics["difference, true"] == pytest.approx(0.09, abs=0.025)
+    assert metrics["effect, carried ends"] > 0 and metrics["p, carried ends"] < 0.05
 
 
 def test_paired_tests_agree_with_scipy_and_holm_by_hand() -> None:

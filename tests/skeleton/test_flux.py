@@ -14,7 +14,7 @@ from surfexp.operators.fem import fem
 from surfexp.skeleton.boundary_distance import boundary_distance, boundary_vertices, halve_boundary_edges
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.fast_marching import fast_marching
-from surfexp.skeleton.flux import flux, flux_weights, vertex_gradients, weighted_operator
+from surfexp.skeleton.flux import flux, flux_weights, skeleton_points, vertex_gradients, weighted_operator
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
 from surfexp.skeleton.strip import strip, y_patch
 
@@ -65,6 +65,20 @@ def test_gradients_and_flux_of_a_ridge():
     on_ridge = (np.abs(Y - 0.5) < 1e-9) & (X > 0.1) & (X < 2.4)
     elsewhere = (np.abs(Y - 0.5) > 2.5 * H) & (Y > 0.1) & (Y < 0.9) & (X > 0.1) & (X < 2.4)
     assert found[on_ridge].max() < -0.2 and np.abs(found[elsewhere]).max() < 1e-9
+
+
+def test_least_flux_is_on_the_skeleton_of_a_rectangle():
+    found = skeleton_points(FLAT, flux(FLAT, TRUE))
+    nearest = np.sort(np.stack([X, 2.5 - X, Y, 1.0 - Y]), axis=0)
+    # two sides are equally near on the skeleton: the middle line and the bisectors of the corners
+    assert len(found) >= 6 and (nearest[1] - nearest[0])[found].max() < 1.5 * H
+    assert len(skeleton_points(FLAT, flux(FLAT, TRUE), -0.99)) < len(found)
+    values = np.where(np.arange(len(X)) == 700, -0.9, -0.5)
+    assert 700 in skeleton_points(FLAT, values)
+    around = FLAT.edges[(FLAT.edges == 700).any(axis=1)].sum(axis=1) - 700
+    assert not np.isin(around, skeleton_points(FLAT, values)).any()
+    with pytest.raises(ValueError, match="negative"):
+        skeleton_points(FLAT, values, 0.1)
 
 
 def test_weights_are_those_of_the_text_and_bounded():

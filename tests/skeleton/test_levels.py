@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from plugins.skeleton.reeb_graph import ReebGraph, reeb_graph_skeleton
 from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.surface import Surface
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
+from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.lengths import skeleton_lengths
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.levels import area_below, choose_levels
-from surfexp.skeleton.parametrization import level_set_parametrization
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.strip import strip
 from surfexp.skeleton.study import eigenmap_skeleton
@@ -62,18 +64,6 @@ def test_the_length_of_a_developable_strip(bend):
     assert skeleton.metrics["geodesic_length"] == pytest.approx(60.0, rel=2.5e-2)
 
 
-def test_parametrisation_of_a_rectangle_is_the_rectangle():
-    levels = np.linspace(0.2, 4.8, 12)
-    grid = level_set_parametrization(FLAT, FLAT.vertices[:, 0], levels, 9, {"y": FLAT.vertices[:, 1]})
-    assert np.allclose(grid.width, 1.0) and np.allclose(grid.u, np.linspace(0, 1, 12))
-    assert np.allclose(grid.points[:, :, 0], levels[:, None])
-    assert np.allclose(grid.points[:, :, 1], 1.0 - grid.v) and np.allclose(grid.maps["y"], grid.points[:, :, 1])
-    backward = level_set_parametrization(FLAT, -FLAT.vertices[:, 0], -levels[::-1], 9)
-    assert np.allclose(backward.points[:, :, 1], backward.v)
-    with pytest.raises(ValueError, match="single open one"):
-        level_set_parametrization(FLAT, np.sin(3 * FLAT.vertices[:, 0]), np.array([0.5]))
-
-
 def test_unfit_choices_are_refused():
     with pytest.raises(ValueError, match="at least 1"):
         choose_levels(FLAT, COSINE, 0)
@@ -86,3 +76,12 @@ def test_unfit_choices_are_refused():
 def test_contours_that_shrink_to_a_vertex_have_no_length():
     contours = level_contours(FLAT, FLAT.vertices[:, 0] + 2.0 * FLAT.vertices[:, 1], np.array([7.0]))
     assert contour_lengths(contours, FLAT.vertices) == pytest.approx([0.0], abs=1e-9)
+
+
+def test_a_flat_feature_gives_fewer_levels_and_says_so():
+    flat = np.clip(FLAT.vertices[:, 0], 1.0, 2.0)
+    found = reeb_graph_skeleton(ReebGraph(levels="area_quantile"), surface=Surface(FLAT), feature=Feature(flat))
+    assert found.is_chain and len(found.levels) < 50
+    assert f"{len(found.levels)} of 50 levels" in found.notes[0]
+    whole = reeb_graph_skeleton(ReebGraph(), surface=Surface(FLAT), feature=Feature(COSINE))
+    assert len(whole.levels) == 50 and whole.notes == ()

@@ -21,9 +21,10 @@ from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.levels import choose_levels
 from surfexp.skeleton.printed_rule import printed_loops
 from surfexp.skeleton.pruning import pruned
-from surfexp.skeleton.reeb_graph import reeb_graph, slab_components
+from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.simplification import contracted, simplified
 from surfexp.skeleton.skeleton import arc_components
+from surfexp.skeleton.slabs import slab_components
 
 SURFACES = {
     0: icosphere(3).mesh,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 from scipy.linalg import eigh
@@ -66,6 +68,21 @@ def test_methods_agree() -> None:
         simple = [i for i in range(20) if not any(s <= i < t for s, t in clusters(reference.values, 1e-3))]
         assert len(simple) > 10
         assert np.abs(system.vectors[:, simple] - reference.vectors[:, simple]).max() < 1e-3
+
+
+@pytest.mark.parametrize("package", ["pyamg", None])
+def test_lobpcg_reaches_its_tolerance_with_either_preconditioner(
+    package: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if package:
+        pytest.importorskip(package)
+    else:
+        monkeypatch.setitem(sys.modules, "pyamg", None)
+    a, b = pencil(torus(60, 24).mesh)
+    system = eigenpairs(a, b, 12, "lobpcg", 1e-5)
+    assert system.residuals.max() < 1e-5 and not system.complete
+    assert ("multigrid" if package else "incomplete LU") in system.notes[0] and len(system.notes) == 1
+    assert system.values[1:] == pytest.approx(eigenpairs(a, b, 12).values[1:], rel=1e-8)
 
 
 def test_many_slices_stay_orthogonal_and_complete(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,9 @@ from surfexp.spectrum.isospectral_drums import (
     tile_layout,
     tile_mesh,
 )
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT, transplantation_pairs
+from surfexp.spectrum.isospectral_graphs import compare_graphs
+from surfexp.spectrum.transplantation import transplant, transplantation_matrix
+from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT, TransplantationPair, transplantation_pairs
 
 TRIANGLES = {
     "isosceles": RIGHT_ISOSCELES,
@@ -114,3 +116,62 @@ def test_unfit_tiles_are_refused() -> None:
         glued_drum(GORDON_WEBB_WOLPERT.first, np.array([[0.0, 0], [1, 0], [2, 0]]), *tile_mesh(2))
     with pytest.raises(ValueError, match="at least 1"):
         tile_mesh(0)
+
+
+@pytest.mark.parametrize("pair", [GORDON_WEBB_WOLPERT, *transplantation_pairs()])
+@pytest.mark.parametrize("boundary", ["dirichlet", "neumann"])
+def test_transplantation_intertwines_the_reflections(pair: TransplantationPair, boundary: str) -> None:
+    carried = transplantation_matrix(pair, boundary)
+    sign = -1.0 if boundary == "dirichlet" else 1.0
+    for first, second in zip(pair.first, pair.second, strict=True):
+        reflections = []
+        for permutation in (first, second):
+            matrix = np.eye(7)[list(permutation)]
+            matrix[np.diag_indices(7)] *= sign
+            reflections.append(matrix)
+        assert (carried @ reflections[0] == reflections[1] @ carried).all()
+    assert abs(np.linalg.det(carried)) == pytest.approx(24.0)
+
+
+@pytest.mark.parametrize("boundary", ["dirichlet", "neumann"])
+@pytest.mark.parametrize("order", [1, 3])
+def test_transplanted_modes_are_modes(boundary: str, order: int) -> None:
+    pair = transplantation_pairs()[2]
+    one, two = (
+        drum_elements(glued_drum(gluing, TRIANGLES["scalene"], *random_tile(1)), order, boundary)
+        for gluing in (pair.first, pair.second)
+    )
+    system = eigenpairs(one.stiffness, one.mass, 8, tolerance=1e-11)
+    moved, tear = transplant(pair, one.extend(system.vectors), one.nodes, two.nodes, boundary)
+    assert tear < 1e-12 and np.abs(moved).max() > 0.1
+    inside = moved[two.free]
+    defect = two.stiffness @ inside - two.mass @ inside * system.values
+    assert np.abs(defect).max() < 1e-9 * system.values[-1]
+    if boundary == "dirichlet":
+        assert np.abs(moved[two.nodes.boundary]).max() < 1e-12
+    # without the signs the pieces still fit, but fold along the sides
+    wrong = transplant(pair, one.extend(system.vectors), one.nodes, two.nodes, "neumann")[0][two.free]
+    folded = two.stiffness @ wrong - two.mass @ wrong * system.values
+    assert boundary == "neumann" or np.abs(folded).max() > 1e-3 * system.values[-1]
+
+
+def test_drums_of_no_pair_have_no_transplantation() -> None:
+    with pytest.raises(ValueError, match="needs 21 and 28"):
+        transplantation_matrix(TransplantationPair(GORDON_WEBB_WOLPERT.first, GORDON_WEBB_WOLPERT.first))
+
+
+@pytest.mark.parametrize("pair", [GORDON_WEBB_WOLPERT, *transplantation_pairs()])
+def test_glued_graphs_sound_the_same_and_differ(pair: TransplantationPair) -> None:
+    found = compare_graphs(pair)
+    assert found.vertices == 28 and found.edges == 27
+    assert found.adjacency_difference < 1e-12 and found.laplacian_difference < 1e-12
+    assert not found.isomorphic
+
+
+def test_a_wrong_gluing_of_graphs_is_heard() -> None:
+    pair = transplantation_pairs()[0]
+    wrong = TransplantationPair(pair.first, (pair.second[1], pair.second[0], pair.second[2]))
+    assert compare_graphs(wrong).laplacian_difference > 1e-3
+    assert compare_graphs(TransplantationPair(pair.first, pair.first)).isomorphic
+    with pytest.raises(ValueError, match="at least 3 x 3"):
+        compare_graphs(pair, np.ones((2, 2)))

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 
 from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.operators.fem import fem
+from surfexp.spectrum.brainprint import brainprint
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.pointwise_signatures import global_point_signature, wave_kernel_signature
 from surfexp.spectrum.shape_dna import shape_dna, weighted_distance
+from surfexp.spectrum.surface_spectrum import surface_spectrum
 
 
 def ellipsoid_system(scale: float, k: int = 60):
@@ -68,3 +74,17 @@ def test_a_missing_size_is_named() -> None:
         shape_dna(np.arange(5.0), "area")
     with pytest.raises(ValueError, match="choose one of raw"):
         shape_dna(np.arange(5.0), "mass")
+
+
+def test_brainprint_of_lapy_is_our_reweighted_shape_dna(monkeypatch: pytest.MonkeyPatch) -> None:
+    surface = torus(30, 12)
+    with monkeypatch.context() as without:
+        without.setitem(sys.modules, "lapy", None)
+        with pytest.raises(ImportError, match="brainprint needs lapy"):
+            brainprint(surface.mesh, 10)
+    with pytest.raises(ValueError, match="take at most 358"):
+        brainprint(surface.mesh, 500)
+    pytest.importorskip("lapy")
+    system = surface_spectrum(surface, fem(surface.mesh), 21)
+    ours = shape_dna(system.values, "area", system.area, reweighted=True)
+    assert brainprint(surface.mesh, 20).values == pytest.approx(ours, rel=1e-5)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from sklearn.metrics import silhouette_score
 
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.class_distances import class_distances
+from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.classifiers import METHODS, classify
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.group_power import energy_distance, group_power, p_value
 from surfexp.statistics.labels import classes_of, groups_of
+from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.separation import retrieval, separation
 from surfexp.statistics.signature_distances import euclidean, signature_distances
 
@@ -139,3 +143,84 @@ def test_unfit_collections_are_refused() -> None:
     bare = DistanceMatrix(("a @ 1", "b @ 2"), np.array([[0.0, 1.0], [1.0, 0.0]]))
     with pytest.raises(ValueError, match="needs coordinates"):
         classify(bare, "random_forest")
+
+
+def sided(count: int, seed: int) -> DistanceMatrix:
+    """Two classes of `count` people each whose two sides are nearly the same; no class differs from the other."""
+    rng = np.random.default_rng(seed)
+    labels, points = [], []
+    for name in "ab":
+        for person in range(count):
+            home = rng.normal(size=3)
+            for side in ("left", "right"):
+                labels.append(f"{name} @ {name}{person} {side}")
+                points.append(home + 0.02 * rng.normal(size=3))
+    return collection(np.array(points), labels)
+
+
+def test_permuting_people_keeps_the_level_that_permuting_their_sides_breaks() -> None:
+    hits = {"member": 0, "person": 0}
+    for seed in range(120):
+        matrix = sided(4, seed)
+        first, second = np.arange(8), np.arange(8, 16)
+        owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
+        rng = np.random.default_rng(seed)
+        hits["member"] += p_value(matrix.values, first, second, 199, rng) <= 0.1
+        hits["person"] += p_value(matrix.values, first, second, 199, rng, owners) <= 0.1
+    low, high = exact_interval(hits["person"], 120)
+    assert low <= 0.1 <= high
+    assert exact_interval(hits["member"], 120)[0] > 0.1
+
+
+def test_all_splits_of_few_people_are_taken_once() -> None:
+    matrix = sided(3, 0)
+    owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
+    rng = np.random.default_rng(0)
+    share = p_value(matrix.values, np.arange(6), np.arange(6, 12), 199, rng, owners)
+    assert share * 20 == pytest.approx(round(share * 20)) and share >= 0.1  # a split and its mirror image are alike
+    best = max(
+        itertools.combinations(range(6), 3),
+        key=lambda some: energy_distance(
+            matrix.values, *(np.flatnonzero(np.isin(owners, some) == inside) for inside in (True, False))
+        ),
+    )
+    groups = [np.flatnonzero(np.isin(owners, best) == inside) for inside in (True, False)]
+    assert p_value(matrix.values, *groups, 199, rng, owners) == pytest.approx(0.1)
+
+
+def test_power_by_person_on_planted_and_equal_classes() -> None:
+    labels = people("ab", 6)
+    shift = np.repeat([0.0, 30.0], 12)[:, None]
+    matrix = collection(shift + np.random.default_rng(1).normal(size=(24, 3)), labels)
+    found = group_power(matrix, [2, 3], level=0.1, draws=60, unit="person")
+    assert found.metrics["power 3"] == 1.0 and found.metrics["power 2"] == 0.0 and found.metrics["least_p"] == 0.1
+    assert found.metrics["false_alarms_low"] <= 0.1 <= found.metrics["false_alarms_high"]
+    assert found.columns["power low"][1] == pytest.approx(0.025 ** (1 / 60))
+    assert not found.notes and "p-value under 0.1" in group_power(matrix, [3], draws=10, unit="person").notes[0]
+    with pytest.raises(ValueError, match="take at most half"):
+        group_power(matrix, [4], unit="person")
+    with pytest.raises(ValueError, match="choose member or person"):
+        group_power(matrix, [2], unit="side")
+
+
+def test_exact_interval() -> None:
+    assert exact_interval(0, 10) == (0.0, pytest.approx(1 - 0.025**0.1))
+    assert exact_interval(10, 10) == (pytest.approx(0.025**0.1), 1.0)
+    assert exact_interval(5, 10) == (pytest.approx(0.187086, abs=1e-6), pytest.approx(0.812914, abs=1e-6))
+
+
+def test_readings_of_a_picture() -> None:
+    places = {"cat": 0.0, "lioness": 1.0, "david": 10.0, "michael": 12.0, "centaur": 100.0}
+    labels = [f"{name} @ {name}{k}" for name in places for k in range(2)]
+    points = np.array([[places[label.split()[0]] + 0.01 * k] for k, label in enumerate(labels)])
+    near = [("cat", "lioness"), ("michael", "david"), ("cat", "wolf")]
+    found = class_readings(collection(points, labels), near, ["centaur", "wolf", "cat"])
+    metrics = found.metrics
+    assert metrics["rank cat, lioness"] == 1.0 and metrics["rank cat to lioness"] == 1.0
+    assert metrics["rank michael, david"] == 2.0 and metrics["rank michael to david"] == 1.0
+    assert metrics["remoteness centaur"] == 1.0 and metrics["remoteness cat"] == 2.0
+    assert metrics["nearest centaur"] > 1.0 > metrics["nearest cat"]
+    assert metrics["readings"] == 4.0 and "wolf" in found.notes[-1]
+    assert "rank cat, wolf" not in metrics and "remoteness wolf" not in metrics
+    absent = class_readings(collection(points[:4], labels[:4]), near[1:], ["wolf"])
+    assert absent.metrics["readings"] == 0.0 and set(absent.metrics) == {"members", "classes", "readings"}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,6 +12,7 @@ from hypothesis import strategies as st
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.embeddings import (
     classical_scaling,
+    manifold_embedding,
     neighbour_embedding,
     principal_components,
     stress,
@@ -81,3 +84,20 @@ def test_unfit_requests_are_refused() -> None:
     ):
         with pytest.raises(ValueError, match=words):
             DistanceMatrix(matrix.labels, spoil(matrix.values))
+
+
+def test_umap_says_when_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "umap", None)
+    with pytest.raises(ImportError, match="pip install umap-learn"):
+        manifold_embedding(of_points(np.random.default_rng(0).normal(size=(12, 3))))
+
+
+@pytest.mark.slow
+def test_umap_keeps_far_clusters_apart() -> None:
+    pytest.importorskip("umap")
+    rng = np.random.default_rng(0)
+    matrix = of_points(np.concatenate([rng.normal(size=(12, 3)), 100.0 + rng.normal(size=(12, 3))]))
+    found = manifold_embedding(matrix, seed=3)
+    assert found.points.shape == (24, 2) and np.array_equal(found.points, manifold_embedding(matrix, seed=3).points)
+    distances = euclidean(found.points)
+    assert distances[:12, :12].max() < distances[:12, 12:].min()

@@ -1,0 +1,20 @@
+"""BrainPrint, through LaPy."""
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.spectrum.brainprint import brainprint
+from surfexp.spectrum.signature import Signature
+from surfexp.workflow.registry import Options, register
+
+
+class BrainPrint(Options):
+    """How many values."""
+
+    count: int = Field(50, ge=1, le=2000, description="eigenvalues after 0")
+
+
+@register("signature", "brainprint")
+def brainprint_signature(options: BrainPrint, *, surface: Surface) -> Signature:
+    """Shape DNA by LaPy, times the area and over the number of each value, as BrainPrint takes it."""
+    return brainprint(surface.mesh, options.count)

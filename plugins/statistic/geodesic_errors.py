@@ -1,0 +1,43 @@
+"""Curves of the geodesic error of maps whose truth is known, as in the literature on functional maps."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.geodesic_error import geodesic_errors, share_within
+from surfexp.embedding.labels import ORIGIN
+from surfexp.mesh.surface import Surface
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class GeodesicErrors(Options):
+    """Where errors are measured."""
+
+    samples: int = Field(300, ge=1, le=100000, description="vertices of the target, drawn by area")
+    largest: float = Field(0.2, gt=0, le=10, description="end of the curves, in square roots of the area")
+    steps: int = Field(20, ge=1, le=1000, description="points of the curves after 0")
+    seed: int = Field(0, ge=0, description="seed of the draw")
+
+
+@register("statistic", "geodesic_errors")
+def geodesic_errors_statistic(
+    options: GeodesicErrors, *, source_surface: Surface, target_surface: Surface, maps: dict[str, Distance]
+) -> Statistic:
+    """Share of the target that each map sends within a geodesic distance of the true place on the source."""
+    if ORIGIN not in target_surface.scalars:
+        known = ", ".join(target_surface.scalars) or "none"
+        raise ValueError(f"{target_surface.name} has no scalar map 'origin', the true vertices; it has: {known}")
+    errors = geodesic_errors(
+        source_surface.mesh,
+        target_surface.mesh.vertex_areas,
+        target_surface.scalars[ORIGIN].astype(np.int64),
+        {name: found.correspondence for name, found in maps.items()},
+        options.samples,
+        options.seed,
+    )
+    bounds = np.linspace(0.0, options.largest, options.steps + 1)
+    columns = {"error": bounds, **{name: share_within(values, bounds) for name, values in errors.items()}}
+    metrics = {f"mean, {name}": float(values.mean()) for name, values in errors.items()}
+    metrics |= {f"within .05, {name}": float((values <= 0.05).mean()) for name, values in errors.items()}
+    return Statistic("geodesic errors of maps", columns, (), metrics)

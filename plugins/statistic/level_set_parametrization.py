@@ -1,0 +1,62 @@
+"""Section 5.6: maps over patches compared point by point, u along the skeleton and v along each contour."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.patch_grid import compare_on_grid, region_found
+from surfexp.skeleton.width_test import false_positive_share
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class LevelSetParametrization(Options):
+    """Which map, on which grid, and how the groups are compared."""
+
+    group: str = Field("", description="what the first group is, for the name")
+    map: str = Field("width", description='"width", "boundary_distance" or the name of a scalar map of the surfaces')
+    along: int = Field(40, ge=3, le=1000, description="contours along the skeleton, at equal distances")
+    across: int = Field(15, ge=2, le=1000, description="points along each contour")
+    alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
+    ahead: tuple[float, float, float] = Field((1.0, 0.0, 0.0), description="direction in which u rises, on the whole")
+    permutations: int = Field(1000, ge=20, le=100000, description="random exchanges of membership")
+    level: float = Field(0.05, gt=0, lt=1, description="level of the test, over all points together")
+    halvings: int = Field(100, ge=1, le=10000, description="random halvings of the second group, where nothing differs")
+    seed: int = Field(0, ge=0, description="seed of the exchanges")
+
+
+@register("statistic", "level_set_parametrization")
+def level_set_parametrization_statistic(
+    options: LevelSetParametrization, *, first: dict[str, Surface], second: dict[str, Surface]
+) -> Statistic:
+    """A map compared between two groups of patches at every point (u, v) of their level sets, corrected for multiplicity."""
+    found = compare_on_grid(
+        first,
+        second,
+        along=options.along,
+        across=options.across,
+        alpha=options.alpha,
+        chosen=options.map,
+        ahead=options.ahead,
+        permutations=options.permutations,
+        seed=options.seed,
+    )
+    u, v = (places.ravel() for places in np.meshgrid(found.u, found.v, indexing="ij"))
+    columns = {
+        "u": u,
+        "v": v,
+        "first_mean": found.first.mean(axis=0).ravel(),
+        "second_mean": found.second.mean(axis=0).ravel(),
+        "statistic": found.test.statistic,
+        "corrected_p": found.test.corrected,
+        "uncorrected_p": found.test.uncorrected,
+    }
+    metrics = region_found(found, options.level)
+    flat = found.second.reshape(len(found.second), -1)
+    metrics["false_positives"] = (
+        false_positive_share(flat, options.halvings, options.level, options.seed) if len(flat) >= 6 else 0.0
+    )
+    metrics["left_out"] = float(found.left_out)
+    metrics["members"] = float(len(found.first) + len(found.second))
+    name = options.map.replace("_", " ")
+    return Statistic(f"{name}, {options.group}" if options.group else name, columns, metrics=metrics)

@@ -1,0 +1,58 @@
+"""Lengths of sulci of one's own surfaces, with files of labels for the usual tools."""
+
+from pathlib import Path
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.length_table import length_columns
+from surfexp.embedding.population import Side
+from surfexp.embedding.population_study import SIDES
+from surfexp.embedding.sulcal_export import export_sulci, write_length_table
+from surfexp.embedding.sulcal_measurement import TRUE, measure_sulci, name_sulci
+from surfexp.embedding.sulcal_template import make_template
+from surfexp.mesh.surface import Surface
+from surfexp.statistics.labels import classes_of, groups_of
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class SulcalTable(Options):
+    """What is measured and written."""
+
+    regions: int = Field(3, ge=1, le=100, description="sulcal regions that are measured, longest extent first")
+    export: str = Field(
+        "",
+        description="folder that also gets lengths.csv and, for each surface, .label.gii, .annot and .vtk; empty: none",
+    )
+
+
+@register("statistic", "sulcal_table")
+def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces: dict[str, Surface]) -> Statistic:
+    """Lengths of sulci by every estimator for each subject and side, surfaces labelled "left @ NAME" and "right @ NAME"."""
+    labels = tuple(surfaces)
+    place = dict(zip(zip(groups_of(labels), classes_of(labels), strict=True), labels, strict=True))
+    subjects = sorted(set(groups_of(labels)))
+    if set(place) != {(subject, side) for subject in subjects for side in SIDES} or len(place) != len(labels):
+        raise ValueError(
+            f"surfaces are {', '.join(labels)}; take one 'left @ NAME' and one 'right @ NAME' of each subject"
+        )
+    study, folder = make_template(template, options.regions), Path(options.export)
+    table: dict[str, dict[Side, list[np.ndarray]]] = {}
+    for done, (subject, side) in enumerate(sorted(place), 1):
+        label = place[subject, side]
+        named = name_sulci(study, surfaces[label])
+        for name, values in measure_sulci(study, surfaces[label], named).items():
+            if name != TRUE:
+                table.setdefault(name, {"left": [], "right": []})["left" if side == "left" else "right"].append(values)
+        if options.export:
+            export_sulci(folder, label, surfaces[label], named, int(study.regions.max()) + 1)
+        report_progress(done, 1.0 - done / len(place))
+    lengths = {name: {side: np.array(rows) for side, rows in sides.items()} for name, sides in table.items()}
+    rows, columns = length_columns(lengths, range(len(subjects)), subjects)
+    if options.export:
+        write_length_table(folder / "lengths.csv", rows, columns)
+    metrics = {f"found, {name}": float(np.isfinite(columns[name]).mean()) for name in lengths}
+    notes = tuple(f"Sulcus {k} is region {number + 1} of the template." for k, number in enumerate(study.measured, 1))
+    return Statistic("sulcal lengths", columns, rows, {"subjects": float(len(subjects)), **metrics}, notes)

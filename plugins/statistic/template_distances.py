@@ -1,0 +1,59 @@
+"""Spectral distances of a synthetic population to its template, in blocks."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.population import synthetic_subject
+from surfexp.embedding.population_study import SIDES
+from surfexp.embedding.template_distances import template_distances
+from surfexp.mesh.surface import Surface
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class TemplateDistances(Options):
+    """A block of a synthetic population, and the distance."""
+
+    subjects: int = Field(5, ge=1, le=2000, description="subjects of this block, two hemispheres each")
+    first: int = Field(0, ge=0, le=1000000, description="number of the block's first subject")
+    n: int = Field(20, ge=1, le=200, description="number of eigenfunctions")
+    exact: bool = Field(False, description="prove the signs on all points, or take those of samples")
+    samples: int = Field(1500, ge=10, le=100000, description="points on which signs are searched, drawn by area")
+    strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
+    seed: int = Field(0, ge=0, description="seed of the population")
+
+
+@register("statistic", "template_distances")
+def template_distances_statistic(options: TemplateDistances, *, template: Surface) -> Statistic:
+    """Spectral distance of each hemisphere of a block of a synthetic population to the template."""
+    numbers = [(options.first + k, side) for k in range(options.subjects) for side in SIDES]
+
+    def surfaces() -> Iterator[Surface]:
+        for number, side in numbers:
+            yield synthetic_subject(template, number, side, options.strain, seed=options.seed)
+
+    count = len(numbers)
+    columns = template_distances(
+        template,
+        surfaces(),
+        options.n,
+        options.exact,
+        options.samples,
+        lambda done: report_progress(done, 1.0 - done / count),
+    )
+    values = columns["distance"]
+    metrics = {
+        "surfaces": float(count),
+        "mean distance": float(values.mean()),
+        "largest distance": float(values.max()),
+        "doubtful": float(columns["doubtful"].sum()),
+    }
+    keys = {
+        "subject": np.array([number for number, _ in numbers], float),
+        "side": np.array([SIDES.index(side) for _, side in numbers], float),
+    }
+    rows = tuple(f"subject {number}, {side}" for number, side in numbers)
+    return Statistic("distances to the template", {**keys, **columns}, rows, metrics)

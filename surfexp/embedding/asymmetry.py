@@ -1,0 +1,66 @@
+"""Are sulci longer on one side? Tests, false positives and power of a table of lengths, by estimator."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
+from surfexp.embedding.population_study import Table
+from surfexp.mesh.triangle_mesh import Floats
+
+LARGEST = 1e9
+FEWEST_PAIRS = 3
+PRINTED, WHOLE = "own region, printed line", "own region, line with ends"
+
+
+def asymmetry_study(
+    table: Table, draws: int = 200, seed: int = 0
+) -> tuple[tuple[str, ...], dict[str, Floats], dict[str, float]]:
+    """Return names of rows (estimator and sulcus), columns of the paired tests, and metrics of the first sulcus.
+
+    Parameters
+    ----------
+    table : mapping
+        By estimator and side (subjects, sulci) lengths.
+    draws : int
+        Random exchanges of sides within subjects, for the share of false positives.
+    """
+    rows: list[str] = []
+    columns: dict[str, list[float]] = {}
+    metrics: dict[str, float] = {}
+    for estimator, lengths in table.items():
+        count = lengths["left"].shape[1]
+        sides = [{f"sulcus {k + 1}, {estimator}": lengths[side][:, k] for k in range(count)} for side in lengths]
+        differences = lengths["left"] - lengths["right"]
+        if np.isfinite(differences).sum(axis=0).min() < FEWEST_PAIRS:
+            continue
+        tests = paired_tests(sides[0], sides[1])
+        rows += tests.names
+        for name, values in vars(tests).items():
+            if name != "names":
+                columns.setdefault(name, []).extend(np.nan_to_num(values, posinf=LARGEST, neginf=-LARGEST))
+        rates = [false_positive_rate(differences[:, k], draws, seed=seed) for k in range(count)]
+        metrics |= {
+            f"difference, {estimator}": float(tests.difference[0]),
+            f"effect, {estimator}": float(np.clip(tests.effect[0], -LARGEST, LARGEST)),
+            f"p, {estimator}": float(tests.p_t_holm[0]),
+            f"p Wilcoxon, {estimator}": float(tests.p_wilcoxon_holm[0]),
+            f"least p elsewhere, {estimator}": float(tests.p_t_holm[1:].min()) if count > 1 else 1.0,
+            f"false positives, {estimator}": float(np.mean(rates)),
+            f"length, {estimator}": float(np.nanmean([lengths["left"][:, 0], lengths["right"][:, 0]])),
+            f"pairs, {estimator}": float(tests.subjects[0]),
+        }
+    if all(f"length, {name}" in metrics for name in (PRINTED, WHOLE)):
+        metrics["printed share of line"] = metrics[f"length, {PRINTED}"] / metrics[f"length, {WHOLE}"]
+    return tuple(rows), {name: np.array(values) for name, values in columns.items()}, metrics
+
+
+def power_study(table: Table, sizes: list[int], draws: int = 200, seed: int = 0) -> dict[str, Floats]:
+    """Return the column "subjects" and, by estimator, the share of samples of that many in which sulcus 1 differs."""
+    columns = {"subjects": np.array(sizes, dtype=np.float64)}
+    for estimator, lengths in table.items():
+        differences = (lengths["left"] - lengths["right"])[:, 0]
+        measured = np.isfinite(differences).sum() >= FEWEST_PAIRS
+        found = power_by_subjects(differences, sizes, draws, seed=seed) if measured else np.zeros(len(sizes))
+        columns[estimator] = found
+    return columns
