@@ -79,8 +79,8 @@ GEOMETRY_FAULTS = (
     Fault(
         "fronts that only follow edges",
         "skeleton/fast_marching.py",
-        "    if not fixed[other]:",
-        "    if fixed[other]:",
+        "return min(along, distance[u] + t)",
+        "return along",
         (FRONT,),
     ),
     Fault(

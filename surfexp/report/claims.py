@@ -45,7 +45,7 @@ class Verdict:
     @property
     def interval(self) -> str:
         """The numbers that reproduce the claim, for a table."""
-        low, high = (None if end is None else format_number(end) for end in self.claim.holds)
+        low, high = (None if end is None else f"{end:g}" for end in self.claim.holds)
         if low is None or high is None:
             return f"≥ {low}" if low is not None else f"≤ {high}" if high is not None else "any"
         return low if low == high else f"{low} to {high}"
