@@ -15,7 +15,7 @@ from surfexp.figures.encode import encode_png
 PICTURE = ROOT / "docs" / "gap_against_time.png"
 
 SECTIONS = {
-    "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling"),
+    "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling", "threads"),
     "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "nodal_domains", "assembly"),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
