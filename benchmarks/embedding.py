@@ -9,11 +9,14 @@ from benchmarks.line import Line, race
 from benchmarks.measurement import Cost, measure
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
+from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.labels import desikan_killiany, label_accuracy
+from surfexp.embedding.population import synthetic_subject
 from surfexp.embedding.sign_search import Signs, branch_and_bound
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.surface_map import Pair, embedding_map, zoomout_map
+from surfexp.embedding.template_distances import template_distances
 from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
 from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.mesh.icosphere import icosphere
@@ -41,7 +44,7 @@ def lines(quick: bool) -> list[Line]:
     fast, cost = measure(lambda: spectral_distance(*_embedded(pair, 20), exact=False))
     same = bool((np.diag(fast.basis) == np.diag(exact.basis)).all())
     found.append(_within("d_20 on 1,500 samples", 1.0, cost, f"same signs: {'yes' if same else 'no'}", same))
-    return [*found, *_transfer_lines(pair), _sphere_line()]
+    return [*found, *_transfer_lines(pair), _sphere_line(), _population_line(left), _faces_line(pair)]
 
 
 def _system(surface: Surface, k: int) -> EigenSystem:
@@ -107,3 +110,27 @@ def _sphere_line() -> Line:
     found, cost = measure(lambda: block_distance(first, second, blocks), 1)
     value = f"{found.value:.4f}"
     return Line("remeshed spheres, n = 15", "signs alone: .36", "≤ 0.03", value, found.value <= 0.03, cost)
+
+
+def _population_line(template: Surface) -> Line:
+    """A part of 698 surfaces to one template, made, embedded and compared; 25 minutes on two cores are to suffice for all."""
+    part = 4
+    seconds = 25.0 * 60.0 * 2.0 * part / 698.0
+    found, cost = measure(
+        lambda: template_distances(template, (synthetic_subject(template, k, "left") for k in range(part))), 1
+    )
+    doubtful = int(found["doubtful"].sum())
+    accuracy = f"all 698: {698.0 / part * cost.cpu / 120.0:.1f} min on 2 cores; {doubtful} of {part} doubtful"
+    return _within(f"{part} of 698 surfaces to one template, d_20", seconds, cost, accuracy, True)
+
+
+def _faces_line(pair: Pair) -> Line:
+    first, second = _embedded(pair, 3)
+    signs = np.diag(spectral_distance(first, second, exact=False).basis)
+    moved = second.rotated(np.diag(signs))
+    faces = pair.source_surface.mesh.faces, pair.target_surface.mesh.faces
+    distance_on_faces(first, moved, *faces)
+    found, cost = measure(lambda: distance_on_faces(first, moved, *faces), 1)
+    to_vertices = spectral_distance(first, second, exact=False).value
+    accuracy = f"{found:.4f}, to vertices {to_vertices:.4f}"
+    return _within("distance to faces, d_3, 10k x 20k triangles", 4.0, cost, accuracy, found <= to_vertices)

@@ -22,6 +22,8 @@ PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"
 
 SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
+PIAL = {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}}
+POPULATION = {"name": "sulcal_population", "regions": 1, "inputs": PIAL}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 GRID = {
@@ -118,6 +120,7 @@ SMALL = {
             "statistic": {"statistic": {"name": "level_set_parametrization", **GRID}},
         }
     },
+    ("figure", "skeleton_shares"): {"inputs": {"statistics": {"over": "studies"}}},
     ("figure", "skeleton_group"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
     ("figure", "level_sets"): {
         "inputs": {"weights": {"over": "alphas"}, "features": {"over": "alphas"}, "skeletons": {"over": "alphas"}}
@@ -160,10 +163,24 @@ SMALL = {
         "sizes": [3],
         "inputs": {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}},
     },
+    ("surface", "synthetic_subject"): {"inputs": PIAL},
+    ("statistic", "sulcal_population"): {"subjects": 1, "regions": 1, "inputs": PIAL},
     ("statistic", "sulcal_asymmetry"): {
-        "subjects": 3,
-        "regions": 1,
-        "inputs": {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}},
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}}
+    },
+    ("statistic", "sulcal_power"): {
+        "sizes": [3],
+        "draws": 20,
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 1}}},
+    },
+    ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"over": "sides"}}},
+    ("statistic", "template_distances"): {"subjects": 1, "n": 6, "inputs": PIAL},
+    ("statistic", "geodesic_errors"): {
+        "samples": 5,
+        "inputs": {
+            "target_surface": {"surface": {"name": "disguised", "inputs": {"original": {"surface": SPHERE}}}},
+            "maps": {"over": "maps"},
+        },
     },
 }
 MEMBERS = {name: {"name": "torus", "n_v": 8, "minor_radius": minor} for name, minor in (("thin", 0.2), ("thick", 0.5))}
@@ -183,6 +200,23 @@ CONTEXT = {
     "feature": "height",
     "skeleton": {"name": "reeb_graph", "count": 8},
     "axes": {
+        "blocks": {"from 2": {"statistic": {"first": 2}}},
+        "sides": {
+            f"{side} @ anna": {"surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side}}
+            for side in ("left", "right")
+        },
+        "maps": {"near": {"distance": {"name": "embedding_map", "n": 3}}},
+        "studies": {
+            f"alpha {alpha}": {
+                "statistic": {
+                    "name": "skeleton_study",
+                    "count": 12,
+                    "alpha": alpha,
+                    "inputs": {"surfaces": {"over": "strips"}},
+                }
+            }
+            for alpha in (0.0, 0.5)
+        },
         "strips": {f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)},
         "alphas": {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}},
         "levels": {f"rof @ {level}": {"surface": {"name": "icosphere", "levels": level}} for level in (2, 3)},

@@ -35,31 +35,44 @@ def embedded_regions_figure(
     areas = target_surface.mesh.vertex_areas
     names = names_by_majority(labels[1] - 1, areas, labels[0] - 1, distance.correspondence) + 1
     colors = [_colors(labels[0]), _colors(np.concatenate([[0], names])[labels[1]])]
-    kept = [_some(labels[0] > 0, options.dots), _some(labels[1] > 0, options.dots)]
-    clouds = [surface.mesh.vertices for surface in surfaces]
+    kept = [_some(label > 0, options.dots) for label in labels]
+    around = [_some(label == 0, options.dots) for label in labels]
+    clouds = [_principal(surface.mesh.vertices) for surface in surfaces]
     embedded = [distance.source_points[:, :3], distance.target_points[:, :3]]
     em = 0.0135 * options.width
-    with canvas(options.width, round(0.4 * options.width)) as figure:
+    with canvas(options.width, round(0.33 * options.width)) as figure:
         panels = (("regions of the source", (0,), clouds), ("regions of the target", (1,), clouds))
         for k, (title, members, places) in enumerate((*panels, ("both in the embedding", (0, 1), embedded))):
-            axes = figure.add_axes((k / 3, 0.0, 1 / 3, 0.9), projection="3d")
+            axes = figure.add_axes((k / 3, -0.04, 1 / 3, 0.98), projection="3d")
             for member in members:
-                rows = kept[member]
-                dots = places[member][rows]
-                marker = "o" if member == 0 else "^"
-                axes.scatter(*dots.T, s=7.0, c=colors[member][rows], marker=marker, linewidths=0, alpha=0.8)
+                if k < 2:
+                    axes.scatter(
+                        *places[member][around[member]].T, s=4.0, c="#c4c4c4", linewidths=0, alpha=0.6, zorder=0
+                    )
+                dots = places[member][kept[member]]
+                color, marker = colors[member][kept[member]], "o" if member == 0 else "^"
+                axes.scatter(*dots.T, s=14.0, c=color, marker=marker, linewidths=0, alpha=0.9, zorder=1)
             everything = np.vstack([places[member] for member in members])
-            axes.set_box_aspect(np.ptp(everything, axis=0), zoom=1.4)
+            axes.set_box_aspect(np.ptp(everything, axis=0), zoom=1.55)
             axes.set_axis_off()
-            axes.view_init(15, -170 if k < 2 else -55)
-            figure.text((k + 0.5) / 3, 0.95, title, fontsize=points(em), ha="center", va="center")
+            axes.view_init(*((0, -90) if k < 2 else (15, -55)))
+            axes.computed_zorder = False
+            figure.text((k + 0.5) / 3, 0.94, title, fontsize=points(em), ha="center", va="center")
         pixels = drawn(figure)
     caption = (
-        f"Sulcal regions of {source_surface.name} and {target_surface.name}: in space, where pose and scale differ, and by "
+        f"Sulcal regions of {source_surface.name} and {target_surface.name}: in space, each along its main axes, and by "
         f"the first three functions of the optimal embedding. Colours of the target are those of the source by majority "
         "vote of the nearest neighbours. Compare figures 6.4 to 6.6."
     )
     return Figure(pixels, caption, "sulcal regions")
+
+
+def _principal(vertices: Floats) -> Floats:
+    """Coordinates along the main axes: the longest across, the second up, the third towards the eye."""
+    centred = vertices - vertices.mean(axis=0)
+    axes = np.linalg.svd(centred, full_matrices=False)[2]
+    axes[2] *= np.linalg.det(axes)
+    return np.asarray(centred @ axes[[0, 2, 1]].T)
 
 
 def _some(inside: np.ndarray, count: int) -> np.ndarray:

@@ -36,7 +36,7 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
         box = axes.get_position()
         axes.set_position([box.x0, box.y0, LEGEND - box.x0, box.height])
         for k, name in enumerate(dict.fromkeys(embedding.classes)):
-            color, marker = COLORS[k % len(COLORS)], MARKERS[k % len(MARKERS)]
+            color, marker = COLORS[k % len(COLORS)], MARKERS[(k + k // len(COLORS)) % len(MARKERS)]
             axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
         if options.names:
             _write_owners(axes, embedding, points)

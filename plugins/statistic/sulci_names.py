@@ -41,4 +41,4 @@ def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statisti
     notes = (
         f"{2 * options.subjects} synthetic hemispheres, deformed copies of {template.name}, strain {options.strain:g}.",
     )
-    return Statistic("sulcal regions named right", columns, metrics=metrics, notes=notes)
+    return Statistic(f"sulcal regions named right, strain {options.strain:g}", columns, metrics=metrics, notes=notes)

@@ -17,6 +17,7 @@ class Cingulate(Options):
     refine: int = Field(1, ge=0, le=3, description="how often each face is divided in four")
     jag: float = Field(0.0, ge=0, le=0.9, description="share of the boundary's faces taken off at random")
     seed: int = Field(0, ge=0, description="seed of what is taken off")
+    mirror: bool = Field(False, description="reflect in the midline, so that right gyri are as left ones")
 
 
 @register("surface", "cingulate")

@@ -120,9 +120,10 @@ def synthetic_subject(
     moved += random_displacement(vertices, strain / np.sqrt(2.0), wavelength, own)
     if region is not None and asymmetry != 0.0:
         moved = stretch(moved, region, 0.5 * asymmetry * (1.0 if side == "left" else -1.0), direction)
-    faces = template.mesh.faces
+    changed = replace(template, mesh=TriangleMesh(moved, template.mesh.faces), metrics={})
+    result = disguise(changed, rotated=True, remeshed=remeshed, seed=own)
     if side == "right":
-        moved, faces = moved * [-1.0, 1.0, 1.0], faces[:, ::-1]
-    name = f"synthetic subject {subject}, {side}"
-    changed = replace(template, mesh=TriangleMesh(moved, faces), name=name, metrics={})
-    return with_metrics(disguise(changed, rotated=True, remeshed=remeshed, seed=own))
+        # mirrored last, since meshing anew depends on the orientation and would set the sides apart
+        mirrored = TriangleMesh(result.mesh.vertices * [-1.0, 1.0, 1.0], result.mesh.faces[:, ::-1])
+        result = replace(result, mesh=mirrored, metrics={})
+    return with_metrics(replace(result, name=f"synthetic subject {subject}, {side}"))

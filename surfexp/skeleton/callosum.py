@@ -18,6 +18,7 @@ ANGLES = np.array([78.0, 52.0, 30.0, 14.0, -4.0, -24.0, -70.0, -135.0, -172.0, -
 HALF_WIDTHS = np.array([4.6, 4.4, 2.6, 2.2, 2.9, 3.3, 4.4, 4.2, 2.3, 1.3])
 LENGTH = 92.0
 ISTHMUS, ISTHMUS_SPREAD = 0.31, 0.06
+GENU = (0.64, 0.91)
 
 
 @dataclass(frozen=True, eq=False)

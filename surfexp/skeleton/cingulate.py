@@ -20,7 +20,12 @@ PARCELS = {"left": (2, 9, 22, 25), "right": (43, 50, 63, 66)}
 
 
 def cingulate(
-    hemisphere: Hemisphere = "left", sheet: str = "white", refine: int = 0, jag: float = 0.0, seed: int = 0
+    hemisphere: Hemisphere = "left",
+    sheet: str = "white",
+    refine: int = 0,
+    jag: float = 0.0,
+    seed: int = 0,
+    mirror: bool = False,
 ) -> Surface:
     """The cingulate gyrus of one hemisphere as an open patch, in mm.
 
@@ -35,6 +40,8 @@ def cingulate(
         Share of the faces on the boundary that is taken off at random, as another rater would; the patch stays one piece.
     seed : int
         Of what is taken off.
+    mirror : bool
+        Reflect it in the midline, so that right gyri can be compared with left ones.
 
     Returns
     -------
@@ -57,7 +64,10 @@ def cingulate(
     scalars = {name: values[used] for name, values in whole.scalars.items()}
     if refine:
         mesh, scalars = subdivide(mesh, levels=refine), {}
-    return with_metrics(Surface(mesh, f"cingulate gyrus, {hemisphere} {sheet}", "mm", scalars))
+    name = f"cingulate gyrus, {hemisphere} {sheet}"
+    if mirror:
+        mesh, name = TriangleMesh(mesh.vertices * [-1.0, 1.0, 1.0], mesh.faces[:, ::-1].copy()), f"{name}, mirrored"
+    return with_metrics(Surface(mesh, name, "mm", scalars))
 
 
 def largest_disc(faces: Integers) -> Integers:

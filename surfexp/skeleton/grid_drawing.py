@@ -99,7 +99,8 @@ def _draw_curves(
     for values, color, name in zip(means, (FIRST, SECOND), names, strict=True):
         axes.plot(u, values[:, 0], color=color, label=name)
     top = axes.get_ylim()[1]
-    axes.plot(u[found], np.full(int(found.sum()), top), "s", color=FOUND, markersize=4, label="found")
+    if found.any():
+        axes.plot(u[found], np.full(int(found.sum()), top), "s", color=FOUND, markersize=4, label="found")
     axes.set_xlabel("u, share of the skeleton", fontsize=size)
     axes.set_ylabel(f"{label}, mean", fontsize=size)
     axes.tick_params(labelsize=size)

@@ -12,14 +12,14 @@ from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.boundary_distance import boundary_distance
-from surfexp.skeleton.callosum import true_midline
+from surfexp.skeleton.callosum import GENU, true_midline
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
 from surfexp.skeleton.group import align, bootstrap_shares, principal_components
 from surfexp.skeleton.lengths import skeleton_lengths
 from surfexp.skeleton.levels import Choice, choose_levels
 from surfexp.skeleton.midline import midline_errors
-from surfexp.skeleton.polyline import evenly_resampled, trunk_contours
+from surfexp.skeleton.polyline import distance_from_line, evenly_resampled, trunk_contours
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
@@ -94,17 +94,23 @@ def topology_metrics(skeletons: Mapping[str, Skeleton]) -> dict[str, float]:
 
 
 def miss_metrics(surfaces: Mapping[str, Surface], skeletons: Mapping[str, Skeleton]) -> dict[str, float]:
-    """Mean and worst of the largest distance from the known midlines, in edge lengths; empty where none is known."""
+    """Mean and worst of the largest distance from the known midlines, in edge lengths; empty where none is known.
+
+    "genu_miss" is the mean of the largest distance of the genu's part of the midline, where it turns back.
+    """
     if any("seed" not in surface.metrics or "thinning" not in surface.metrics for surface in surfaces.values()):
         return {}
-    errors = np.array(
-        [
-            np.array(midline_errors(true_midline(surface), trunk_contours(skeletons[label]))) / surface.mesh.edge_length
-            for label, surface in surfaces.items()
-        ]
-    )
-    names = ("midline_miss", "midline_miss_worst", "skeleton_excess")
-    return dict(zip(names, map(float, (errors[:, 0].mean(), errors[:, 0].max(), errors[:, 1].mean())), strict=True))
+    errors = np.array([_misses(surface, skeletons[label]) for label, surface in surfaces.items()])
+    names = ("midline_miss", "skeleton_excess", "genu_miss")
+    means = dict(zip(names, map(float, errors.mean(axis=0)), strict=True))
+    return {**means, "midline_miss_worst": float(errors[:, 0].max())}
+
+
+def _misses(surface: Surface, skeleton: Skeleton) -> Floats:
+    midline, line = true_midline(surface), trunk_contours(skeleton)
+    first, last = (round(share * (len(midline) - 1)) for share in GENU)
+    genu = float(distance_from_line(midline[first : last + 1], line)[0].max())
+    return np.array([*midline_errors(midline, line), genu]) / surface.mesh.edge_length
 
 
 @dataclass(frozen=True, eq=False)

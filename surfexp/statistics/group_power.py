@@ -8,8 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.mesh.triangle_mesh import Integers
 from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.permutation_test import p_value
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic
 
@@ -42,14 +43,16 @@ def group_power(
     draws, permutations, seed : int
     unit : "member" or "person"
         What changes groups in a permutation. Members of one person are alike and not exchangeable one by one, so that
-        permuting them rejects too often; with "person" whole people are drawn and permuted, all splits where they are few.
+        permuting them rejects too often; with "person" whole people are drawn and permuted: all groups and all splits
+        where they are few.
 
     Returns
     -------
     Statistic
         Columns: size, power, false alarms (both groups drawn from the first class), and their exact 95 % intervals over
         draws, low and high. Metrics: "power N" for each size, false_alarms, false_alarms_low and false_alarms_high (of the
-        largest groups), least_p (that a split of the largest groups can have), and p_value of the whole collection.
+        largest groups), draws (of them), least_p (that a split of the largest groups can have), and p_value of the whole
+        collection.
 
     Raises
     ------
@@ -65,18 +68,21 @@ def group_power(
     owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
     units = owners if unit == "person" else np.arange(len(owners))
     rng = np.random.default_rng(seed)
-    hits = np.zeros((2, len(sizes)), np.int64)
+    hits, trials = np.zeros((2, len(sizes)), np.int64), np.zeros(len(sizes), np.int64)
     for column, size in enumerate(sizes):
         for row, other in enumerate((second, first)):
             pairs = _drawn(first, other, owners, size, draws, rng, unit)
             hits[row, column] = sum(
                 p_value(matrix.values, *groups, permutations, rng, units) <= level + ROUNDING for groups in pairs
             )
-    low, high = np.array([[exact_interval(int(hit), draws) for hit in row] for row in hits]).transpose(2, 0, 1)
-    power, alarms = hits / draws
+            trials[column] = len(pairs)
+    bounds = [[exact_interval(int(hit), int(of)) for hit, of in zip(row, trials, strict=True)] for row in hits]
+    low, high = np.array(bounds).transpose(2, 0, 1)
+    power, alarms = hits / trials
     metrics = {f"power {size}": float(share) for size, share in zip(sizes, power, strict=True)}
     metrics |= {"false_alarms": float(alarms[-1]), "false_alarms_low": float(low[1, -1])}
     metrics |= {"false_alarms_high": float(high[1, -1]), "level": level}
+    metrics["draws"] = float(trials[-1])
     metrics["least_p"] = 2.0 / comb(2 * sizes[-1], sizes[-1])
     metrics["p_value"] = p_value(matrix.values, first, second, 999, rng, np.arange(len(owners)))
     columns = {"size": np.array(sizes, dtype=float), "power": power, "power low": low[0], "power high": high[0]}
@@ -85,57 +91,6 @@ def group_power(
     if metrics["least_p"] > level:
         notes = (f"No split of {sizes[-1]} against {sizes[-1]} has a p-value under {metrics['least_p']:.2g}.",)
     return Statistic(f"power to tell {names[0]} from {names[1]} by {matrix.name}", columns, (), metrics, notes)
-
-
-def energy_distance(distances: Floats, first: Integers, second: Integers) -> float:
-    """Return 2 E|X - Y| - E|X - X'| - E|Y - Y'| over members of two groups (Szekely and Rizzo 2004)."""
-    within = sum(distances[np.ix_(some, some)].sum() / len(some) ** 2 for some in (first, second))
-    return float(2.0 * distances[np.ix_(first, second)].mean() - within)
-
-
-def p_value(
-    distances: Floats,
-    first: Integers,
-    second: Integers,
-    permutations: int,
-    rng: np.random.Generator,
-    units: Integers | None = None,
-) -> float:
-    """Return the share of permutations, the true one counted in, whose energy distance is at least that of the groups.
-
-    Parameters
-    ----------
-    distances : (n, n) float64
-    first, second : int64 arrays
-        Members of the groups.
-    permutations : int
-        Random ones; all splits are taken where they are no more.
-    rng : numpy.random.Generator
-    units : (n,) int64, optional
-        Members of equal number stay together and in one group; default: each for itself.
-    """
-    together = np.concatenate([first, second])
-    block = distances[np.ix_(together, together)]
-    numbers = together if units is None else units[together]
-    names, where = np.unique(numbers, return_inverse=True)
-    true = np.isin(names, numbers[: len(first)])
-    one = _splits(true, permutations, rng)[:, where]
-    # with u = 1/m on one group and -1/n on the other the energy distance is -u^T D u
-    sizes = one.sum(axis=1, keepdims=True)
-    weights = np.where(one, 1.0 / sizes, -1.0 / (len(together) - sizes))
-    energies = -np.einsum("pi,ij,pj->p", weights, block, weights, optimize=True)
-    return float((energies >= energies[0] - 1e-12 * abs(energies[0])).mean())
-
-
-def _splits(true: np.ndarray, permutations: int, rng: np.random.Generator) -> np.ndarray:
-    """(p, u) splits of the units, the true one first: all others where they are few, else random ones."""
-    count, size = len(true), int(true.sum())
-    if comb(count, size) <= permutations + 1:
-        splits = np.zeros((comb(count, size), count), bool)
-        for row, members in zip(splits, combinations(range(count), size), strict=True):
-            row[list(members)] = True
-        return np.concatenate([true[None], splits[(splits != true).any(axis=1)]])
-    return np.stack([true, *(true[rng.permutation(count)] for _ in range(permutations))])
 
 
 def _drawn(
@@ -148,20 +103,31 @@ def _drawn(
     unit: Unit,
 ) -> list[tuple[Integers, Integers]]:
     """Pairs of groups of a size, no owner in both."""
+    if unit == "person":
+        drawn = _people(np.unique(owners), size, draws, rng)
+        return [(first[np.isin(owners[first], one)], second[np.isin(owners[second], two)]) for one, two in drawn]
     pairs = []
     people = np.unique(owners)
-    half = size if unit == "person" else len(people) // 2
-    if 2 * half > len(people):
-        raise ValueError(f"groups of {size} people cannot be drawn: there are {len(people)}, take at most half of them")
     for _ in range(draws):
-        order = rng.permutation(people)
-        others = order[half : 2 * half] if unit == "person" else order[half:]
-        left, right = first[np.isin(owners[first], order[:half])], second[np.isin(owners[second], others)]
+        mine = rng.permutation(people)[: len(people) // 2]
+        left, right = first[np.isin(owners[first], mine)], second[~np.isin(owners[second], mine)]
         if min(len(left), len(right)) < size:
             raise ValueError(
                 f"groups of {size} cannot be drawn: half of the people have {min(len(left), len(right))} members"
             )
-        if unit == "member":
-            left, right = (rng.choice(some, size, replace=False) for some in (left, right))
-        pairs.append((left, right))
+        pairs.append((rng.choice(left, size, replace=False), rng.choice(right, size, replace=False)))
     return pairs
+
+
+def _people(people: Integers, size: int, draws: int, rng: np.random.Generator) -> list[tuple[Integers, Integers]]:
+    """Two groups of people without a common one: all such pairs where they are no more than the draws, else random ones."""
+    if 2 * size > len(people):
+        raise ValueError(f"groups of {size} people cannot be drawn: there are {len(people)}, take at most half of them")
+    if comb(len(people), size) * comb(len(people) - size, size) > draws:
+        orders = (rng.permutation(people) for _ in range(draws))
+        return [(order[:size], order[size : 2 * size]) for order in orders]
+    return [
+        (np.array(one), np.array(two))
+        for one in combinations(people, size)
+        for two in combinations(np.setdiff1d(people, one), size)
+    ]

@@ -9,6 +9,7 @@ from surfexp.statistics.statistic import Statistic
 
 # limits of count_n / n: the mean on a rectangle (Blum, Gnutzmann and Smilansky 2002); no plane domain stays above the other
 RECTANGLE_MEAN = 4.0 / np.pi**2
+WINDOW = 10
 PLEIJEL = 4.0 / 2.404825557695773**2
 
 
@@ -23,8 +24,9 @@ def nodal_trend(counts: Floats, name: str = "") -> Statistic:
     Returns
     -------
     Statistic
-        Columns mode, count, ratio (count over n), running mean. Metrics: mean_ratio and largest_ratio over the upper
-        half of the modes, slope and exponent of the fit count = slope n^exponent.
+        A row for each ten modes. Columns: mode (the middle of the ten), count (their mean), ratio (count over n: mean,
+        least and largest of the ten), running mean (of all ratios so far), rectangle (4 / pi^2). Metrics: mean_ratio and
+        largest_ratio over the upper half of the modes, slope and exponent of the fit count = slope n^exponent.
 
     Raises
     ------
@@ -45,5 +47,13 @@ def nodal_trend(counts: Floats, name: str = "") -> Statistic:
         "over_rectangle": float(ratio[upper].mean() / RECTANGLE_MEAN),
         "pleijel": PLEIJEL,
     }
-    columns = {"mode": numbers, "count": counts, "ratio": ratio, "running mean": np.cumsum(ratio) / numbers}
+    tens = len(counts) // WINDOW
+    ratios = ratio[: tens * WINDOW].reshape(tens, WINDOW)
+    columns = {
+        "mode": WINDOW * (np.arange(tens) + 0.5) + 0.5,
+        "count": counts[: tens * WINDOW].reshape(tens, WINDOW).mean(axis=1),
+        "ratio": np.stack([ratios.mean(axis=1), ratios.min(axis=1), ratios.max(axis=1)], axis=1),
+        "running mean": (np.cumsum(ratio) / numbers)[WINDOW - 1 :: WINDOW],
+        "rectangle": np.full(tens, RECTANGLE_MEAN),
+    }
     return Statistic(f"trend of nodal counts{f' of the {name}' if name else ''}", columns, metrics=metrics)

@@ -12,6 +12,20 @@ from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.labels import classes_of
 from surfexp.statistics.separation import separation
 
+# parts of a spectral signature as captions call them
+WORDS = {
+    "shape_dna": "shape DNA, times area",
+    "shape_dna_raw": "shape DNA, raw",
+    "shape_dna_reweighted": "shape DNA, reweighted",
+    "nodal_counts": "nodal counts, filtered",
+    "nodal_raw": "nodal counts, printed",
+    "nodal_soft": "nodal counts, soft",
+    "combined": "spectrum and counts combined",
+    "hks": "heat kernel signature",
+    "wks": "wave kernel signature",
+    "gps": "global point signature",
+}
+
 
 def signature_distances(
     signatures: Mapping[str, Signature], part: str = "", alpha: float = 1.0, length: int | None = None
@@ -50,7 +64,7 @@ def signature_distances(
     bad = np.flatnonzero(~np.isfinite(values).all(axis=1))
     if len(bad):
         raise ValueError(f"the signature of {labels[bad[0]]!r} is not finite, and {len(bad) - 1} others")
-    name = part or next(iter(signatures.values())).name
+    name = WORDS.get(part) or (part or next(iter(signatures.values())).name).replace("_", " ")
     points = values * np.arange(1.0, used + 1.0) ** -alpha
     distances = euclidean(points)
     metrics = {"members": float(len(labels)), "length": float(used), **separation(distances, classes_of(labels))}

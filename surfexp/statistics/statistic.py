@@ -15,8 +15,8 @@ class Statistic:
     ----------
     name : str
         What was examined, for captions.
-    columns : dict of str to (r,) float64
-        The table, a column each; curves are drawn from it.
+    columns : dict of str to (r,) or (r, 3) float64
+        The table, a column each, or a value with the ends of its interval; curves are drawn from it.
     rows : tuple of str, optional
         Names of the r rows.
     metrics, notes

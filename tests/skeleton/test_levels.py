@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from plugins.skeleton.reeb_graph import ReebGraph, reeb_graph_skeleton
 from surfexp.mesh.rectangle import rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.contour_geometry import contour_lengths
@@ -17,6 +18,7 @@ from surfexp.skeleton.levels import area_below, choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.strip import strip
 from surfexp.skeleton.study import eigenmap_skeleton
+from surfexp.workflow import registry
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh
 COSINE = -np.cos(np.pi * FLAT.vertices[:, 0] / 5.0)
@@ -80,8 +82,10 @@ def test_contours_that_shrink_to_a_vertex_have_no_length():
 
 def test_a_flat_feature_gives_fewer_levels_and_says_so():
     flat = np.clip(FLAT.vertices[:, 0], 1.0, 2.0)
-    found = reeb_graph_skeleton(ReebGraph(levels="area_quantile"), surface=Surface(FLAT), feature=Feature(flat))
+    registry.load_all(Path("/nonexistent"))
+    method = registry.plugin("skeleton", "reeb_graph")
+    found = method.function(method.options(levels="area_quantile"), surface=Surface(FLAT), feature=Feature(flat))
     assert found.is_chain and len(found.levels) < 50
     assert f"{len(found.levels)} of 50 levels" in found.notes[0]
-    whole = reeb_graph_skeleton(ReebGraph(), surface=Surface(FLAT), feature=Feature(COSINE))
+    whole = method.function(method.options(), surface=Surface(FLAT), feature=Feature(COSINE))
     assert len(whole.levels) == 50 and whole.notes == ()

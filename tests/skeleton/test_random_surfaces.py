@@ -49,6 +49,10 @@ def test_loops_are_the_handles_of_the_euler_characteristic(seed, count, choice):
     assert sampled.metrics["b1"] + sum(item.handles for item in hidden) == handles
     assert sampled.metrics["hidden_handles"] == sum(item.handles for item in hidden)
     for item in hidden:
+        # a loop begins where a contour splits and ends where two meet
+        low, high = np.searchsorted(exact.values, [item.low, item.high])
+        assert item.handles >= 1 and item.low < item.high
+        assert (exact.arcs[:, 0] == low).sum() >= 2 and (exact.arcs[:, 1] == high).sum() >= 2
         assert np.searchsorted(levels, [item.low, item.high], side="right").tolist() == [item.slab] * 2
 
 

@@ -35,3 +35,12 @@ def test_heard_geometry(capsys: pytest.CaptureFixture[str]) -> None:
     words = printed("heard_geometry", capsys)[0].split()
     assert float(words[1]) == pytest.approx(39.478418, rel=1e-4)
     assert abs(float(words[-1])) < 0.02
+
+
+def test_transplanted_drum(capsys: pytest.CaptureFixture[str]) -> None:
+    assert printed("transplanted_drum", capsys) == ["pieces fit: True, still modes: True"]
+
+
+def test_patches_on_a_bare_mesh(capsys: pytest.CaptureFixture[str]) -> None:
+    errors = [float(line.split()[-1]) for line in printed("patches_on_a_bare_mesh", capsys)]
+    assert errors == pytest.approx([4.8e-3, 3.0e-5], rel=0.05)

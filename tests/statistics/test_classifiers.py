@@ -13,8 +13,9 @@ from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.classifiers import METHODS, classify
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.group_power import energy_distance, group_power, p_value
+from surfexp.statistics.group_power import group_power
 from surfexp.statistics.labels import classes_of, groups_of
+from surfexp.statistics.permutation_test import energy_distance, p_value
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.separation import retrieval, separation
 from surfexp.statistics.signature_distances import euclidean, signature_distances
@@ -194,8 +195,10 @@ def test_power_by_person_on_planted_and_equal_classes() -> None:
     matrix = collection(shift + np.random.default_rng(1).normal(size=(24, 3)), labels)
     found = group_power(matrix, [2, 3], level=0.1, draws=60, unit="person")
     assert found.metrics["power 3"] == 1.0 and found.metrics["power 2"] == 0.0 and found.metrics["least_p"] == 0.1
-    assert found.metrics["false_alarms_low"] <= 0.1 <= found.metrics["false_alarms_high"]
-    assert found.columns["power low"][1] == pytest.approx(0.025 ** (1 / 60))
+    assert found.metrics["false_alarms"] == 0.1 and found.metrics["draws"] == 20.0  # one of ten splits and its mirror
+    drawn = group_power(matrix, [3], level=0.1, draws=19, unit="person").metrics
+    assert drawn["draws"] == 19.0 and drawn["false_alarms_low"] <= 0.1 <= drawn["false_alarms_high"]
+    assert found.columns["power low"][1] == pytest.approx(0.025 ** (1 / 20))
     assert not found.notes and "p-value under 0.1" in group_power(matrix, [3], draws=10, unit="person").notes[0]
     with pytest.raises(ValueError, match="take at most half"):
         group_power(matrix, [4], unit="person")

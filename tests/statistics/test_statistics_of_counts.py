@@ -40,6 +40,10 @@ def test_trend_of_a_rectangle_is_the_known_one() -> None:
     found = nodal_trend((m * n).ravel()[order].astype(float), "rectangle").metrics
     assert found["mean_ratio"] == pytest.approx(RECTANGLE_MEAN, rel=0.06)
     assert found["exponent"] == pytest.approx(1.0, abs=0.15) and found["largest_ratio"] < found["pleijel"]
+    few = nodal_trend(np.arange(1.0, 26.0))
+    assert few.columns["mode"] == pytest.approx([5.5, 15.5]) and few.columns["count"] == pytest.approx([5.5, 15.5])
+    assert few.columns["ratio"][0, 1:] == pytest.approx([1 / 2, 10 / 11])
+    assert few.columns["running mean"][1] == pytest.approx(np.mean(np.arange(1, 21) / np.arange(2, 22)))
     with pytest.raises(ValueError, match="at least 20"):
         nodal_trend(np.ones(3))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import threading
 import zipfile
 from functools import partial
@@ -89,6 +91,19 @@ def test_collect_writes_an_axis_and_lists_what_is_left_out(shapes: Path, capsys:
     assert main(["collect", str(shapes), "--to", "mine"]) == 2 and "--force" in capsys.readouterr().err
 
 
+@pytest.mark.xdist_group("end_to_end")
+def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
+    assert main(["collect", str(shapes), "--to", "mine"]) == 0
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "plan", "experiment=tosca_classification"]
+    # five members, of which ball0 and ball10 hold the same bytes
+    for axes, count in ((["axes=mine"], 4), ([], 36)):
+        said = subprocess.run([*command, *axes], capture_output=True, text=True, timeout=300).stdout
+        row = next(line for line in said.splitlines() if "surface" in line)
+        assert row.split("│")[2].strip() == str(count), said
+    unknown = subprocess.run([*command, "axes=min"], capture_output=True, text=True, timeout=300)
+    assert unknown.returncode == 2 and "articulated mine" in unknown.stderr
+
+
 def test_people_by_a_regular_expression(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for person in ("anna", "ben"):
         for side in ("lh", "rh"):
@@ -156,6 +171,6 @@ def test_fetch_pins_the_first_download(working_folder: Path, shapes: Path, capsy
 def test_fetch_without_pooch_says_so(
     working_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "pooch", None)
+    monkeypatch.setitem(sys.modules, "pooch", None)
     assert main(["fetch", "tosca"]) == 2
     assert "pip install pooch" in capsys.readouterr().err
