@@ -9,13 +9,15 @@ from surfexp.embedding.length_table import length_columns
 from surfexp.embedding.population import Side
 from surfexp.embedding.population_study import SIDES
 from surfexp.embedding.sulcal_export import export_sulci, write_length_table
-from surfexp.embedding.sulcal_measurement import TRUE, measure_sulci, name_sulci
+from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci, name_sulci
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.labels import classes_of, groups_of
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
+
+FREESURFER = {"lh": "left", "rh": "right"}
 
 
 class SulcalTable(Options):
@@ -24,7 +26,7 @@ class SulcalTable(Options):
     regions: int = Field(3, ge=1, le=100, description="sulcal regions that are measured, longest extent first")
     export: str = Field(
         "",
-        description="folder that also gets lengths.csv and, for each surface, .label.gii, .annot and .vtk; empty: none",
+        description="folder for lengths.csv and each surface's .label.gii, .annot and .vtk when the table is made; empty: none",
     )
 
 
@@ -32,11 +34,12 @@ class SulcalTable(Options):
 def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces: dict[str, Surface]) -> Statistic:
     """Lengths of sulci by every estimator for each subject and side, surfaces labelled "left @ NAME" and "right @ NAME"."""
     labels = tuple(surfaces)
-    place = dict(zip(zip(groups_of(labels), classes_of(labels), strict=True), labels, strict=True))
+    sides = [FREESURFER.get(name, name) for name in classes_of(labels)]
+    place = dict(zip(zip(groups_of(labels), sides, strict=True), labels, strict=True))
     subjects = sorted(set(groups_of(labels)))
     if set(place) != {(subject, side) for subject in subjects for side in SIDES} or len(place) != len(labels):
         raise ValueError(
-            f"surfaces are {', '.join(labels)}; take one 'left @ NAME' and one 'right @ NAME' of each subject"
+            f"surfaces are {', '.join(labels)}; take one 'left @ NAME' (or lh) and one 'right @ NAME' (or rh) each"
         )
     study, folder = make_template(template, options.regions), Path(options.export)
     table: dict[str, dict[Side, list[np.ndarray]]] = {}
@@ -49,10 +52,16 @@ def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces:
         if options.export:
             export_sulci(folder, label, surfaces[label], named, int(study.regions.max()) + 1)
         report_progress(done, 1.0 - done / len(place))
-    lengths = {name: {side: np.array(rows) for side, rows in sides.items()} for name, sides in table.items()}
+    lengths = {name: {side: np.array(rows) for side, rows in parts.items()} for name, parts in table.items()}
     rows, columns = length_columns(lengths, range(len(subjects)), subjects)
     if options.export:
         write_length_table(folder / "lengths.csv", rows, columns)
     metrics = {f"found, {name}": float(np.isfinite(columns[name]).mean()) for name in lengths}
+    for k in range(options.regions):
+        for name in (DEFAULT, "own region, line with ends"):
+            left, right = (lengths[name][side][:, k] for side in SIDES)
+            shares = 2.0 * (left - right) / (left + right)
+            if np.isfinite(shares).any():
+                metrics[f"difference, sulcus {k + 1}, {name}"] = float(np.nanmean(shares))
     notes = tuple(f"Sulcus {k} is region {number + 1} of the template." for k, number in enumerate(study.measured, 1))
     return Statistic("sulcal lengths", columns, rows, {"subjects": float(len(subjects)), **metrics}, notes)

@@ -74,7 +74,8 @@ def _explained(error: Any, arguments: list[str]) -> UserError:
     from surfexp.workflow.registry import BROKEN, PLUGINS
 
     for argument in arguments:
-        key, _, value = argument.partition("=")
+        name, _, value = argument.partition("=")
+        key = name.lstrip("+~")
         for name in value.split(",") if key.lstrip("+") in (*KINDS, "experiment") else []:
             choices = experiments() if key == "experiment" else [n for kind, n in PLUGINS if kind == key]
             if name not in choices and "(" not in value:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -39,7 +40,7 @@ def export_sulci(folder: Path | str, name: str, surface: Surface, named: NamedSu
     tuple of Path
         The files. Both label files hold 0 for unknown, the .vtk the maps "own_region" and "carried_region".
     """
-    folder, stem = Path(folder), "".join(sign if sign.isalnum() or sign in "-." else "_" for sign in name)
+    folder, stem = Path(folder), re.sub(r"[^\w.-]+", "_", name)
     folder.mkdir(parents=True, exist_ok=True)
     files = tuple(folder / f"{stem}{suffix}" for suffix in (".label.gii", ".annot", ".vtk"))
     for path in files[:2]:

@@ -49,8 +49,8 @@ def group_power(
     Returns
     -------
     Statistic
-        Columns: size, power, false alarms (both groups drawn from the first class), and their exact 95 % intervals over
-        draws, low and high. Metrics: "power N" for each size, false_alarms, false_alarms_low and false_alarms_high (of the
+        Columns: size, level, and with their exact 95 % intervals over draws power and false alarms (both groups drawn from
+        the first class). Metrics: "power N" for each size, false_alarms, false_alarms_low and false_alarms_high (of the
         largest groups), draws (of them), least_p (that a split of the largest groups can have), and p_value of the whole
         collection.
 
@@ -85,8 +85,12 @@ def group_power(
     metrics["draws"] = float(trials[-1])
     metrics["least_p"] = 2.0 / comb(2 * sizes[-1], sizes[-1])
     metrics["p_value"] = p_value(matrix.values, first, second, 999, rng, np.arange(len(owners)))
-    columns = {"size": np.array(sizes, dtype=float), "power": power, "power low": low[0], "power high": high[0]}
-    columns |= {"false alarms": alarms, "false alarms low": low[1], "false alarms high": high[1]}
+    columns = {
+        "size": np.array(sizes, dtype=float),
+        "power": np.stack([power, low[0], high[0]], axis=1),
+        "false alarms": np.stack([alarms, low[1], high[1]], axis=1),
+        "level": np.full(len(sizes), level),
+    }
     notes: tuple[str, ...] = ()
     if metrics["least_p"] > level:
         notes = (f"No split of {sizes[-1]} against {sizes[-1]} has a p-value under {metrics['least_p']:.2g}.",)

@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 import yaml
 
-from plugins.solver.operator_errors import OperatorErrors, operator_errors_solver
 from surfexp.mesh.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
 from surfexp.report.claims import as_markdown, judge
 from surfexp.report.table import Row
+from surfexp.workflow import registry
 from surfexp.workflow.plan import Leaf
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "conf" / "experiment"
@@ -79,5 +79,7 @@ def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytes
 
 def measured() -> Row:
     surface = icosphere(2)
-    metrics = operator_errors_solver(OperatorErrors(), surface=surface, operator=fem(surface.mesh)).metrics
+    registry.load_all(Path("/nonexistent"))
+    method = registry.plugin("solver", "operator_errors")
+    metrics = method.function(method.options(), surface=surface, operator=fem(surface.mesh)).metrics
     return Row(Leaf("key", "fem", {}, {}), {"operator.name": "fem"}, metrics, 0.0)

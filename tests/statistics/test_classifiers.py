@@ -198,7 +198,7 @@ def test_power_by_person_on_planted_and_equal_classes() -> None:
     assert found.metrics["false_alarms"] == 0.1 and found.metrics["draws"] == 20.0  # one of ten splits and its mirror
     drawn = group_power(matrix, [3], level=0.1, draws=19, unit="person").metrics
     assert drawn["draws"] == 19.0 and drawn["false_alarms_low"] <= 0.1 <= drawn["false_alarms_high"]
-    assert found.columns["power low"][1] == pytest.approx(0.025 ** (1 / 20))
+    assert found.columns["power"][1, 1] == pytest.approx(0.025 ** (1 / 20))
     assert not found.notes and "p-value under 0.1" in group_power(matrix, [3], draws=10, unit="person").notes[0]
     with pytest.raises(ValueError, match="take at most half"):
         group_power(matrix, [4], unit="person")
