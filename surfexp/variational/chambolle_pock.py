@@ -9,9 +9,9 @@ import numpy as np
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate
-from surfexp.variational.face_sweeps import dual_ascent, face_steps
 from surfexp.variational.fidelity import Fidelity
 from surfexp.variational.solution import Solution
+from surfexp.variational.threaded_ascent import ThreadedAscent
 
 CHECK_INTERVAL = 10
 
@@ -33,7 +33,7 @@ def starting_fields(fidelity: Fidelity, operator: SurfaceOperator, start: Soluti
 
 
 def chambolle_pock_iterates(
-    fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None, tau: float, limit: int
+    fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None, tau: float, limit: int, threads: int = 1
 ) -> Iterator[Iterate]:
     """Yield every tenth iterate of the face-based method, the last one included.
 
@@ -45,25 +45,30 @@ def chambolle_pock_iterates(
         First primal step; it falls by acceleration where the fidelity is strongly convex.
     limit : int
         Number of iterations.
+    threads : int
+        Over how many the sweep over the faces is spread.
     """
     values, dual = starting_fields(fidelity, operator, start)
     count = operator.vertex_count
-    steps = face_steps(operator.hat_gradients)
     mass = operator.mass.reshape(-1, *[1] * (values.ndim - 1))
     mu = fidelity.strong_convexity
     ahead, load, point = values.copy(), np.zeros(values.shape), np.empty(values.shape)
     views = (ahead.reshape(count, -1), dual.reshape(len(dual), -1, 2), load.reshape(count, -1))
     sigma = 1.0 / tau
-    for iteration in range(1, limit + 1):
-        dual_ascent(operator.faces, operator.hat_gradients, operator.areas, steps, sigma, *views)
-        np.divide(load, mass, out=point)
-        point *= -tau
-        point += values
-        new = fidelity.prox(point, tau)
-        momentum = 1.0 / np.sqrt(1.0 + 2.0 * mu * tau)
-        np.subtract(new, values, out=ahead)
-        ahead *= momentum
-        ahead += new
-        tau, sigma, values = tau * momentum, sigma / momentum, new
-        if iteration % CHECK_INTERVAL == 0 or iteration == limit:
-            yield Iterate(iteration, values, dual, load)
+    ascent = ThreadedAscent(operator, views[0].shape[1], threads)
+    try:
+        for iteration in range(1, limit + 1):
+            ascent(sigma, *views)
+            np.divide(load, mass, out=point)
+            point *= -tau
+            point += values
+            new = fidelity.prox(point, tau)
+            momentum = 1.0 / np.sqrt(1.0 + 2.0 * mu * tau)
+            np.subtract(new, values, out=ahead)
+            ahead *= momentum
+            ahead += new
+            tau, sigma, values = tau * momentum, sigma / momentum, new
+            if iteration % CHECK_INTERVAL == 0 or iteration == limit:
+                yield Iterate(iteration, values, dual, load)
+    finally:
+        ascent.close()

@@ -19,6 +19,7 @@ def primal_dual(
     tolerance: float = 1e-4,
     iteration_limit: int = 20000,
     step: float | None = None,
+    threads: int = 1,
     progress: Progress | None = None,
 ) -> Solution:
     """Minimise TV + H by the primal-dual method, accelerated where H is strongly convex.
@@ -37,6 +38,9 @@ def primal_dual(
     iteration_limit : int
     step : float, optional
         First primal step tau; the dual one is 1/tau times the step of the face. Default: `fidelity.step`.
+    threads : int
+        Over how many the sweep over the faces is spread; for large meshes in a script, since the workflow gives every core a
+        stage of its own. A vertex-averaged operator has no such sweep.
     progress : callable, optional
 
     References
@@ -47,5 +51,5 @@ def primal_dual(
     if operator.averaged_gradient is not None:
         states = averaged_primal_dual(fidelity, operator, start, tau, iteration_limit)
         return run_and_audit(states, fidelity, operator, "primal_dual", tolerance, progress)
-    iterates = chambolle_pock_iterates(fidelity, operator, start, tau, iteration_limit)
+    iterates = chambolle_pock_iterates(fidelity, operator, start, tau, iteration_limit, threads)
     return run_to_gap(iterates, fidelity, operator, "primal_dual", tolerance, progress)

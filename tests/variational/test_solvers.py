@@ -66,6 +66,18 @@ def test_certificate_belongs_to_the_values_that_are_returned(surface: Surface, i
             assert again.lower_bound == pytest.approx(solution.lower_bound, rel=1e-12)
 
 
+@pytest.mark.parametrize("threads", [2, 3])
+def test_threads_change_rounding_only_and_repeat_to_the_byte(surface: Surface, image: Image, threads: int) -> None:
+    fidelity, operator = denoising(surface, image), fem(surface.mesh)
+    run = partial(primal_dual, fidelity, operator, tolerance=1e-12, iteration_limit=50)
+    one, several, again = run(), run(threads=threads), run(threads=threads)
+    assert several.values.tobytes() == again.values.tobytes()
+    np.testing.assert_allclose(several.values, one.values, rtol=1e-10, atol=1e-9)
+    for refused in (0, len(operator.faces) + 1):
+        with pytest.raises(ValueError, match=f"threads = {refused}"):
+            run(threads=refused)
+
+
 def test_a_limit_of_zero_is_refused(surface: Surface, image: Image) -> None:
     for operator in (fem(surface.mesh), vertex_averaged(surface.mesh)):
         with pytest.raises(ValueError, match="iteration_limit is 0"):
