@@ -7,8 +7,8 @@ from typing import Literal
 import numpy as np
 
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided, summarised
-from surfexp.embedding.nearest import mutual_distances, nearest
+from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
+from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Signs, SignSearch, greedy_signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
 from surfexp.mesh.triangle_mesh import Floats
@@ -65,15 +65,13 @@ def spectral_distance(
         if exact:
             searches.append(search_signs(objective, source.dimension, start, limit))
         else:
-            distances = mutual_distances(source.points, target.points * start)
-            value = summarised(*distances, source, target, direction, summary)
-            searches.append(_unproved(objective, start, spent, value))
+            searches.append(_unproved(objective, start, spent))
         notes += [] if agreed else ["Two draws of samples prefer different signs: search exactly."]
     chosen = max(searches, key=lambda search: search.value)
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
-    if exact or len(searches) > 1:
-        distances = mutual_distances(source.points, moved)
+    rows, backward = nearest(moved, source.points)
+    forward = nearest(source.points, moved)[1]
     same = float(all((search.signs == chosen.signs).all() for search in searches))
     optimal = all(search.optimal for search in searches)
     if exact and not optimal:
@@ -86,11 +84,11 @@ def spectral_distance(
         basis=np.diag(signs),
         source_points=source.points,
         target_points=moved,
-        correspondence=nearest(moved, source.points)[0],
+        correspondence=rows,
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
         method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
-        metrics=_directions(source, target, *distances) | {"same_signs": same},
+        metrics=_directions(source, target, forward, backward) | {"same_signs": same},
         notes=tuple(dict.fromkeys(notes)),
     )
 
@@ -106,10 +104,10 @@ def _directions(
     }
 
 
-def _unproved(objective: HausdorffObjective, signs: Signs, evaluations: int, value: float) -> SignSearch:
+def _unproved(objective: HausdorffObjective, signs: Signs, evaluations: int) -> SignSearch:
     """Return given signs with their value on all points; the bound is that of no sign decided."""
     node = np.zeros((1, len(signs)), np.int8)
-    bound = objective.lower_bound(node[0])
+    value, bound = objective(signs), objective.lower_bound(node[0])
     return SignSearch(signs, value, min(bound, value), bound >= value, evaluations, node, np.array([bound]))
 
 

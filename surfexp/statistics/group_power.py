@@ -68,29 +68,19 @@ def group_power(
     owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
     units = owners if unit == "person" else np.arange(len(owners))
     rng = np.random.default_rng(seed)
-    hits, trials = np.zeros((2, len(sizes)), np.int64), np.zeros(len(sizes), np.int64)
-    for column, size in enumerate(sizes):
-        for row, other in enumerate((second, first)):
+    power, alarms = np.empty((len(sizes), 3)), np.empty((len(sizes), 3))
+    for shares, other in ((power, second), (alarms, first)):
+        for row, size in enumerate(sizes):
             pairs = _drawn(first, other, owners, size, draws, rng, unit)
-            hits[row, column] = sum(
-                p_value(matrix.values, *groups, permutations, rng, units) <= level + ROUNDING for groups in pairs
-            )
-            trials[column] = len(pairs)
-    bounds = [[exact_interval(int(hit), int(of)) for hit, of in zip(row, trials, strict=True)] for row in hits]
-    low, high = np.array(bounds).transpose(2, 0, 1)
-    power, alarms = hits / trials
-    metrics = {f"power {size}": float(share) for size, share in zip(sizes, power, strict=True)}
-    metrics |= {"false_alarms": float(alarms[-1]), "false_alarms_low": float(low[1, -1])}
-    metrics |= {"false_alarms_high": float(high[1, -1]), "level": level}
-    metrics["draws"] = float(trials[-1])
-    metrics["least_p"] = 2.0 / comb(2 * sizes[-1], sizes[-1])
+            found = [p_value(matrix.values, *pair, permutations, rng, units) <= level + ROUNDING for pair in pairs]
+            shares[row] = np.mean(found), *exact_interval(sum(found), len(found))
+    metrics = {f"power {size}": float(share) for size, share in zip(sizes, power[:, 0], strict=True)}
+    alarm_names = ("false_alarms", "false_alarms_low", "false_alarms_high")
+    metrics |= dict(zip(alarm_names, alarms[-1].tolist(), strict=True))
+    metrics |= {"level": level, "draws": float(len(pairs)), "least_p": 2.0 / comb(2 * sizes[-1], sizes[-1])}
     metrics["p_value"] = p_value(matrix.values, first, second, 999, rng, np.arange(len(owners)))
-    columns = {
-        "size": np.array(sizes, dtype=float),
-        "power": np.stack([power, low[0], high[0]], axis=1),
-        "false alarms": np.stack([alarms, low[1], high[1]], axis=1),
-        "level": np.full(len(sizes), level),
-    }
+    levels = np.full(len(sizes), level)
+    columns = {"size": np.array(sizes, dtype=float), "power": power, "false alarms": alarms, "level": levels}
     notes: tuple[str, ...] = ()
     if metrics["least_p"] > level:
         notes = (f"No split of {sizes[-1]} against {sizes[-1]} has a p-value under {metrics['least_p']:.2g}.",)
