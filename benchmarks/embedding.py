@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from benchmarks.line import Line, race
-from benchmarks.measurement import Cost, measure
+from benchmarks.line import Line, race, within
+from benchmarks.measurement import measure
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.face_distance import distance_on_faces
@@ -40,10 +40,10 @@ def lines(quick: bool) -> list[Line]:
     for n, target in ((10, 2.0), (20, 8.0)):
         exact, cost = measure(lambda n=n: spectral_distance(*_embedded(pair, n)))
         accuracy = f"{exact.value:.4f}, optimal: {'yes' if exact.optimal else 'no'}, {exact.evaluations} evaluations"
-        found.append(_within(f"exact d_{n}, fsaverage5 left-right, 10k x 10k", target, cost, accuracy, exact.optimal))
+        found.append(within(f"exact d_{n}, fsaverage5 left-right, 10k x 10k", target, cost, accuracy, exact.optimal))
     fast, cost = measure(lambda: spectral_distance(*_embedded(pair, 20), exact=False))
     same = bool((np.diag(fast.basis) == np.diag(exact.basis)).all())
-    found.append(_within("d_20 on 1,500 samples", 1.0, cost, f"same signs: {'yes' if same else 'no'}", same))
+    found.append(within("d_20 on 1,500 samples", 1.0, cost, f"same signs: {'yes' if same else 'no'}", same))
     return [*found, *_transfer_lines(pair), _sphere_line(), _population_line(left), _faces_line(pair)]
 
 
@@ -55,11 +55,6 @@ def _system(surface: Surface, k: int) -> EigenSystem:
 def _embedded(pair: Pair, n: int) -> tuple[SpectralEmbedding, SpectralEmbedding]:
     first, second = pair.areas
     return spectral_embedding(pair.source, first, n), spectral_embedding(pair.target, second, n)
-
-
-def _within(work: str, seconds: float, cost: Cost, accuracy: str, fair: bool) -> Line:
-    met = fair and cost.cpu <= seconds
-    return Line(work, "a limit", f"≤ {seconds:g} s", f"{cost.cpu:.2f} s", met, cost, None, accuracy)
 
 
 def _prefix_line(pair: Pair, n: int) -> Line:
@@ -121,7 +116,7 @@ def _population_line(template: Surface) -> Line:
     )
     doubtful = int(found["doubtful"].sum())
     accuracy = f"all 698: {698.0 / part * cost.cpu / 120.0:.1f} min on 2 cores; {doubtful} of {part} doubtful"
-    return _within(f"{part} of 698 surfaces to one template, d_20", seconds, cost, accuracy, True)
+    return within(f"{part} of 698 surfaces to one template, d_20", seconds, cost, accuracy, True)
 
 
 def _faces_line(pair: Pair) -> Line:
@@ -133,4 +128,4 @@ def _faces_line(pair: Pair) -> Line:
     found, cost = measure(lambda: distance_on_faces(first, moved, *faces), 1)
     to_vertices = spectral_distance(first, second, exact=False).value
     accuracy = f"{found:.4f}, to vertices {to_vertices:.4f}"
-    return _within("distance to faces, d_3, 10k x 20k triangles", 4.0, cost, accuracy, found <= to_vertices)
+    return within("distance to faces, d_3, 10k x 20k triangles", 4.0, cost, accuracy, found <= to_vertices)

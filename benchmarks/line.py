@@ -49,6 +49,12 @@ def race(
     return Line(work, rival, f"{least:g}×", f"{ratio:.1f}×", fair and ratio >= least, ours, theirs, accuracy, note)
 
 
+def within(work: str, seconds: float, cost: Cost, accuracy: str, fair: bool) -> Line:
+    """Return the line whose processor seconds should be at most `seconds`; `fair` is any further condition."""
+    met = fair and cost.cpu <= seconds
+    return Line(work, "a limit", f"≤ {seconds:g} s", f"{cost.cpu:.3g} s", met, cost, None, accuracy)
+
+
 def not_installed(work: str, rival: str, least: float, packages: str) -> Line:
     """Return the line of a rival that cannot be run."""
     return Line(work, rival, f"{least:g}×", f"not installed: {packages}", met=False)

@@ -6,10 +6,12 @@ import resource
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
-from typing import TypeVar
+from typing import Any, TypeVar
 
 Result = TypeVar("Result")
 LONG = 8.0
@@ -41,6 +43,19 @@ def measure(work: Callable[[], Result], runs: int = 3) -> tuple[Result, Cost]:
         if costs[0][0] > LONG:
             break
     return result, median_cost(costs)
+
+
+def apart(work: Callable[..., Result], *arguments: Any) -> Result:
+    """Return what a module's function gives in a new process, whose memory is its own."""
+    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+        return pool.submit(work, *arguments).result()
+
+
+def measure_with_memory(work: Callable[[], Result], runs: int = 3) -> tuple[Result, Cost, float]:
+    """Return also the bytes by which the peak resident memory of this process grew; see `apart`."""
+    before = peak_memory()
+    result, cost = measure(work, runs)
+    return result, cost, peak_memory() - before
 
 
 def median_cost(costs: list[tuple[float, float]]) -> Cost:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ProcessPoolExecutor
 from functools import partial
-from multiprocessing import get_context
 
 import numpy as np
 
 from benchmarks.line import Line
-from benchmarks.measurement import Cost, measure, peak_memory
+from benchmarks.measurement import Cost, apart, measure_with_memory
 from surfexp.mesh.torus import periodic_grid_faces, torus_points
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
@@ -29,7 +27,7 @@ def lines(quick: bool) -> list[Line]:
     """Return the line of exponent and memory; every size runs in a process of its own, whose peak memory is read."""
     sizes = SIZES[:2] if quick else SIZES
     counts = np.array([rows * columns for rows, columns in sizes])
-    costs, peaks = zip(*(_in_own_process(*size) for size in sizes), strict=True)
+    costs, peaks = zip(*(apart(_cost_and_memory, *size) for size in sizes), strict=True)
     seconds = np.array([cost.cpu for cost in costs])
     exponent = float(np.polyfit(np.log(counts), np.log(seconds), 1)[0])
     memory = peaks[-1] / counts[-1]
@@ -53,16 +51,9 @@ def lines(quick: bool) -> list[Line]:
     ]
 
 
-def _in_own_process(rows: int, columns: int) -> tuple[Cost, float]:
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-        return pool.submit(_cost_and_memory, rows, columns).result()
-
-
 def _cost_and_memory(rows: int, columns: int) -> tuple[Cost, float]:
     _solve(40, 16)
-    before = peak_memory()
-    _, cost = measure(partial(_solve, rows, columns))
-    return cost, peak_memory() - before
+    return measure_with_memory(partial(_solve, rows, columns))[1:]
 
 
 def _solve(rows: int, columns: int) -> None:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.line import Line, not_installed, race
-from benchmarks.measurement import Cost, measure
+from benchmarks.line import Line, not_installed, race, within
+from benchmarks.measurement import measure
 from benchmarks.scenes import cortex_scene
 from surfexp.mesh.genus_surface import genus_surface
 from surfexp.mesh.icosphere import icosphere
@@ -116,7 +116,7 @@ def _sampled_graph(size: int) -> Line:
     levels = choose_levels(mesh, height, 200, "uniform")
     graph, cost = measure(lambda: reeb_graph(mesh, height, levels))
     accuracy = f"{graph.metrics['b1']:.0f} loops for 2 handles"
-    return _within(f"Reeb graph of {size:,} V, 200 levels", 2.0, cost, accuracy, graph.metrics["b1"] == 2)
+    return within(f"Reeb graph of {size:,} V, 200 levels", 2.0, cost, accuracy, graph.metrics["b1"] == 2)
 
 
 def _crossings(size: int) -> Line:
@@ -142,12 +142,7 @@ def _patch(edge_length: float, least: float) -> Line:
     mesh = callosum(0, edge_length=edge_length).mesh
     (skeleton, _), cost = measure(lambda: eigenmap_skeleton(mesh), 5)
     work = f"patch of {len(mesh.vertices):,} V: operator, eigenmap, 50 levels, graph and lengths"
-    return _within(work, least, cost, "a chain" if skeleton.is_chain else "not a chain", skeleton.is_chain)
-
-
-def _within(work: str, seconds: float, cost: Cost, accuracy: str, fair: bool) -> Line:
-    seen = f"{cost.cpu:.3g} s"
-    return Line(work, "the clock", f"{seconds:g} s", seen, fair and cost.cpu <= seconds, cost, None, accuracy)
+    return within(work, least, cost, "a chain" if skeleton.is_chain else "not a chain", skeleton.is_chain)
 
 
 def _module(name: str) -> Any:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
-from multiprocessing import get_context
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -16,7 +14,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from benchmarks import THREADS
 from benchmarks.line import Line, not_installed
-from benchmarks.measurement import Cost, measure, peak_memory
+from benchmarks.measurement import Cost, apart, measure_with_memory
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
@@ -108,8 +106,7 @@ def _apart(
 ) -> Spectrum:
     os.environ[THREADS] = str(threads)
     try:
-        with ProcessPoolExecutor(1, get_context("spawn")) as pool:
-            return pool.submit(_measured, solve, mesh, count, runs).result()
+        return apart(_measured, solve, mesh, count, runs)
     finally:
         del os.environ[THREADS]
 
@@ -118,9 +115,7 @@ def _measured(
     solve: Callable[[TriangleMesh, int], tuple[Floats, Floats, bool]], mesh: TriangleMesh, count: int, runs: int
 ) -> Spectrum:
     solve(icosphere(3).mesh, 20)
-    before = peak_memory()
-    (values, vectors, complete), cost = measure(partial(solve, mesh, count), runs)
-    memory = peak_memory() - before
+    (values, vectors, complete), cost, memory = measure_with_memory(partial(solve, mesh, count), runs)
     residual = float(measure_vectors(*_matrices(mesh), np.asfortranarray(vectors)).residuals.max())
     return Spectrum(values, residual, complete, cost, memory)
 

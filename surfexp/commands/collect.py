@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
 import yaml
+from rich.console import Console
+from rich.progress import track
 
 from surfexp.workflow import registry
 from surfexp.workflow.errors import UserError
@@ -79,9 +80,8 @@ def _read(files: Sequence[Path], plugin: str) -> tuple[list[Path], dict[Path, st
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")
     readable, refused = [], {}
-    for number, file in enumerate(files, 1):
-        if sys.stderr.isatty():
-            print(f"\rreading {number} of {len(files)}", end="", file=sys.stderr)
+    terminal = Console(stderr=True)
+    for file in track(files, "reading", console=terminal, transient=True, disable=not terminal.is_terminal):
         try:
             method.function(method.options(**{"path": file}))
             readable.append(file)

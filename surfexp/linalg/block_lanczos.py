@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh, solve_triangular
 
-from surfexp.linalg.block_products import subtract_two
+from surfexp.linalg.block_products import gram, multiply_right, subtract_product, subtract_two
 from surfexp.mesh.triangle_mesh import Floats
 
 BLOCK = 8
+ROWS_AT_ONCE = 4096
 REORTHOGONALISE_EVERY = 3
 DRIFT_LIMIT, SEVERE_DRIFT = 1e-9, 1e-7
 DEPENDENT = 1e-11
@@ -50,7 +51,7 @@ class BlockLanczos:
     solve : callable
         Overwrites an (n, 8) C-ordered block X by (A - sigma B)^-1 X.
     multiply_mass : callable
-        Returns B X as a new C-ordered array.
+        Returns B X, C-ordered; may write it to the array that comes as second argument.
     size : int
         n.
     capacity : int
@@ -64,7 +65,7 @@ class BlockLanczos:
     def __init__(
         self,
         solve: Callable[[Floats], None],
-        multiply_mass: Callable[[Floats], Floats],
+        multiply_mass: Callable[[Floats, Floats | None], Floats],
         size: int,
         capacity: int,
         locked: Floats | None = None,
@@ -73,7 +74,8 @@ class BlockLanczos:
         self._solve, self._multiply_mass = solve, multiply_mass
         self._random = np.random.default_rng(seed)
         self._locked = 0 if locked is None else locked.shape[1]
-        self._basis = np.empty((size, self._locked + (capacity // BLOCK + 2) * BLOCK), order="F")
+        self._storage = np.empty(size * (self._locked + (capacity // BLOCK + 2) * BLOCK))
+        self._basis = self._storage.reshape((size, -1), order="F")
         if locked is not None:
             self._basis[:, : self._locked] = locked
         self.capacity = capacity
@@ -82,10 +84,12 @@ class BlockLanczos:
         self._since = 0
         self.drift = 0.0
         self.dimension = 0
-        start = multiply_mass(self._random.normal(size=(size, BLOCK)))
+        # kept for the whole run: fresh pages from the system cost as much as the work on them
+        self._mass_next, self._spare, self._scratch, self._before = (np.zeros((size, BLOCK)) for _ in range(4))
+        self._pair, self._common = np.empty((size, 2 * BLOCK)), np.empty((2 * BLOCK, size))
+        start = multiply_mass(self._random.normal(size=(size, BLOCK)), None)
         solve(start)
         self._next, self._mass_next, _ = self._orthonormalise(self._purge(self._purge(start)), 0.0)
-        self._before = np.zeros_like(self._next)
         self._coupling = np.zeros((BLOCK, BLOCK))
 
     def extend(self) -> None:
@@ -93,13 +97,13 @@ class BlockLanczos:
         first, last = self._locked + self.dimension, self._locked + self.dimension + BLOCK
         self._basis[:, first:last] = self._next
         self._write_coupling()
-        block, mass_block = self._next, self._mass_next
-        new = mass_block.copy()
+        block, mass_block, new = self._next, self._mass_next, self._spare
+        np.copyto(new, mass_block)
         self._solve(new)
-        diagonal = mass_block.T @ new
+        diagonal = gram(mass_block, new)
         size = float(np.sqrt((self._coupling.T**2 + diagonal**2).sum(axis=0).max()))
         subtract_two(new, self._before, np.ascontiguousarray(self._coupling.T), block, diagonal)
-        correction = mass_block.T @ new
+        correction = gram(mass_block, new)
         diagonal += correction
         here = slice(self.dimension, self.dimension + BLOCK)
         self._projected[here, here] = 0.5 * (diagonal + diagonal.T)
@@ -108,8 +112,8 @@ class BlockLanczos:
         if self._since >= self._period and first:
             self._reorthogonalise(new, mass_block, first)
         else:
-            new -= block @ correction
-        self._before = block
+            subtract_product(new, block, correction)
+        self._spare, self._before = self._before, block
         self._next, self._mass_next, self._coupling = self._orthonormalise(new, size)
 
     def ritz(self) -> RitzPairs:
@@ -121,6 +125,8 @@ class BlockLanczos:
 
     def vectors(self, ritz: RitzPairs, selected: np.ndarray) -> Floats:
         """Return the B-normalised vectors of some Ritz pairs, after one free step of inverse iteration.
+
+        They take the place of the basis, which ends with this call.
 
         (A - sigma B)^-1 B x / theta needs no solve, as x lies in the basis and the next block is known (the purification
         of Ericsson and Ruhe 1980).
@@ -140,8 +146,14 @@ class BlockLanczos:
         weights = np.concatenate([chosen, (self._coupling @ chosen[m - BLOCK :]) / ritz.values[selected]])
         weights /= np.linalg.norm(weights, axis=0)
         self._basis[:, self._locked + m : self._locked + m + BLOCK] = self._next
-        result = np.empty((len(self._basis), len(selected)), order="F")
-        return np.matmul(self._basis[:, self._locked : self._locked + m + BLOCK], weights, out=result)
+        basis = self._basis[:, self._locked :]
+        for start in range(0, len(basis), ROWS_AT_ONCE):
+            rows = slice(start, start + ROWS_AT_ONCE)
+            basis[rows, : len(selected)] = basis[rows, : m + BLOCK] @ weights
+        size, kept = len(basis), self._locked + len(selected)
+        del basis, self._basis
+        self._storage.resize(size * kept, refcheck=False)
+        return self._storage.reshape((size, kept), order="F")[:, self._locked :]
 
     def _write_coupling(self) -> None:
         if self.dimension:
@@ -152,42 +164,44 @@ class BlockLanczos:
 
     def _reorthogonalise(self, new: Floats, mass_block: Floats, older: int) -> None:
         """Remove what the newest basis block and the next one have in common with all before, in place."""
-        both = np.concatenate([mass_block.T, self._multiply_mass(new).T])
-        overlap = both @ self._basis[:, :older]
+        self._pair[:, :BLOCK] = mass_block
+        self._pair[:, BLOCK:] = self._multiply_mass(new, self._scratch)
+        overlap = self._pair.T @ self._basis[:, :older]
         drift = float(np.abs(overlap[:BLOCK]).max())
         self.drift = max(self.drift, drift)
         if drift > DRIFT_LIMIT:
             self._period = 2 if drift < SEVERE_DRIFT else 1
-        common = overlap @ self._basis[:, :older].T
+        common = np.matmul(overlap, self._basis[:, :older].T, out=self._common)
         block = self._next
         block -= common[:BLOCK].T
         self._basis[:, older : older + BLOCK] = block
         new -= common[BLOCK:].T
-        new -= block @ (self._multiply_mass(block).T @ new)
+        subtract_product(new, block, gram(self._multiply_mass(block, self._scratch), new))
         self._since = 0
 
     def _purge(self, block: Floats) -> Floats:
         """Return the block without its part in the locked vectors and the basis."""
         known = self._basis[:, : self._locked + self.dimension]
-        return np.ascontiguousarray(block - known @ (known.T @ self._multiply_mass(block)))
+        return np.ascontiguousarray(block - known @ (known.T @ self._multiply_mass(block, None)))
 
     def _orthonormalise(self, block: Floats, size: float) -> tuple[Floats, Floats, Floats]:
-        """Return Q, B Q and R with block = Q R and Q^T B Q = I; dependent columns give way to random ones.
+        """Return Q (in place of the block), B Q and R with block = Q R and Q^T B Q = I; dependent columns become random.
 
         A column is dependent also where little is left of the `size` that was taken off in orthogonalising it.
         """
         factor = np.eye(BLOCK)
         for attempt in range(2):
-            mass_block = self._multiply_mass(block)
-            gram = block.T @ mass_block
-            scale = np.sqrt(np.maximum(gram.diagonal(), np.finfo(float).tiny))
-            correlation = gram / np.outer(scale, scale)
+            mass_block = self._multiply_mass(block, self._mass_next)
+            products = gram(block, mass_block)
+            scale = np.sqrt(np.maximum(products.diagonal(), np.finfo(float).tiny))
+            correlation = products / np.outer(scale, scale)
             cancelled = not attempt and scale.min() < CANCELLED * size
             if cancelled or np.linalg.eigvalsh(correlation)[0] < DEPENDENT:
                 return self._replace_dependent(block, size)
             upper = np.linalg.cholesky(0.5 * (correlation + correlation.T)).T * scale
-            inverse = solve_triangular(upper, np.eye(BLOCK))
-            block, mass_block = block @ inverse, mass_block @ inverse
+            inverse = np.ascontiguousarray(solve_triangular(upper, np.eye(BLOCK)))
+            multiply_right(block, inverse)
+            multiply_right(mass_block, inverse)
             factor = upper @ factor
             if np.linalg.cond(correlation) < 1e4:
                 break
@@ -199,7 +213,7 @@ class BlockLanczos:
         largest = max(size, float(self._norms(block).max()))
         for c in range(BLOCK):
             column = block[:, c : c + 1].copy()
-            factor[:, c : c + 1] = result.T @ self._multiply_mass(column)
+            factor[:, c : c + 1] = result.T @ self._multiply_mass(column, None)
             column -= result @ factor[:, c : c + 1]
             norm = float(self._norms(column)[0])
             if norm > VANISHED * largest:
@@ -210,10 +224,10 @@ class BlockLanczos:
             column /= norm
             for _ in range(3):
                 column = self._purge(column)
-                column -= result @ (result.T @ self._multiply_mass(column))
+                column -= result @ (result.T @ self._multiply_mass(column, None))
                 column /= self._norms(column)
             result[:, c] = column[:, 0]
-        return result, self._multiply_mass(result), factor
+        return result, self._multiply_mass(result, self._mass_next), factor
 
     def _norms(self, block: Floats) -> Floats:
-        return np.sqrt(np.einsum("ij,ij->j", block, self._multiply_mass(block)))
+        return np.sqrt(np.einsum("ij,ij->j", block, self._multiply_mass(block, None)))

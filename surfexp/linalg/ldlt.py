@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
+from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
-from surfexp.linalg.ldlt_solve import LANES, solve_lanes
+from surfexp.linalg.ldlt_solve import solve_lanes
 from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
 from surfexp.mesh.triangle_mesh import Floats
 

@@ -8,6 +8,51 @@ from numba import njit
 from surfexp.mesh.triangle_mesh import Integers
 
 SEPARATOR = 2
+POLES = 4
+
+
+@njit(cache=True, nogil=True)
+def measure_distances(
+    indptr: Integers, indices: Integers, members: Integers, piece: Integers, label: int, level: Integers, poles: int
+) -> bool:
+    """Write distances inside a piece to `level`: from two far-apart vertices, and from two across from them.
+
+    Parameters
+    ----------
+    level : (4, n) int32
+        -1 at all vertices of the piece before; see `forget_distances`.
+    poles : int
+        2 or 4 of the four.
+
+    Returns
+    -------
+    bool
+        Whether the piece is connected. If not, row 0 is -1 where its first vertex does not reach.
+    """
+    queue = np.empty(len(members), np.int32)
+    if _distances(indptr, indices, members[0], piece, label, level[0], queue) < len(members):
+        return False
+    start = queue[-1]
+    for v in members:
+        level[0, v] = -1
+    _distances(indptr, indices, start, piece, label, level[0], queue)
+    _distances(indptr, indices, queue[-1], piece, label, level[1], queue)
+    if poles == POLES:
+        across = members[0]
+        for v in members:
+            if min(level[0, v], level[1, v]) > min(level[0, across], level[1, across]):
+                across = v
+        _distances(indptr, indices, across, piece, label, level[2], queue)
+        _distances(indptr, indices, queue[-1], piece, label, level[3], queue)
+    return True
+
+
+@njit(cache=True, nogil=True)
+def forget_distances(members: Integers, level: Integers) -> None:
+    """Set `level` to -1 again."""
+    for pole in range(POLES):
+        for v in members:
+            level[pole, v] = -1
 
 
 @njit(cache=True, nogil=True)
@@ -21,54 +66,32 @@ def bisect(
     side: Integers,
     attempt: int,
 ) -> int:
-    """Split a piece into sides 0 and 1 and a separator 2, written to `side`.
+    """Split a connected piece into sides 0 and 1 and a separator 2, written to `side`; return the separator's size.
 
     Half the vertices, those nearer to one of two far-apart vertices than to the other, are side 0; of the rest those
-    that touch side 0 are the separator. The parts of a piece that is not connected need none. Attempt 0 takes a pair of
-    farthest vertices, attempt 1 a pair across from them, attempt 2 the distance from one of the first pair alone.
-
-    Returns
-    -------
-    int
-        The size of the separator.
+    that touch side 0 are the separator. Attempt 0 takes the first pair, attempt 1 the pair across from it, attempt 2 the
+    distance from one of the first pair alone.
     """
-    queue = np.empty(len(members), np.int64)
-    reached = _distances(indptr, indices, members[0], piece, label, level[:, 0], queue)
-    if reached < len(members):
-        for v in members:
-            side[v] = 0 if level[v, 0] >= 0 else 1
-            level[v, 0] = -1
-        return 0
-    start = queue[reached - 1]
-    _clear(level[:, 0], members)
-    _distances(indptr, indices, start, piece, label, level[:, 0], queue)
-    end = queue[reached - 1]
-    if attempt < 2:
-        _distances(indptr, indices, end, piece, label, level[:, 1], queue)
-    if attempt == 1:
-        across = members[0]
-        for v in members:
-            if min(level[v, 0], level[v, 1]) > min(level[across, 0], level[across, 1]):
-                across = v
-        _clear(level[:, 0], members)
-        _clear(level[:, 1], members)
-        _distances(indptr, indices, across, piece, label, level[:, 0], queue)
-        _distances(indptr, indices, queue[reached - 1], piece, label, level[:, 1], queue)
+    near, far = (2, 3) if attempt == 1 else (0, 1)
     keys = np.empty(len(members), np.int64)
     for a in range(len(members)):
-        keys[a] = level[members[a], 0] - level[members[a], 1]
-    by_key = np.argsort(keys, kind="mergesort")
-    for rank in range(len(members)):
-        side[members[by_key[rank]]] = 0 if 2 * rank < len(members) else 1
-    _clear(level[:, 0], members)
-    _clear(level[:, 1], members)
+        keys[a] = level[near, members[a]] - (level[far, members[a]] if attempt < 2 else 0)
+    lowest = keys.min()
+    counts = np.zeros(keys.max() - lowest + 1, np.int64)
+    for key in keys:
+        counts[key - lowest] += 1
+    left = (len(members) + 1) // 2
+    middle = lowest
+    while counts[middle - lowest] <= left:
+        left -= counts[middle - lowest]
+        middle += 1
+    for a in range(len(members)):
+        nearer = keys[a] < middle
+        if keys[a] == middle and left > 0:
+            left -= 1
+            nearer = True
+        side[members[a]] = 0 if nearer else 1
     return _cover(indptr, indices, members, piece, label, side)
-
-
-@njit(cache=True, nogil=True)
-def _clear(level: Integers, members: Integers) -> None:
-    for v in members:
-        level[v] = -1
 
 
 @njit(cache=True, nogil=True)

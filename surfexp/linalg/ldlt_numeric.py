@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.linalg.lanes import LANES
+from surfexp.linalg.ldlt_front import eliminate_front
 from surfexp.mesh.triangle_mesh import Floats, Integers
-
-COLUMNS_AT_ONCE = 32
-ROWS_AT_ONCE = 96
-SMALL_UPDATE = 600
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
@@ -64,13 +62,14 @@ def eliminate(
         for a in range(len(below)):
             place[below[a]] = width + a
         gather(indptr, indices, entries, start, end, place, panel)
-        update = np.zeros((len(below), len(below)))
+        padded = (len(below) + LANES - 1) // LANES * LANES
+        update = np.zeros((len(below), padded))
         child, bottom = first_child[s], top
         while child != -1:
             child_rows = rows[row_starts[child] : row_starts[child + 1]]
-            size = len(child_rows)
+            size, row = len(child_rows), (len(child_rows) + LANES - 1) // LANES * LANES
             bottom = min(bottom, begins[child])
-            child_update = stack[begins[child] : begins[child] + size * size].reshape(size, size)
+            child_update = stack[begins[child] : begins[child] + size * row].reshape(size, row)
             extend(child_update, child_rows, place, panel, update)
             child = sibling[child]
         top = bottom
@@ -120,66 +119,3 @@ def extend(child: Floats, child_rows: Integers, place: Integers, panel: Floats, 
             panel[row, place[child_rows[j]]] += child[i, j]
         for j in range(split, i + 1):
             update[row - width, place[child_rows[j]] - width] += child[i, j]
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def eliminate_front(panel: Floats, pivots: Floats, smallest: float, update: Floats) -> int:
-    """Factorise the columns of a front in place and subtract their products from the rest of it."""
-    height, width = panel.shape
-    replaced = 0
-    for low in range(0, width, COLUMNS_AT_ONCE):
-        high = min(width, low + COLUMNS_AT_ONCE)
-        transposed, bad = eliminate_block(panel, low, high, pivots, smallest)
-        replaced += bad
-        for i in range(high, height):
-            for k in range(low, high):
-                entry = panel[i, k]
-                for j in range(k + 1, high):
-                    panel[i, j] -= entry * transposed[k - low, j - low]
-                panel[i, k] = entry / pivots[k]
-        if high < width:
-            subtract_products(panel[high:, low:high], pivots[low:high], panel[high:, high:])
-    if height > width:
-        subtract_products(panel[width:], pivots, update)
-    return replaced
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
-def eliminate_block(panel: Floats, low: int, high: int, pivots: Floats, smallest: float) -> tuple[Floats, int]:
-    """Factorise a diagonal block; returns the transpose of its L and how many pivots were replaced."""
-    transposed = np.zeros((high - low, high - low))
-    replaced = 0
-    for k in range(low, high):
-        pivot = panel[k, k]
-        if abs(pivot) < smallest:
-            pivot = smallest if pivot >= 0.0 else -smallest
-            replaced += 1
-        pivots[k] = pivot
-        for i in range(k + 1, high):
-            transposed[k - low, i - low] = panel[i, k] / pivot
-        for i in range(k + 1, high):
-            entry = panel[i, k]
-            for j in range(k + 1, i + 1):
-                panel[i, j] -= entry * transposed[k - low, j - low]
-            panel[i, k] = transposed[k - low, i - low]
-    return transposed, replaced
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"})
-def subtract_products(lower: Floats, pivots: Floats, target: Floats) -> None:
-    """Subtract L D L^T from the first columns of `target`, in its lower triangle."""
-    height, width = lower.shape
-    columns = target.shape[1]
-    if height * columns * width < SMALL_UPDATE:
-        for i in range(height):
-            for k in range(width):
-                entry = lower[i, k] * pivots[k]
-                for j in range(min(columns, i + 1)):
-                    target[i, j] -= entry * lower[j, k]
-        return
-    left = np.ascontiguousarray(lower)
-    scaled = left[:columns] * pivots
-    for start in range(0, height, ROWS_AT_ONCE):
-        end = min(height, start + ROWS_AT_ONCE)
-        reach = min(columns, end)
-        target[start:end, :reach] -= np.dot(left[start:end], scaled[:reach].T)

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numba import njit
 
+from surfexp.linalg.lanes import load, minus_product, quotient, store
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
-LANES = 8
-LARGE_PANEL = 512
 
-
-@njit(cache=True, nogil=True, fastmath={"contract"})
+@njit(cache=True, nogil=True)
 def solve_lanes(
     columns: Integers, row_starts: Integers, rows: Integers, panels: Integers, factor: Floats, pivots: Floats, x: Floats
 ) -> None:
@@ -25,76 +22,73 @@ def solve_lanes(
         As `ldlt_numeric.eliminate` writes them.
     """
     for s in range(len(columns) - 1):
-        start, width = columns[s], columns[s + 1] - columns[s]
         below = rows[row_starts[s] : row_starts[s + 1]]
-        forward(factor[panels[s] : panels[s + 1]].reshape(width + len(below), width), start, below, x)
-    for i in range(len(pivots)):
-        for c in range(LANES):
-            x[i, c] /= pivots[i]
+        forward(factor[panels[s] : panels[s + 1]], columns[s], columns[s + 1] - columns[s], below, x)
     for s in range(len(columns) - 2, -1, -1):
-        start, width = columns[s], columns[s + 1] - columns[s]
         below = rows[row_starts[s] : row_starts[s + 1]]
-        backward(factor[panels[s] : panels[s + 1]].reshape(width + len(below), width), start, below, x)
+        for i in range(columns[s], columns[s + 1]):
+            store(x, i, quotient(load(x, i), pivots[i]))
+        backward(factor[panels[s] : panels[s + 1]], columns[s], columns[s + 1] - columns[s], below, x)
 
 
-@njit(cache=True, nogil=True, fastmath={"contract"})
-def forward(panel: Floats, start: int, below: Integers, x: Floats) -> None:
-    """Solve with the unit lower triangle of one supernode and pass the products down to its rows."""
-    width = panel.shape[1]
+@njit(cache=True, nogil=True)
+def forward(panel: Floats, start: int, width: int, below: Integers, x: Floats) -> None:
+    """Solve with the unit lower triangle of one supernode and pass the products down to its rows, four at a time."""
     for i in range(1, width):
-        subtract_row(panel[i], i, start, x, start + i)
-    if width >= LANES and width * len(below) >= LARGE_PANEL:
-        products = np.dot(panel[width:], x[start : start + width])
-        for t in range(len(below)):
-            for c in range(LANES):
-                x[below[t], c] -= products[t, c]
-    else:
-        for t in range(len(below)):
-            subtract_row(panel[width + t], width, start, x, below[t])
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"}, inline="always")
-def subtract_row(coefficients: Floats, count: int, start: int, x: Floats, row: int) -> None:
-    """x[row] -= sum_j coefficients[j] x[start + j], four terms at a time so that x[row] is loaded less often."""
-    fours = count - count % 4
-    for j in range(0, fours, 4):
-        a, b, d, e = coefficients[j], coefficients[j + 1], coefficients[j + 2], coefficients[j + 3]
-        g = start + j
-        for c in range(LANES):
-            x[row, c] -= a * x[g, c] + b * x[g + 1, c] + d * x[g + 2, c] + e * x[g + 3, c]
-    for j in range(fours, count):
-        a = coefficients[j]
-        for c in range(LANES):
-            x[row, c] -= a * x[start + j, c]
-
-
-@njit(cache=True, nogil=True, fastmath={"contract"})
-def backward(panel: Floats, start: int, below: Integers, x: Floats) -> None:
-    """Gather the solutions below one supernode and solve with the transpose of its unit lower triangle."""
-    width, count = panel.shape[1], len(below)
-    if width >= LANES and width * count >= LARGE_PANEL:
-        gathered = np.empty((count, LANES))
-        for t in range(count):
-            for c in range(LANES):
-                gathered[t, c] = x[below[t], c]
-        products = np.dot(panel[width:].T, gathered)
-        for j in range(width):
-            for c in range(LANES):
-                x[start + j, c] -= products[j, c]
-    else:
-        fours = count - count % 4
-        for t in range(0, fours, 4):
-            q, r, u, v = below[t], below[t + 1], below[t + 2], below[t + 3]
-            for j in range(width):
-                at, k = start + j, width + t
-                a, b, d, e = panel[k, j], panel[k + 1, j], panel[k + 2, j], panel[k + 3, j]
-                for c in range(LANES):
-                    x[at, c] -= a * x[q, c] + b * x[r, c] + d * x[u, c] + e * x[v, c]
-        for t in range(fours, count):
-            for j in range(width):
-                for c in range(LANES):
-                    x[start + j, c] -= panel[width + t, j] * x[below[t], c]
-    for i in range(width - 1, 0, -1):
+        row = load(x, start + i)
         for j in range(i):
-            for c in range(LANES):
-                x[start + j, c] -= panel[i, j] * x[start + i, c]
+            row = minus_product(row, panel[i * width + j], load(x, start + j))
+        store(x, start + i, row)
+    at = width * width
+    fours = len(below) - len(below) % 4
+    for t in range(0, fours, 4):
+        a, b, c, d = load(x, below[t]), load(x, below[t + 1]), load(x, below[t + 2]), load(x, below[t + 3])
+        for j in range(width):
+            solved = load(x, start + j)
+            a = minus_product(a, panel[at + j], solved)
+            b = minus_product(b, panel[at + width + j], solved)
+            c = minus_product(c, panel[at + 2 * width + j], solved)
+            d = minus_product(d, panel[at + 3 * width + j], solved)
+        store(x, below[t], a)
+        store(x, below[t + 1], b)
+        store(x, below[t + 2], c)
+        store(x, below[t + 3], d)
+        at += 4 * width
+    for t in range(fours, len(below)):
+        a = load(x, below[t])
+        for j in range(width):
+            a = minus_product(a, panel[at + j], load(x, start + j))
+        store(x, below[t], a)
+        at += width
+
+
+@njit(cache=True, nogil=True)
+def backward(panel: Floats, start: int, width: int, below: Integers, x: Floats) -> None:
+    """Gather the solutions below one supernode, four columns at a time, and solve with the transposed triangle."""
+    fours = width - width % 4
+    for j in range(0, fours, 4):
+        a, b, c, d = load(x, start + j), load(x, start + j + 1), load(x, start + j + 2), load(x, start + j + 3)
+        at = width * width + j
+        for t in range(len(below)):
+            solved = load(x, below[t])
+            a = minus_product(a, panel[at], solved)
+            b = minus_product(b, panel[at + 1], solved)
+            c = minus_product(c, panel[at + 2], solved)
+            d = minus_product(d, panel[at + 3], solved)
+            at += width
+        store(x, start + j, a)
+        store(x, start + j + 1, b)
+        store(x, start + j + 2, c)
+        store(x, start + j + 3, d)
+    for j in range(fours, width):
+        a = load(x, start + j)
+        at = width * width + j
+        for t in range(len(below)):
+            a = minus_product(a, panel[at], load(x, below[t]))
+            at += width
+        store(x, start + j, a)
+    for j in range(width - 2, -1, -1):
+        a = load(x, start + j)
+        for i in range(j + 1, width):
+            a = minus_product(a, panel[i * width + j], load(x, start + i))
+        store(x, start + j, a)

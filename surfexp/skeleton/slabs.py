@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 
 from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
+from surfexp.mesh.union_find import find_root
 from surfexp.skeleton.level_contours import LevelContours
 
 
@@ -49,14 +50,6 @@ def slab_components(mesh: TriangleMesh, contours: LevelContours) -> Slabs:
 
 
 @njit(cache=True, nogil=True)
-def _find(parents: Integers, i: int) -> int:
-    while parents[i] != i:
-        parents[i] = parents[parents[i]]
-        i = parents[i]
-    return i
-
-
-@njit(cache=True, nogil=True)
 def _join(
     faces: Integers, slabs: Integers, face_starts: Integers, face_contours: Integers, contour_count: int
 ) -> Integers:
@@ -78,7 +71,7 @@ def _join(
                     item = n + face_contours[face_starts[f] + s] if s < crossings else -1
                 if item < 0:
                     continue
-                root = _find(parents, item)
+                root = find_root(parents, item)
                 if first < 0:
                     first = root
                 elif root != first:
@@ -86,5 +79,5 @@ def _join(
                     parents[b] = a
                     first = a
     for i in range(len(parents)):
-        parents[i] = _find(parents, i)
+        parents[i] = find_root(parents, i)
     return parents

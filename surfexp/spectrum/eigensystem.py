@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
+from surfexp.linalg.lanes import LANES
+from surfexp.mesh.triangle_mesh import Floats, Integers
 
 SMALLEST_GAP = 1e-6
 COLUMNS_AT_ONCE = 64
@@ -26,7 +28,7 @@ class EigenSystem:
     residuals : (k,) float64
         |A x - lambda B x| / (max(lambda, mean spacing) |B x|), the mean spacing being lambda_{k-1} / k.
     orthogonality : float
-        Largest entry of |X^T B X - I|.
+        Largest entry of |X^T B X - I|, X with the pairs beyond k that a cluster needed (see `notes`).
     complete : bool
         Whether it is proved that these are the k lowest: the inertia of A - s B at a shift s just above them equals the
         number of pairs found below s.
@@ -70,35 +72,62 @@ class Measurement:
         Rayleigh quotients x^T A x / x^T B x.
     errors : (k,) float64
         |A x - lambda B x| / |B x| (2-norms).
-    orthogonality : float
-        Largest entry of |X^T B X - I|.
+    overlaps : (k,) float64
+        Largest entry of |X^T B X - I| that a vector takes part in, those with vectors far before it left to these.
     """
 
     values: Floats
     errors: Floats
-    orthogonality: float
+    overlaps: Floats
 
     @property
     def residuals(self) -> Floats:
         """Errors over the values, or over the mean spacing where that is larger."""
         return self.errors / np.maximum(np.abs(self.values), mean_spacing(self.values))
 
+    @property
+    def orthogonality(self) -> float:
+        """Largest entry of |X^T B X - I|."""
+        return float(self.overlaps.max())
 
-def measure(stiffness: csr_array, mass: csr_array, vectors: Floats) -> Measurement:
-    """Measure B-normalised vectors, some columns at a time."""
-    count = vectors.shape[1]
-    values, errors, worst = np.empty(count), np.empty(count), 0.0
+    def of(self, chosen: Integers) -> Measurement:
+        """Return the part of some vectors; their overlaps with the others are still in it."""
+        return Measurement(self.values[chosen], self.errors[chosen], self.overlaps[chosen])
+
+    def followed_by(self, before: Measurement) -> Measurement:
+        """Return this measurement of the first vectors, that of the rest being the one from before."""
+        rest = len(self.values)
+        return Measurement(
+            np.concatenate([self.values, before.values[rest:]]),
+            np.concatenate([self.errors, before.errors[rest:]]),
+            np.concatenate([self.overlaps, before.overlaps[rest:]]),
+        )
+
+
+def measure(stiffness: csr_array, mass: csr_array, vectors: Floats, count: int | None = None) -> Measurement:
+    """Measure B-normalised vectors, or the first `count` of them, some columns at a time."""
+    count = vectors.shape[1] if count is None else count
+    values, errors, overlaps = np.empty((3, count))
+    block, mass_block, error = (np.zeros((len(vectors), LANES)) for _ in range(3))
+    masses = np.empty((len(vectors), min(count, COLUMNS_AT_ONCE)), order="F")
     for start in range(0, count, COLUMNS_AT_ONCE):
-        some = slice(start, min(start + COLUMNS_AT_ONCE, count))
-        block = np.ascontiguousarray(vectors[:, some])
-        mass_block, error = mass @ block, stiffness @ block
-        gram = mass_block.T @ vectors[:, start:]
-        values[some] = np.einsum("ij,ij->j", block, error) / gram.diagonal()
-        gram[np.arange(len(gram)), np.arange(len(gram))] -= 1.0
-        worst = max(worst, float(np.abs(gram).max()))
-        error -= mass_block * values[some]
-        errors[some] = np.linalg.norm(error, axis=0) / np.linalg.norm(mass_block, axis=0)
-    return Measurement(values, errors, worst)
+        stop = min(start + COLUMNS_AT_ONCE, count)
+        for first in range(start, stop, LANES):
+            some = slice(first, min(first + LANES, stop))
+            width = some.stop - first
+            block[:, :width] = vectors[:, some]
+            multiply_lanes(mass, block, mass_block)
+            multiply_lanes(stiffness, block, error)
+            values[some] = (gram(block, error).diagonal() / gram(block, mass_block).diagonal())[:width]
+            quotients = np.zeros(LANES)
+            quotients[:width] = values[some]
+            sizes = residual_norms(error, mass_block, quotients)
+            errors[some] = (sizes[0] / sizes[1])[:width]
+            masses[:, first - start : first - start + width] = mass_block[:, :width]
+        products = masses[:, : stop - start].T @ vectors[:, start:]
+        products[np.arange(stop - start), np.arange(stop - start)] -= 1.0
+        overlaps[start:stop] = np.abs(products).max(axis=1)
+    return Measurement(values, errors, overlaps)
 
 
 def mean_spacing(values: Floats) -> float:

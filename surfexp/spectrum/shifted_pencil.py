@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
-from surfexp.linalg.block_products import LANES, multiply_lanes
+from surfexp.linalg.block_products import multiply_lanes
+from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt import LDLT
 from surfexp.linalg.ldlt_symbolic import analyse, permuted
 from surfexp.mesh.triangle_mesh import Floats
@@ -53,12 +54,12 @@ class ShiftedPencil:
         """Number of rows."""
         return len(self.order)
 
-    def multiply_mass(self, block: Floats) -> Floats:
-        """Return B X, C-ordered."""
+    def multiply_mass(self, block: Floats, result: Floats | None = None) -> Floats:
+        """Return B X, C-ordered; in `result` where that is given and the block has eight columns."""
         if self._diagonal is not None:
             return np.multiply(self._diagonal, block, order="C")
         block = np.ascontiguousarray(block)
-        return multiply_lanes(self.mass, block) if block.shape[1] == LANES else self.mass @ block
+        return multiply_lanes(self.mass, block, result) if block.shape[1] == LANES else self.mass @ block
 
     def factor(self, shift: float, accuracy: float = 1.0) -> tuple[float, LDLT]:
         """Factorise A - s B at the shift, or near it where the pivots are bad there.

@@ -17,7 +17,8 @@ from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_slice import EDGE_GAP, SliceRequest, SpectrumSlice, solve_slice
 
 SLICE = 350
-FIRST_SHIFT, INNER_SHIFT = 0.6, 0.5
+# few pairs are found soonest from their middle, many from above it
+FIRST_SHIFT, INNER_SHIFT, FEW = 0.6, 0.5, 60
 SHIFT_ATTEMPTS = 12
 SOLVE_ACCURACY = 2e-10
 POLISHES = 3
@@ -37,9 +38,9 @@ def slicing(
 ) -> EigenSystem:
     """Find the k lowest eigenpairs by block Lanczos at interior shifts (Grimes, Lewis and Simon 1994).
 
-    The first shift lies at about 0.6 lambda_k (or of the last value of the first slice), so that the wanted values are
-    the extreme ones of the inverted operator on both sides. A slice ends in a gap of the spectrum, where the inertia of
-    A - s B counts what lies below.
+    The first shift lies at about 0.6 lambda_k (or of the last value of the first slice; at half of it for few pairs), so
+    that the wanted values are the extreme ones of the inverted operator on both sides. A slice ends in a gap of the
+    spectrum, where the inertia of A - s B counts what lies below.
 
     Parameters
     ----------
@@ -104,7 +105,7 @@ def _solve_at_good_shift(
 def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> tuple[float, LDLT]:
     """Factorise at a shift that has 35 % to 75 % of the wanted eigenvalues below it."""
     area = float(pencil.mass.sum())
-    fraction = FIRST_SHIFT if low == -np.inf else INNER_SHIFT
+    fraction = FIRST_SHIFT if low == -np.inf and count > FEW else INNER_SHIFT
     for _ in range(SHIFT_ATTEMPTS):
         guess = guess_eigenvalue(found + fraction * count, area, pencil.counts)
         wanted = max(guess, low + 1e-3 * abs(low)) if found else guess
@@ -127,15 +128,17 @@ def _assemble(
     # before a cluster is cut: its parts alone would not span what inverse iteration keeps
     measurement, polishes = polish(pencil, vectors, tolerance)
     if total > k:
-        vectors = np.asfortranarray(vectors[:, np.argsort(measurement.values, kind="stable")[:k]])
-        measurement = measure(pencil.stiffness, pencil.mass, vectors)
+        lowest = np.argsort(measurement.values, kind="stable")[:k]
+        in_order = bool((lowest == np.arange(k)).all())
+        vectors = vectors[:, :k] if in_order else np.asfortranarray(vectors[:, lowest])
+        measurement = measurement.of(lowest)
     notes = _notes(total, k, slices)
-    unpermuted = np.empty_like(vectors, order="F")
-    unpermuted[pencil.order] = vectors
+    for column in vectors.T:
+        column[pencil.order] = column.copy()
     complete = all(part.complete for part in slices) and total >= k
     edges = [part.edge for part in slices if part.edge < np.inf]
     return measured(
-        *(measurement, unpermuted, "slicing"),
+        *(measurement, vectors, "slicing"),
         inertia=tuple((edge, pencil.counts[edge]) for edge in edges),
         complete=complete,
         metrics={
@@ -179,7 +182,7 @@ def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float) -> tuple[Me
         gram = improved.T @ pencil.multiply_mass(improved)
         rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
         vectors[:, :count] = improved @ rotation
-        measurement = measure(pencil.stiffness, pencil.mass, vectors)
+        measurement = measure(pencil.stiffness, pencil.mass, vectors, count).followed_by(measurement)
     return measurement, POLISHES
 
 

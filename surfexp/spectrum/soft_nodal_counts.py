@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.mesh.union_find import find_root
 from surfexp.spectrum.nodal_graph import NodalGraph
 
 
@@ -56,14 +57,6 @@ def _ramp(height: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _find(parents: Integers, node: int) -> int:
-    while parents[node] != node:
-        parents[node] = parents[parents[node]]
-        node = parents[node]
-    return node
-
-
-@njit(cache=True, nogil=True)
 def _weigh(
     starts: Integers, neighbours: Integers, values: Floats, order: Integers, saddle: float, peak: float
 ) -> float:
@@ -74,7 +67,7 @@ def _weigh(
         for p in range(starts[node], starts[node + 1]):
             if parents[neighbours[p]] < 0:
                 continue
-            high, low = _find(parents, node), _find(parents, neighbours[p])
+            high, low = find_root(parents, node), find_root(parents, neighbours[p])
             if high == low:
                 continue
             if values[high] < values[low]:

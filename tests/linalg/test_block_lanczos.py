@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numba.core.errors import TypingError
 from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
 from surfexp.linalg.block_lanczos import BLOCK, BlockLanczos
-from surfexp.linalg.block_products import multiply_lanes, subtract_two
+from surfexp.linalg.block_products import (
+    gram,
+    multiply_lanes,
+    multiply_right,
+    residual_norms,
+    subtract_product,
+    subtract_two,
+)
 from surfexp.linalg.ldlt import ldlt
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -33,7 +41,7 @@ def lanczos_of(a: csr_array, b: csr_array, steps: int, locked: np.ndarray | None
     def solve(block: np.ndarray) -> None:
         block[:] = factors.solve(block)
 
-    result = BlockLanczos(solve, lambda block: b @ block, a.shape[0], (steps + 4) * BLOCK, locked)
+    result = BlockLanczos(solve, lambda block, result: b @ block, a.shape[0], (steps + 4) * BLOCK, locked)
     for _ in range(steps):
         result.extend()
     return result
@@ -77,8 +85,9 @@ def test_purification_gains_digits(pencil) -> None:
         return np.linalg.norm(a @ x - (b @ x) * values, axis=0) / np.linalg.norm(b @ x, axis=0)
 
     plain = residual(lanczos._basis[:, : lanczos.dimension] @ ritz.coefficients[:, chosen])
-    assert len(chosen) and (residual(lanczos.vectors(ritz, chosen)) <= 1.01 * plain).all()
-    assert residual(lanczos.vectors(ritz, chosen)).max() < 0.2 * plain.max()
+    purified = residual(lanczos.vectors(ritz, chosen))
+    assert len(chosen) and (purified <= 1.01 * plain).all()
+    assert purified.max() < 0.2 * plain.max()
 
 
 def test_locked_vectors_are_not_found_again(pencil) -> None:
@@ -101,7 +110,7 @@ def test_dependent_blocks_are_replaced() -> None:
     def solve(block: np.ndarray) -> None:
         block /= matrix.diagonal()[:, None] - 3.5
 
-    lanczos = BlockLanczos(solve, lambda block: identity @ block, 210, 160)
+    lanczos = BlockLanczos(solve, lambda block, result: identity @ block, 210, 160)
     for _ in range(15):
         lanczos.extend()
     basis = lanczos._basis[:, : lanczos.dimension]
@@ -117,6 +126,20 @@ def test_block_products() -> None:
     a = mass_matrix(fem(icosphere(2).mesh))
     x, y, z, r, s = (rng.normal(size=shape) for shape in [(162, 8)] * 3 + [(8, 8)] * 2)
     assert np.allclose(multiply_lanes(a, x), a @ x, atol=1e-15)
-    expected = x - y @ r - z @ s
-    subtract_two(x, y, r, z, s)
-    assert np.allclose(x, expected, atol=1e-13)
+    assert np.allclose(gram(x, y), x.T @ y, atol=1e-13)
+    assert np.allclose(
+        residual_norms(x, y, r[0]), [np.linalg.norm(x - y * r[0], axis=0), np.linalg.norm(y, axis=0)], rtol=1e-14
+    )
+    for work, arguments, expected in (
+        (subtract_two, (y, r, z, s), x - y @ r - z @ s),
+        (subtract_product, (y, r), x - y @ r),
+        (multiply_right, (r,), x @ r),
+    ):
+        result = x.copy()
+        work(result, *arguments)
+        assert np.allclose(result, expected, atol=1e-13)
+
+
+def test_blocks_of_another_order_are_refused() -> None:
+    with pytest.raises(TypingError, match="C-ordered"):
+        multiply_right(np.zeros((20, 8)), np.asfortranarray(np.eye(8)))

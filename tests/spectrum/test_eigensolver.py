@@ -32,7 +32,9 @@ def assert_pairs(system, a, b, k: int, tolerance: float = 1e-8) -> None:
     assert np.all(np.diff(system.values) >= -1e-9 * system.values[-1])
     assert system.residuals.max() <= tolerance
     gram = system.vectors.T @ (b @ system.vectors)
-    assert np.abs(gram - np.eye(k)).max() == pytest.approx(system.orthogonality, abs=1e-12)
+    cut = any("cuts a cluster" in note for note in system.notes)
+    largest = np.abs(gram - np.eye(k)).max()
+    assert largest <= system.orthogonality + 1e-12 and (cut or largest >= system.orthogonality - 1e-12)
     assert system.orthogonality <= 1e-8
     scale = np.maximum(system.values, system.values[-1] / k)
     error = a @ system.vectors - (b @ system.vectors) * system.values
@@ -133,7 +135,7 @@ def test_a_planted_gap_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not any(start <= 5 < stop for start, stop in clusters(truth.values, 1e-3))
     hidden = truth.vectors[:, 5]
 
-    def blinded(self: ShiftedPencil, block: np.ndarray) -> np.ndarray:
+    def blinded(self: ShiftedPencil, block: np.ndarray, result: np.ndarray | None = None) -> np.ndarray:
         result = np.ascontiguousarray(self.mass @ block)
         weight = self.mass @ hidden[self.order]
         return result - np.outer(weight, weight @ block)
