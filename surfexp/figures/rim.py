@@ -28,7 +28,9 @@ def barycentric(mesh: TriangleMesh, *fields: Floats) -> tuple[TriangleMesh, Floa
     fields : tuple of (n + e + m,) float64
     """
     n, e = len(mesh.vertices), len(mesh.edges)
-    vertices = np.concatenate([mesh.vertices, mesh.vertices[mesh.edges].mean(axis=1), mesh.vertices[mesh.faces].mean(1)])
+    vertices = np.concatenate(
+        [mesh.vertices, mesh.vertices[mesh.edges].mean(axis=1), mesh.vertices[mesh.faces].mean(1)]
+    )
     middles, centres = n + mesh.face_edges, n + e + np.arange(len(mesh.faces))
     corners = [
         np.stack(sides, axis=1)

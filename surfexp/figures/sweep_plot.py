@@ -11,8 +11,10 @@ from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn
 from surfexp.mesh.triangle_mesh import Floats
 
-# up to so many values of the option are written under the axis
-MOST_TICKS = 9
+# up to so many values of the option are written under the axis, and each marked on the lines
+MOST_TICKS, MOST_MARKERS = 9, 60
+# how much wider a line is for each later one that lies on it
+WIDER = 3.0
 
 
 def sweep_plot(
@@ -26,7 +28,9 @@ def sweep_plot(
     caption: str = "",
     size: tuple[int, int] = (1000, 620),
 ) -> Figure:
-    """A line with markers for each method, and a band where an interval is known.
+    """A line for each method, with markers up to 60 values, and a band where an interval is known.
+
+    A line on which others lie is drawn wider, so that it shows at their sides.
 
     Parameters
     ----------
@@ -52,7 +56,8 @@ def sweep_plot(
         labels: list[Label] = []
         for k, (name, values) in enumerate(series.items()):
             bounded = np.asarray(values, dtype=float).reshape(len(x), -1)
-            axes.plot(x, bounded[:, 0], **style(k))
+            look = style(k) | ({} if len(x) <= MOST_MARKERS else {"marker": ""})
+            axes.plot(x, bounded[:, 0], linewidth=2.0 + WIDER * _later_twins(series, k), **look)
             if bounded.shape[1] == 3:
                 axes.fill_between(x, bounded[:, 1], bounded[:, 2], color=style(k)["color"], alpha=0.15, linewidth=0.0)
             for last in np.flatnonzero(np.isfinite(bounded[:, 0]))[-1:]:
@@ -63,3 +68,9 @@ def sweep_plot(
         label_lines(axes, labels)
         pixels = drawn(figure)
     return Figure(pixels, caption, title)
+
+
+def _later_twins(series: Mapping[str, Floats], k: int) -> int:
+    """How many lines after the k-th have its values."""
+    lines = [np.asarray(values, dtype=float).reshape(len(values), -1)[:, 0] for values in series.values()]
+    return sum(np.allclose(lines[k], line, rtol=1e-3, equal_nan=True) for line in lines[k + 1 :])
