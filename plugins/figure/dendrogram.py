@@ -37,13 +37,13 @@ def dendrogram_figure(options: Dendrogram, *, distance_matrix: DistanceMatrix) -
         axes.grid(False)
         for side in ("left", "right", "top"):
             axes.spines[side].set_visible(False)
-        axes.tick_params(axis="y", labelsize=size, length=0)
+        axes.tick_params(axis="y", labelsize=size, length=0, pad=0.8 * size)
         for text, place, member in zip(axes.get_yticklabels(), axes.get_yticks(), drawing["leaves"], strict=True):
             color, marker = class_style(classes.index(distance_matrix.classes[member]))
             text.set_color(color)
             axes.plot([0.0], [place], color=color, marker=marker, clip_on=False, zorder=3.0)
         box = axes.get_position()
-        axes.set_position((0.03, box.y0, 0.97 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
+        axes.set_position((0.03, box.y0, 0.955 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
         pixels = drawn(figure)
     caption = options.caption or "Each leaf is a shape; clusters join at the mean distance of their members."
     return Figure(pixels, caption, title)
