@@ -79,6 +79,8 @@ SMALL = {
     ("distance_matrix", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
     ("classifier", "random_forest"): {"permutations": 2},
     ("statistic", "isospectral_drums"): {"divisions": 4, "count": 8},
+    ("statistic", "drum_values"): {"count": 10, "divisions": [4, 6, 8]},
+    ("statistic", "torus_trend"): {"count": 40},
     ("statistic", "spectrum_error"): {"low": 3, "high": 8},
     ("statistic", "convergence_orders"): {"inputs": {"errors": {"over": "levels", "statistic": SMALL_ERROR}}},
     ("statistic", "count_agreement"): {

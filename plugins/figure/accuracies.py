@@ -9,20 +9,30 @@ from surfexp.workflow.registry import Options, register
 
 
 class Accuracies(Options):
-    """What is written above and below."""
+    """Which number is drawn, and what is written above and below."""
 
-    title: str = Field("", description="heading in the figure")
+    metric: str = Field("accuracy", description="metric of the classifications; with _low and _high its interval")
+    title: str = Field("", description="heading in the figure; default: the method, if it is one")
     caption: str = Field("", description="sentence below the figure")
 
 
 @register("figure", "accuracies")
 def accuracies_figure(options: Accuracies, *, classifiers: dict[str, Classification]) -> Figure:
-    """Accuracy of each member of an axis with its bootstrap interval, chance as a dashed line."""
-    intervals = {
-        label: (found.metrics["accuracy"], found.metrics["accuracy_low"], found.metrics["accuracy_high"])
-        for label, found in classifiers.items()
-    }
+    """Accuracy, or another share, of each member of an axis with its interval; chance as a dashed line."""
+    name = options.metric
+    intervals = {label: _interval(found.metrics, name, label) for label, found in classifiers.items()}
     chances = [found.metrics["chance"] for found in classifiers.values() if "chance" in found.metrics]
-    reference = sum(chances) / len(chances) if chances else None
+    reference = sum(chances) / len(chances) if chances and name == "accuracy" else None
     caption = options.caption or "Share of members given their class, with 95 % bootstrap intervals over groups."
-    return interval_plot(intervals, x_label="accuracy", reference=reference, title=options.title, caption=caption)
+    if name == "accuracy" and any(low == high for _, low, high in intervals.values()):
+        caption += " Without an error in the sample an interval has no width; it does not prove that there is none."
+    methods = {found.method.replace("_", " ") for found in classifiers.values()}
+    title = options.title or (methods.pop() if len(methods) == 1 else "")
+    return interval_plot(intervals, x_label=name.replace("_", " "), reference=reference, title=title, caption=caption)
+
+
+def _interval(metrics: dict[str, float], name: str, label: str) -> tuple[float, float, float]:
+    if name not in metrics:
+        raise ValueError(f"classification {label!r} has no metric {name!r}, choose one of {', '.join(sorted(metrics))}")
+    value = metrics[name]
+    return value, metrics.get(f"{name}_low", value), metrics.get(f"{name}_high", value)

@@ -4,7 +4,7 @@ from pydantic import Field
 
 from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import INK, canvas, drawn, points
+from surfexp.figures.typography import INK, QUIET, canvas, drawn, points
 from surfexp.statistics.classification import Classification
 from surfexp.workflow.registry import Options, register
 
@@ -31,14 +31,14 @@ def confusion_figure(options: Confusion, *, classifier: Classification) -> Figur
         axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.0, aspect="auto")
         for i in range(number):
             for j in range(number):
-                color = "white" if shares[i, j] > 0.55 else INK
+                color = "white" if shares[i, j] > 0.55 else INK if counts[i, j] else QUIET
                 axes.text(j, i, f"{counts[i, j]}", ha="center", va="center", color=color, fontsize=points(1.1 * em))
         axes.set_xticks(range(number), names, rotation=30, ha="right")
         axes.set_yticks(range(number), names)
         axes.tick_params(labelsize=points(em), length=0.0)
         axes.spines[:].set_visible(False)
-        axes.set_xlabel("given", fontsize=points(em))
-        axes.set_ylabel("true", fontsize=points(em))
+        axes.set_xlabel("class given", fontsize=points(em))
+        axes.set_ylabel("true class", fontsize=points(em))
         axes.set_title(title, fontsize=points(1.1 * em), fontweight="bold", pad=points(0.9 * em))
         pixels = drawn(figure)
     numbers = classifier.metrics

@@ -4,7 +4,7 @@ from pydantic import Field
 from scipy.cluster.hierarchy import dendrogram, linkage
 from scipy.spatial.distance import squareform
 
-from surfexp.figures.axes import COLORS, add_axes
+from surfexp.figures.axes import add_axes, class_style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, points
 from surfexp.statistics.distance_matrix import DistanceMatrix
@@ -22,7 +22,7 @@ class Dendrogram(Options):
 
 @register("figure", "dendrogram")
 def dendrogram_figure(options: Dendrogram, *, distance_matrix: DistanceMatrix) -> Figure:
-    """Hierarchical clustering of a collection by its distances, names coloured by class."""
+    """Hierarchical clustering of a collection by its distances, names and marks coloured by class."""
     title = options.title or f"clusters by {distance_matrix.name.replace('_', ' ')}"
     tree = linkage(squareform(distance_matrix.values, checks=False), options.linkage)
     classes = list(dict.fromkeys(distance_matrix.classes))
@@ -37,11 +37,13 @@ def dendrogram_figure(options: Dendrogram, *, distance_matrix: DistanceMatrix) -
         axes.grid(False)
         for side in ("left", "right", "top"):
             axes.spines[side].set_visible(False)
-        axes.tick_params(axis="y", labelsize=size, length=0)
-        for text, member in zip(axes.get_yticklabels(), drawing["leaves"], strict=True):
-            text.set_color(COLORS[classes.index(distance_matrix.classes[member]) % len(COLORS)])
+        axes.tick_params(axis="y", labelsize=size, length=0, pad=0.8 * size)
+        for text, place, member in zip(axes.get_yticklabels(), axes.get_yticks(), drawing["leaves"], strict=True):
+            color, marker = class_style(classes.index(distance_matrix.classes[member]))
+            text.set_color(color)
+            axes.plot([0.0], [place], color=color, marker=marker, clip_on=False, zorder=3.0)
         box = axes.get_position()
-        axes.set_position((0.03, box.y0, 0.97 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
+        axes.set_position((0.03, box.y0, 0.955 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
         pixels = drawn(figure)
     caption = options.caption or "Each leaf is a shape; clusters join at the mean distance of their members."
     return Figure(pixels, caption, title)

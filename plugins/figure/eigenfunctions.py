@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
@@ -10,8 +9,9 @@ from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.figures.rim import INSIDE, barycentric, without_rim
+from surfexp.figures.typography import INK, QUIET
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.workflow.registry import Options, register
 
@@ -28,13 +28,6 @@ class Eigenfunctions(Options):
     width: int = Field(1600, ge=200, le=8000, description="pixels across")
 
 
-def _without_rim(surface: Surface, values: Floats) -> Floats:
-    """The values, those that are 0 on a fixed rim moved a little to the side of their neighbours: no nodal line there."""
-    first, second = surface.mesh.edges.T
-    sums = np.bincount(first, values[second], len(values)) + np.bincount(second, values[first], len(values))
-    return np.where(values == 0.0, 1e-9 * sums, values)
-
-
 @register("figure", "eigenfunctions")
 def eigenfunctions_figure(options: Eigenfunctions, *, surface: Surface, eigensolver: EigenSystem) -> Figure:
     """Some eigenfunctions in colour with their nodal lines, each in units of its root mean square."""
@@ -46,12 +39,18 @@ def eigenfunctions_figure(options: Eigenfunctions, *, surface: Surface, eigensol
     views = []
     for mode in known:
         values = size * eigensolver.vectors[: len(surface.mesh.vertices), mode]
-        level = _without_rim(surface, values)
-        lines = (Contours(level, (0.0,), "#111111", options.line_width),) if values.min() < 0 < values.max() else ()
+        mesh, level = surface.mesh, values
+        lines: tuple[Contours, ...] = ()
+        if not mesh.is_closed:
+            mesh, rim, (values, level) = barycentric(mesh, values, without_rim(mesh, values))
+            # half of the line along the rim lies outside
+            lines = (Contours(rim, (1.0 - INSIDE,), QUIET, 2.0 * options.line_width),)
+        if values.min() < 0 < values.max():
+            lines = (*lines, Contours(level, (0.0,), INK, options.line_width))
         # modes are counted from the constant one, 0, which a fixed rim excludes
         number = mode + (eigensolver.boundary == "dirichlet")
         title = f"mode {number}, λ = {eigensolver.values[mode]:.4g}"
-        views.append(SurfaceView(surface.mesh, values, (options.azimuth, options.elevation), scale, lines, title))
+        views.append(SurfaceView(mesh, values, (options.azimuth, options.elevation), scale, lines, title))
     rows = [views[i : i + options.columns] for i in range(0, len(views), options.columns)]
     unit = f" (λ in 1/{surface.unit}²)" if surface.unit else ""
     against = f" Compare {options.reference} of the dissertation." if options.reference else ""

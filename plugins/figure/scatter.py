@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from surfexp.figures.axes import COLORS, FONT, MARKERS, add_axes
+from surfexp.figures.axes import FONT, add_axes, class_style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn
 from surfexp.figures.typography import points as text_size
@@ -36,7 +36,7 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
         box = axes.get_position()
         axes.set_position([box.x0, box.y0, LEGEND - box.x0, box.height])
         for k, name in enumerate(dict.fromkeys(embedding.classes)):
-            color, marker = COLORS[k % len(COLORS)], MARKERS[(k + k // len(COLORS)) % len(MARKERS)]
+            color, marker = class_style(k)
             axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
         if options.names:
             _write_owners(axes, embedding, points)

@@ -18,7 +18,10 @@ class GroupPower(Options):
     draws: int = Field(200, ge=10, le=100000, description="groups that are drawn for each size")
     permutations: int = Field(199, ge=19, le=100000, description="permutations of each test")
     unit: Literal["member", "person"] = Field(
-        "member", description="what is drawn and changes groups; members of one person are not exchangeable"
+        "member", description="what is drawn into groups: single members, or people with all of theirs"
+    )
+    permuted: Literal["member", "person"] | None = Field(
+        None, description="what changes groups in a permutation, default: the unit; members of one person are alike"
     )
     seed: int = Field(0, ge=0, description="seed of draws and permutations")
 

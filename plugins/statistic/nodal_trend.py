@@ -1,5 +1,6 @@
 """Nodal counts against the number of the mode, section 4.5."""
 
+import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
@@ -18,4 +19,7 @@ class Trend(Options):
 @register("statistic", "nodal_trend")
 def nodal_trend_statistic(options: Trend, *, surface: Surface, signature: Signature) -> Statistic:
     """Mean of count over mode number, its exponent, and how far it is below the bounds of Courant and Pleijel."""
-    return nodal_trend(signature.part(options.part), surface.name)
+    mesh = surface.mesh
+    ends = mesh.vertices[mesh.edges[mesh.edge_face_counts == 1]]
+    perimeter = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+    return nodal_trend(signature.part(options.part), surface.name, mesh.area, perimeter)

@@ -32,6 +32,11 @@ def style(k: int) -> dict[str, Any]:
     }
 
 
+def class_style(k: int) -> tuple[str, str]:
+    """Colour and marker of the k-th class; where the colours begin anew the markers are shifted, so that 49 differ."""
+    return COLORS[k % len(COLORS)], MARKERS[(k + k // len(COLORS)) % len(MARKERS)]
+
+
 def add_axes(figure: Any, title: str, x_label: str, y_label: str) -> Any:
     """The axes of a plot, with its title above the left end and room for the labels of the axes."""
     width, height = figure.bbox.width, figure.bbox.height
@@ -81,7 +86,8 @@ def label_lines(axes: Any, labels: Sequence[Label]) -> None:
     axes.set_position([box.x0, box.y0, 1.0 - box.x0 - (longest + 2.5 * em) / width, box.height])
     ends = axes.transData.transform([(x, y) for _, x, y, _ in labels])
     right = axes.bbox.x1
-    heights = spread(np.clip(ends[:, 1], axes.bbox.y0, axes.bbox.y1), SPACING * em)
+    lowest, highest = 0.7 * em, figure.bbox.height - 0.7 * em
+    heights = spread(np.clip(ends[:, 1], axes.bbox.y0, axes.bbox.y1), SPACING * em, lowest, highest)
     to_figure = figure.transFigure.inverted()
     for text, (x, y), height, (*_, color) in zip(texts, ends, heights, labels, strict=True):
         text.set_position(to_figure.transform((right + 1.8 * em, height)))
@@ -90,10 +96,17 @@ def label_lines(axes: Any, labels: Sequence[Label]) -> None:
         figure.add_artist(Line2D(*leader.T, color=color, linewidth=0.8, alpha=0.6))
 
 
-def spread(positions: Floats, spacing: float) -> Floats:
-    """The nearest positions in the least-squares sense, in the same order, that are at least `spacing` apart."""
+def spread(positions: Floats, spacing: float, lowest: float = -np.inf, highest: float = np.inf) -> Floats:
+    """The nearest positions in the least-squares sense, in the same order, that are at least `spacing` apart.
+
+    They are not below `lowest` nor above `highest`, unless there is no room between the two: then the spacing gives way.
+    """
+    if len(positions) > 1:
+        spacing = min(spacing, (highest - lowest) / (len(positions) - 1))
     order = np.argsort(positions, kind="stable")
     steps = spacing * np.arange(len(positions))
     result = np.empty(len(positions))
-    result[order] = isotonic_regression(positions[order] - steps).x + steps
+    # the bounded isotonic regression is the free one, cut off
+    free = isotonic_regression(positions[order] - steps).x
+    result[order] = np.clip(free, lowest, highest - steps[-1]) + steps
     return result

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +12,10 @@ from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn
 from surfexp.mesh.triangle_mesh import Floats
 
-# up to so many values of the option are written under the axis
-MOST_TICKS = 9
+# up to so many values of the option are written under the axis, and each marked on the lines
+MOST_TICKS, MOST_MARKERS = 9, 60
+# length of the dashes in which lines that lie on one another take turns, in widths of a line
+DASH = 4.0
 
 
 def sweep_plot(
@@ -26,7 +29,9 @@ def sweep_plot(
     caption: str = "",
     size: tuple[int, int] = (1000, 620),
 ) -> Figure:
-    """A line with markers for each method, and a band where an interval is known.
+    """A line for each method, with markers up to 60 values, and a band where an interval is known.
+
+    Lines that lie on one another take turns, in dashes and in markers.
 
     Parameters
     ----------
@@ -52,7 +57,8 @@ def sweep_plot(
         labels: list[Label] = []
         for k, (name, values) in enumerate(series.items()):
             bounded = np.asarray(values, dtype=float).reshape(len(x), -1)
-            axes.plot(x, bounded[:, 0], **style(k))
+            look = style(k) | _turns(series, k) | ({} if len(x) <= MOST_MARKERS else {"marker": ""})
+            axes.plot(x, bounded[:, 0], **look)
             if bounded.shape[1] == 3:
                 axes.fill_between(x, bounded[:, 1], bounded[:, 2], color=style(k)["color"], alpha=0.15, linewidth=0.0)
             for last in np.flatnonzero(np.isfinite(bounded[:, 0]))[-1:]:
@@ -63,3 +69,13 @@ def sweep_plot(
         label_lines(axes, labels)
         pixels = drawn(figure)
     return Figure(pixels, caption, title)
+
+
+def _turns(series: Mapping[str, Floats], k: int) -> dict[str, Any]:
+    """Dashes and markers of the k-th line that leave room for those of the others with its values."""
+    lines = [np.asarray(values, dtype=float).reshape(len(values), -1)[:, 0] for values in series.values()]
+    twins = [i for i, line in enumerate(lines) if np.allclose(lines[k], line, rtol=1e-3, equal_nan=True)]
+    turn, count = twins.index(k), len(twins)
+    if count == 1:
+        return {}
+    return {"linestyle": ((count - turn) * DASH, (DASH, (count - 1) * DASH)), "markevery": (turn, count)}

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, select_autoescape
+from jinja2 import Environment, PackageLoader
+from markupsafe import Markup, escape
 
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
@@ -24,8 +26,8 @@ def write_report(plan: Plan, results: Path) -> Path:
     figures = _write_figures(plan, results, folder / "figures")
     costs = {group.title: _costs_of(group, folder / "figures", k) for k, group in enumerate(groups)}
     store.write_text(folder / "metrics.csv", to_csv(rows))
-    environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=select_autoescape())
-    environment.filters.update(number=format_number, heading=short_name)
+    environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=True)
+    environment.filters.update(number=format_number, heading=short_name, prose=prose)
     page = environment.get_template("report.html.j2").render(
         settings=plan.settings,
         groups=[(group, _figures_of(group, figures) + costs[group.title]) for group in groups],
@@ -37,6 +39,11 @@ def write_report(plan: Plan, results: Path) -> Path:
     )
     store.write_text(folder / "report.html", page)
     return folder
+
+
+def prose(text: str) -> Markup:
+    """A text as the page shows it: everything as written, what stands between backticks as code."""
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
 
 
 def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:

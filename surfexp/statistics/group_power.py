@@ -26,6 +26,7 @@ def group_power(
     permutations: int = 199,
     seed: int = 0,
     unit: Unit = "member",
+    permuted: Unit | None = None,
 ) -> Statistic:
     """Draw groups of each size from the two classes, test them, and report how often a difference is found.
 
@@ -42,9 +43,10 @@ def group_power(
         Of the test.
     draws, permutations, seed : int
     unit : "member" or "person"
-        What changes groups in a permutation. Members of one person are alike and not exchangeable one by one, so that
-        permuting them rejects too often; with "person" whole people are drawn and permuted: all groups and all splits
-        where they are few.
+        What is drawn into groups; whole people are drawn in all ways where these are few.
+    permuted : "member" or "person", optional
+        What changes groups in a permutation; default: the unit. Members of one person are alike and not exchangeable one
+        by one, so that permuting them rejects too often.
 
     Returns
     -------
@@ -62,11 +64,12 @@ def group_power(
     names = sorted(set(matrix.classes))
     if len(names) != 2:
         raise ValueError(f"the collection has the classes {', '.join(names)}: a comparison of groups needs exactly 2")
-    if unit not in ("member", "person"):
-        raise ValueError(f"unit {unit!r} is unknown, choose member or person")
+    for name in (unit, permuted or unit):
+        if name not in ("member", "person"):
+            raise ValueError(f"unit {name!r} is unknown, choose member or person")
     first, second = (np.flatnonzero(np.array(matrix.classes) == name) for name in names)
     owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
-    units = owners if unit == "person" else np.arange(len(owners))
+    units = owners if (permuted or unit) == "person" else np.arange(len(owners))
     rng = np.random.default_rng(seed)
     power, alarms = np.empty((len(sizes), 3)), np.empty((len(sizes), 3))
     for shares, other in ((power, second), (alarms, first)):
@@ -77,7 +80,9 @@ def group_power(
     metrics = {f"power {size}": float(share) for size, share in zip(sizes, power[:, 0], strict=True)}
     alarm_names = ("false_alarms", "false_alarms_low", "false_alarms_high")
     metrics |= dict(zip(alarm_names, alarms[-1].tolist(), strict=True))
-    metrics |= {"level": level, "draws": float(len(pairs)), "least_p": 2.0 / comb(2 * sizes[-1], sizes[-1])}
+    moved = [len(np.unique(units[group])) for group in pairs[-1]]
+    least = (2.0 if moved[0] == moved[1] else 1.0) / comb(sum(moved), moved[0])
+    metrics |= {"level": level, "draws": float(len(pairs)), "least_p": least}
     metrics["p_value"] = p_value(matrix.values, first, second, 999, rng, np.arange(len(owners)))
     levels = np.full(len(sizes), level)
     columns = {"size": np.array(sizes, dtype=float), "power": power, "false alarms": alarms, "level": levels}

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from surfexp.figures.axes import add_axes, label_lines, logarithmic, spread
+from surfexp.figures.axes import add_axes, class_style, label_lines, logarithmic, spread
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.interval_plot import interval_plot
 from surfexp.figures.order_plot import convergence_order, order_plot
@@ -46,6 +46,38 @@ def test_labels_are_spread_as_little_as_possible(positions: np.ndarray, spacing:
     assert (np.diff(result[order]) >= 0.0).all()
     if (np.diff(np.sort(positions)) >= spacing).all():
         assert np.allclose(result, positions)
+
+
+@given(arrays(float, st.integers(1, 12), elements=st.floats(0.0, 100.0)), st.floats(0.1, 20.0))
+def test_bounded_spread_stays_inside_and_gives_way_only_without_room(positions: np.ndarray, spacing: float) -> None:
+    result = spread(positions, spacing, -5.0, 105.0)
+    assert result.min() >= -5.0 - 1e-9 and result.max() <= 105.0 + 1e-9
+    room = 110.0 / max(len(positions) - 1, 1)
+    assert (np.diff(np.sort(result)) >= min(spacing, room) * (1.0 - 1e-9) - 1e-9).all()
+    free = spread(positions, spacing)
+    if free.min() >= -5.0 and free.max() <= 105.0:
+        assert np.allclose(result, free)
+
+
+@pytest.mark.parametrize("level", [0.0, 1.0])
+def test_labels_of_lines_that_end_at_one_corner_are_inside_the_figure(level: float) -> None:
+    with canvas(600, 300) as figure:
+        axes = add_axes(figure, "title", "x", "y")
+        axes.plot([0.0, 1.0], [0.0, 1.0])
+        label_lines(axes, [(f"line {k}", 1.0, level, "black") for k in range(9)])
+        boxes = [text.get_window_extent() for text in figure.texts]
+    assert all(box.y0 >= 0.0 and box.y1 <= 300.0 for box in boxes)
+
+
+def test_lines_that_lie_on_one_another_are_all_seen_and_long_ones_have_no_markers() -> None:
+    line = np.sqrt(ITERATIONS)
+    figure = sweep_plot(ITERATIONS, {"a": line, "b": line, "c": line}, x_label="x", y_label="y", size=SMALL)
+    colours = {tuple(c) for c in figure.pixels[60:-60, 60:-100].reshape(-1, 3).tolist()}
+    assert {(0, 114, 178), (213, 94, 0), (0, 158, 115)} <= colours
+
+
+def test_49_classes_differ_in_colour_or_marker() -> None:
+    assert len({class_style(k) for k in range(49)}) == 49
 
 
 def test_labels_are_inside_the_figure_and_apart() -> None:

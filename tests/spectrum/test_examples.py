@@ -31,6 +31,12 @@ def test_isospectral_drums(capsys: pytest.CaptureFixture[str]) -> None:
     assert (first[1], second[1]) == ("1 2 3 3 4", "1 2 3 4 4")
 
 
+def test_drum_values(capsys: pytest.CaptureFixture[str]) -> None:
+    values, extrapolated, finest = printed("drum_values", capsys)
+    assert float(values.split()[0]) == pytest.approx(2.5379439998, abs=2e-7)
+    assert float(extrapolated.split()[-1]) < 0.1 * float(finest.split()[-1])
+
+
 def test_heard_geometry(capsys: pytest.CaptureFixture[str]) -> None:
     words = printed("heard_geometry", capsys)[0].split()
     assert float(words[1]) == pytest.approx(39.478418, rel=1e-4)

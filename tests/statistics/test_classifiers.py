@@ -206,6 +206,19 @@ def test_power_by_person_on_planted_and_equal_classes() -> None:
         group_power(matrix, [2], unit="side")
 
 
+def test_permuting_members_of_people_drawn_whole_raises_false_alarms() -> None:
+    labels = people("ab", 6)
+    own = np.repeat(np.random.default_rng(2).normal(size=(12, 3)), 2, axis=0)
+    matrix = collection(own + 0.01 * np.random.default_rng(3).normal(size=(24, 3)), labels)
+    by_person = group_power(matrix, [3], level=0.1, unit="person").metrics
+    by_member = group_power(matrix, [3], level=0.1, unit="person", permuted="member").metrics
+    assert by_person["false_alarms"] == 0.1 and by_member["false_alarms"] > 0.3
+    assert by_member["draws"] == by_person["draws"] == 20.0
+    assert by_member["least_p"] == pytest.approx(2.0 / 924.0) and by_person["least_p"] == 0.1
+    with pytest.raises(ValueError, match="unit 'side' is unknown, choose member or person"):
+        group_power(matrix, [2], permuted="side")
+
+
 def test_exact_interval() -> None:
     assert exact_interval(0, 10) == (0.0, pytest.approx(1 - 0.025**0.1))
     assert exact_interval(10, 10) == (pytest.approx(0.025**0.1), 1.0)

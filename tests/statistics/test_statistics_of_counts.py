@@ -7,7 +7,7 @@ import pytest
 
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.count_agreement import count_agreement, largest_change, moving_mean
-from surfexp.statistics.nodal_trend import RECTANGLE_MEAN, nodal_trend
+from surfexp.statistics.nodal_trend import RECTANGLE_MEAN, nodal_trend, rectangle_trend
 from surfexp.statistics.statistic import Statistic
 
 
@@ -34,18 +34,49 @@ def test_change_is_relative() -> None:
     assert found.metrics == {"largest": 0.5, "mean": 0.25} and found.rows == ("b",)
 
 
+def rectangle_counts(aspect: float, number: int) -> np.ndarray:
+    m, n = np.meshgrid(np.arange(1, 400), np.arange(1, 400), indexing="ij")
+    order = np.argsort((m**2 / aspect**2 + n**2).ravel())[:number]
+    return np.asarray((m * n).ravel()[order], dtype=float)
+
+
 def test_trend_of_a_rectangle_is_the_known_one() -> None:
-    m, n = np.meshgrid(np.arange(1, 200), np.arange(1, 200), indexing="ij")
-    order = np.argsort((m**2 / 2.1 + n**2).ravel())[:4000]
-    found = nodal_trend((m * n).ravel()[order].astype(float), "rectangle").metrics
+    found = nodal_trend(rectangle_counts(2.1**0.5, 4000), "rectangle").metrics
     assert found["mean_ratio"] == pytest.approx(RECTANGLE_MEAN, rel=0.06)
     assert found["exponent"] == pytest.approx(1.0, abs=0.15) and found["largest_ratio"] < found["pleijel"]
-    few = nodal_trend(np.arange(1.0, 26.0))
-    assert few.columns["mode"] == pytest.approx([5.5, 15.5]) and few.columns["count"] == pytest.approx([5.5, 15.5])
-    assert few.columns["ratio"][0, 1:] == pytest.approx([1 / 2, 10 / 11])
-    assert few.columns["running mean"][1] == pytest.approx(np.mean(np.arange(1, 21) / np.arange(2, 22)))
+    assert "over_smooth" not in found
+    few = nodal_trend(np.arange(2.0, 27.0))
+    assert few.columns["mode"] == pytest.approx([6.5, 16.5]) and few.columns["count"] == pytest.approx([6.5, 16.5])
+    assert few.columns["ratio"] == pytest.approx(1.0) and few.columns["running mean"] == pytest.approx(1.0)
     with pytest.raises(ValueError, match="at least 20"):
         nodal_trend(np.ones(3))
+
+
+def test_numbers_start_with_the_first_mode_of_all() -> None:
+    fixed, free = np.ones(40), np.full(40, 2.0)
+    assert nodal_trend(fixed).metrics["largest_ratio"] == pytest.approx(1 / 21)
+    assert nodal_trend(free).metrics["largest_ratio"] == pytest.approx(2 / 22)
+    assert nodal_trend(fixed).columns["ratio"][0, 2] == nodal_trend(free).columns["ratio"][0, 2] == 1.0
+
+
+@pytest.mark.parametrize("aspect", [1.0, 2.1**0.5, 3.0, np.pi])
+def test_smooth_trend_of_rectangles_is_their_mean(aspect: float) -> None:
+    counts = rectangle_counts(aspect, 20000)
+    numbers = np.arange(1.0, 20001.0)
+    smooth = rectangle_trend(numbers, aspect, 2.0 * aspect + 2.0)
+    off = [(counts / numbers)[n : 2 * n].mean() / smooth[n : 2 * n].mean() - 1.0 for n in (150, 1000, 10000)]
+    assert np.abs(off) == pytest.approx(0.0, abs=0.012) and abs(off[-1]) < 1e-3
+    assert smooth[-1] / RECTANGLE_MEAN - 1.0 == pytest.approx(
+        1.5 * (2.0 * aspect + 2.0) / np.sqrt(4.0 * np.pi * aspect * 20000), rel=0.05
+    )
+    found = nodal_trend(counts[:300], "rectangle", aspect, 2.0 * aspect + 2.0)
+    assert found.metrics["over_smooth"] == pytest.approx(1.0, abs=0.02)
+    assert found.metrics["over_rectangle"] > 1.08 and len(found.columns["smooth mean"]) == 30
+
+
+def test_smooth_trend_knows_no_unit() -> None:
+    numbers = np.arange(1.0, 50.0)
+    assert rectangle_trend(numbers, 2.0, 6.0) == pytest.approx(rectangle_trend(numbers, 200.0, 60.0))
 
 
 def test_columns_have_one_length() -> None:

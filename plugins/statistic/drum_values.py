@@ -1,0 +1,46 @@
+"""Eigenvalues of the drums of figure 4.1 to nine digits."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.spectrum.drum_values import drum_values
+from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
+from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+# modes 9 and 21 are those of the tile itself, reflected: 5 pi^2 / 4 and twice that
+EXACT = {8: 1.25 * np.pi**2, 20: 2.5 * np.pi**2}
+
+
+class Values(Options):
+    """Meshes, and how many values."""
+
+    count: int = Field(25, ge=10, le=100, description="eigenvalues")
+    divisions: list[int] = Field([36, 48, 64], description="even divisions of a side of the tile, three meshes or more")
+    grading: float = Field(4.0, ge=1, le=6, description="exponent that draws nodes to the corners")
+
+
+@register("statistic", "drum_values")
+def drum_values_statistic(options: Values) -> Statistic:
+    """First Dirichlet values of the Gordon-Webb-Wolpert drum by cubic elements on graded meshes, extrapolated."""
+    tile = TILE_SHAPES["right_isosceles"]
+    found = drum_values(GORDON_WEBB_WOLPERT.first, tile, options.count, tuple(options.divisions), options.grading)
+    known = np.array(GORDON_WEBB_WOLPERT_VALUES)
+    finest = np.abs(found.computed[-1] / found.values - 1.0)
+    exact = [abs(found.values[mode] / value - 1.0) for mode, value in EXACT.items() if mode < options.count]
+    metrics = {
+        "error_to_published": float(np.abs(found.values[: len(known)] / known - 1.0).max()),
+        "error_to_exact": float(max(exact)) if exact else 0.0,
+        "largest_estimate": float(found.estimates.max()),
+        "finest_mesh_error": float(finest.max()),
+        "degrees_of_freedom": float(found.degrees_of_freedom[-1]),
+    }
+    columns = {
+        "mode": np.arange(1.0, options.count + 1.0),
+        "value": found.values,
+        "estimated error": found.estimates,
+        "error of the finest mesh": finest,
+    }
+    return Statistic("values of the Gordon-Webb-Wolpert drum", columns, metrics=metrics)
