@@ -171,7 +171,11 @@ SMALL = {
     ("statistic", "sulcal_power"): {
         "sizes": [3],
         "draws": 20,
-        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 1}}},
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
+    },
+    ("statistic", "sulcal_false_positives"): {
+        "sizes": [3],
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
     },
     ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"over": "sides"}}},
     ("statistic", "template_distances"): {"subjects": 1, "n": 6, "inputs": PIAL},
