@@ -63,5 +63,6 @@ def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces:
             shares = 2.0 * (left - right) / (left + right)
             if np.isfinite(shares).any():
                 metrics[f"difference, sulcus {k + 1}, {name}"] = float(np.nanmean(shares))
-    notes = tuple(f"Sulcus {k} is region {number + 1} of the template." for k, number in enumerate(study.measured, 1))
+    regions = ", ".join(str(number + 1) for number in study.measured)
+    notes = (f"Sulci 1 to {options.regions} are the regions {regions} of the template, whose regions count from the largest.",)
     return Statistic("sulcal lengths", columns, rows, {"subjects": float(len(subjects)), **metrics}, notes)
