@@ -90,6 +90,8 @@ SMALL = {
     ("figure", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
     ("figure", "accuracies"): {"inputs": {"classifiers": {"over": "members"}}},
     ("figure", "curves"): {"x": "mode", "y": ["count"]},
+    ("figure", "joint_curves"): {"x": "mode", "y": ["count"], "inputs": {"statistics": {"over": "members"}}},
+    ("figure", "embedded_surfaces"): {"inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
     ("surface", "strip"): STRIP,
     ("surface", "y_patch"): {"edge_length": 0.5},
     ("surface", "callosum"): {"edge_length": 1.0, "pixel": 1.0},

@@ -51,9 +51,9 @@ def embedded_regions_figure(
         image = _outward(_sized(points[:, :3], surfaces[k].mesh.faces, EXTENTS[1]))
         views.append(SurfaceView(image, colors[k], options.view, title=f"embedding of the {side}"))
     caption = (
-        f"Sulcal regions of {source_surface.name} and {target_surface.name}, which is turned and scaled: in space, the target along its main axes, and by the "
-        "first three functions of the optimal embedding. Colours of the target are those of the source by majority vote of "
-        "the nearest neighbours. Compare figures 6.4 to 6.6."
+        f"Sulcal regions of {source_surface.name} and {target_surface.name}, which is turned and scaled: in space, the target "
+        "along its main axes, and by the first three functions of the optimal embedding. Colours of the target are those of "
+        "the source by majority vote of the nearest neighbours. Compare figures 6.4 to 6.6."
     )
     return replace(surface_panel(views, width=options.width, caption=caption), title="sulcal regions")
 

@@ -64,5 +64,7 @@ def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces:
             if np.isfinite(shares).any():
                 metrics[f"difference, sulcus {k + 1}, {name}"] = float(np.nanmean(shares))
     regions = ", ".join(str(number + 1) for number in study.measured)
-    notes = (f"Sulci 1 to {options.regions} are the regions {regions} of the template, whose regions count from the largest.",)
+    notes = (
+        f"Sulci 1 to {options.regions} are the regions {regions} of the template, whose regions count from the largest.",
+    )
     return Statistic("sulcal lengths", columns, rows, {"subjects": float(len(subjects)), **metrics}, notes)
