@@ -91,6 +91,7 @@ SMALL = {
     ("figure", "accuracies"): {"inputs": {"classifiers": {"over": "members"}}},
     ("figure", "curves"): {"x": "mode", "y": ["count"]},
     ("figure", "joint_curves"): {"x": "mode", "y": ["count"], "inputs": {"statistics": {"over": "members"}}},
+    ("figure", "search_effort"): {"inputs": {"distances": {"over": "maps"}}},
     ("figure", "embedded_surfaces"): {"inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
     ("surface", "strip"): STRIP,
     ("surface", "y_patch"): {"edge_length": 0.5},

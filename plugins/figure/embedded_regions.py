@@ -16,7 +16,7 @@ from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.workflow.registry import Options, register
 
 LABEL = "label"
-# widest extent of a cortex and of an embedding in the figure
+# widest extent of each cortex and of the larger embedding in the figure
 EXTENTS = (1.0, 0.9)
 
 
@@ -44,11 +44,13 @@ def embedded_regions_figure(
     views = []
     for k, (side, surface) in enumerate(zip(("source", "target"), surfaces, strict=True)):
         vertices = surface.mesh.vertices if k == 0 else _principal(surface.mesh.vertices)
-        mesh = _sized(vertices, surface.mesh.faces, EXTENTS[0])
+        mesh = _scaled(vertices, surface.mesh.faces, EXTENTS[0] / _extent(vertices))
         view = (options.source_view, options.target_view)[k]
         views.append(SurfaceView(mesh, colors[k], view, title=f"regions of the {side}"))
-    for k, (side, points) in enumerate((("source", distance.source_points), ("target", distance.target_points))):
-        image = _outward(_sized(points[:, :3], surfaces[k].mesh.faces, EXTENTS[1]))
+    images = distance.source_points[:, :3], distance.target_points[:, :3]
+    factor = EXTENTS[1] / max(map(_extent, images))
+    for k, (side, points) in enumerate(zip(("source", "target"), images, strict=True)):
+        image = _outward(_scaled(points, surfaces[k].mesh.faces, factor))
         views.append(SurfaceView(image, colors[k], options.view, title=f"embedding of the {side}"))
     caption = (
         f"Sulcal regions of {source_surface.name} and {target_surface.name}, which is turned and scaled: in space, the target "
@@ -66,9 +68,12 @@ def _principal(vertices: Floats) -> Floats:
     return np.asarray(centred @ axes[[0, 2, 1]].T) * [1.0, -1.0, 1.0]
 
 
-def _sized(points: Floats, faces: np.ndarray, extent: float) -> TriangleMesh:
-    centred = points - points.mean(axis=0)
-    return TriangleMesh(extent * centred / np.ptp(centred, axis=0).max(), faces)
+def _extent(points: Floats) -> float:
+    return float(np.ptp(points, axis=0).max())
+
+
+def _scaled(points: Floats, faces: np.ndarray, factor: float) -> TriangleMesh:
+    return TriangleMesh(factor * (points - points.mean(axis=0)), faces)
 
 
 def _outward(mesh: TriangleMesh) -> TriangleMesh:
