@@ -36,13 +36,15 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def _export(plan: Plan, node: Node, results: Path, folder: Path, suffix: str) -> list[Path]:
+    from surfexp.embedding.length_table import KEYS
     from surfexp.embedding.sulcal_export import write_length_table
 
     statistic = _result(results, node, plan)
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / f"{re.sub(r'[^a-z0-9.]+', '_', statistic.name.lower())}{suffix}.csv"]
     columns: dict[str, Any] = {}
-    for name, values in statistic.columns.items():
+    for name in sorted(statistic.columns, key=lambda name: name not in KEYS):
+        values = statistic.columns[name]
         parts = np.asarray(values).reshape(len(values), -1).T
         columns |= {name + end: part for end, part in zip(("", ", low", ", high"), parts, strict=False)}
     count = max(map(len, columns.values()), default=0)
