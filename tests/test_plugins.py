@@ -92,6 +92,9 @@ SMALL = {
     ("figure", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
     ("figure", "accuracies"): {"inputs": {"classifiers": {"over": "members"}}},
     ("figure", "curves"): {"x": "mode", "y": ["count"]},
+    ("figure", "joint_curves"): {"x": "mode", "y": ["count"], "inputs": {"statistics": {"over": "members"}}},
+    ("figure", "search_effort"): {"inputs": {"distances": {"over": "maps"}}},
+    ("figure", "embedded_surfaces"): {"inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
     ("surface", "strip"): STRIP,
     ("surface", "y_patch"): {"edge_length": 0.5},
     ("surface", "callosum"): {"edge_length": 1.0, "pixel": 1.0},
@@ -173,7 +176,11 @@ SMALL = {
     ("statistic", "sulcal_power"): {
         "sizes": [3],
         "draws": 20,
-        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 1}}},
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
+    },
+    ("statistic", "sulcal_false_positives"): {
+        "sizes": [3],
+        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
     },
     ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"over": "sides"}}},
     ("statistic", "template_distances"): {"subjects": 1, "n": 6, "inputs": PIAL},

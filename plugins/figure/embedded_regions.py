@@ -1,25 +1,32 @@
 """Sulcal regions of two cortices in space and in the optimal embedding, figures 6.4 to 6.6."""
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.colors import hsv_to_rgb
 from pydantic import Field
 
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.sulcal_regions import names_by_majority
+from surfexp.embedding.sulcal_regions import OUTSIDE, names_by_majority
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn, points
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.workflow.registry import Options, register
 
 LABEL = "label"
+# widest extent of each cortex and of the larger embedding in the figure
+EXTENTS = (1.0, 0.9)
 
 
 class EmbeddedRegions(Options):
-    """Size and dots."""
+    """Size and views."""
 
-    dots: int = Field(4000, ge=100, le=50000, description="most points of each surface that are drawn")
-    width: int = Field(1600, ge=400, le=6000, description="pixels across")
+    source_view: str = Field("left", description="direction of view of the source")
+    target_view: str = Field("back", description="direction of view of the target, turned to its main axes")
+    view: str = Field("oblique", description="direction of view of the embeddings")
+    width: int = Field(1700, ge=400, le=6000, description="pixels across")
 
 
 @register("figure", "embedded_regions")
@@ -32,55 +39,52 @@ def embedded_regions_figure(
     if missing:
         raise ValueError(f"{missing[0]} has no scalar map 'label': make it with the surface sulcal_regions")
     labels = [surface.scalars[LABEL].astype(int) for surface in surfaces]
-    areas = target_surface.mesh.vertex_areas
-    names = names_by_majority(labels[1] - 1, areas, labels[0] - 1, distance.correspondence) + 1
-    colors = [_colors(labels[0]), _colors(np.concatenate([[0], names])[labels[1]])]
-    kept = [_some(label > 0, options.dots) for label in labels]
-    around = [_some(label == 0, options.dots) for label in labels]
-    clouds = [_principal(surface.mesh.vertices) for surface in surfaces]
-    embedded = [distance.source_points[:, :3], distance.target_points[:, :3]]
-    em = 0.0135 * options.width
-    with canvas(options.width, round(0.33 * options.width)) as figure:
-        panels = (("regions of the source", (0,), clouds), ("regions of the target", (1,), clouds))
-        for k, (title, members, places) in enumerate((*panels, ("both in the embedding", (0, 1), embedded))):
-            axes = figure.add_axes((k / 3, -0.04, 1 / 3, 0.98), projection="3d")
-            for member in members:
-                if k < 2:
-                    axes.scatter(
-                        *places[member][around[member]].T, s=4.0, c="#c4c4c4", linewidths=0, alpha=0.6, zorder=0
-                    )
-                dots = places[member][kept[member]]
-                color, marker = colors[member][kept[member]], "o" if member == 0 else "^"
-                axes.scatter(*dots.T, s=14.0, c=color, marker=marker, linewidths=0, alpha=0.9, zorder=1)
-            everything = np.vstack([places[member] for member in members])
-            axes.set_box_aspect(np.ptp(everything, axis=0), zoom=1.55)
-            axes.set_axis_off()
-            axes.view_init(*((0, -90) if k < 2 else (15, -55)))
-            axes.computed_zorder = False
-            figure.text((k + 0.5) / 3, 0.94, title, fontsize=points(em), ha="center", va="center")
-        pixels = drawn(figure)
+    names = names_by_majority(labels[1] - 1, target_surface.mesh.vertex_areas, labels[0] - 1, distance.correspondence)
+    colors = [_colors(labels[0]), _colors(np.concatenate([[OUTSIDE], names])[labels[1]] + 1)]
+    views = []
+    for k, (side, surface) in enumerate(zip(("source", "target"), surfaces, strict=True)):
+        vertices = surface.mesh.vertices if k == 0 else _principal(surface.mesh.vertices)
+        mesh = _scaled(vertices, surface.mesh.faces, EXTENTS[0] / _extent(vertices))
+        view = (options.source_view, options.target_view)[k]
+        views.append(SurfaceView(mesh, colors[k], view, title=f"regions of the {side}"))
+    images = distance.source_points[:, :3], distance.target_points[:, :3]
+    factor = EXTENTS[1] / max(map(_extent, images))
+    for k, (side, points) in enumerate(zip(("source", "target"), images, strict=True)):
+        image = _outward(_scaled(points, surfaces[k].mesh.faces, factor))
+        views.append(SurfaceView(image, colors[k], options.view, title=f"embedding of the {side}"))
     caption = (
-        f"Sulcal regions of {source_surface.name} and {target_surface.name}: in space, each along its main axes, and by "
-        f"the first three functions of the optimal embedding. Colours of the target are those of the source by majority "
-        "vote of the nearest neighbours. Compare figures 6.4 to 6.6."
+        f"Sulcal regions of {source_surface.name} and {target_surface.name}, which is turned and scaled: in space, the target "
+        "along its main axes, and by the first three functions of the optimal embedding. Colours of the target are those of "
+        "the source by majority vote of the nearest neighbours. Compare figures 6.4 to 6.6."
     )
-    return Figure(pixels, caption, "sulcal regions")
+    return replace(surface_panel(views, width=options.width, caption=caption), title="sulcal regions")
 
 
 def _principal(vertices: Floats) -> Floats:
-    """Coordinates along the main axes: the longest across, the second up, the third towards the eye."""
+    """Coordinates along the main axes: the longest first, the second up."""
     centred = vertices - vertices.mean(axis=0)
     axes = np.linalg.svd(centred, full_matrices=False)[2]
     axes[2] *= np.linalg.det(axes)
-    return np.asarray(centred @ axes[[0, 2, 1]].T)
+    return np.asarray(centred @ axes[[0, 2, 1]].T) * [1.0, -1.0, 1.0]
 
 
-def _some(inside: np.ndarray, count: int) -> np.ndarray:
-    rows = np.flatnonzero(inside)
-    return rows if len(rows) <= count else np.random.default_rng(0).permutation(rows)[:count]
+def _extent(points: Floats) -> float:
+    return float(np.ptp(points, axis=0).max())
+
+
+def _scaled(points: Floats, faces: np.ndarray, factor: float) -> TriangleMesh:
+    return TriangleMesh(factor * (points - points.mean(axis=0)), faces)
+
+
+def _outward(mesh: TriangleMesh) -> TriangleMesh:
+    """The mesh with faces that look outward, which signs may have turned."""
+    middles = mesh.vertices[mesh.faces].mean(axis=1)
+    inside_out = float((mesh.face_cross_products * middles).sum()) < 0.0
+    return TriangleMesh(mesh.vertices, mesh.faces[:, ::-1]) if inside_out else mesh
 
 
 def _colors(labels: np.ndarray) -> Floats:
+    """Light grey for 0, then colours by turns of the golden angle in hue at three brightnesses."""
     k = labels.astype(float)
-    hues = np.stack([(0.618034 * k) % 1.0, 0.6 + 0.25 * (k % 2), 0.9 - 0.2 * (k % 3 == 2)], axis=1)
-    return np.where((labels > 0)[:, None], np.asarray(hsv_to_rgb(hues)), 0.8)
+    hues = np.stack([(0.618034 * k) % 1.0, 0.6 + 0.25 * (k % 2), 0.95 - 0.2 * (k % 3)], axis=1)
+    return np.where((labels > 0)[:, None], np.asarray(hsv_to_rgb(hues)), 0.85)

@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 from pydantic import Field
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 
-from surfexp.figures.axes import FONT, add_axes, class_style
+from surfexp.figures.axes import FONT, SPACING, add_axes, class_style, spread
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn
 from surfexp.figures.typography import points as text_size
@@ -38,9 +40,9 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
         for k, name in enumerate(dict.fromkeys(embedding.classes)):
             color, marker = class_style(k)
             axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
+        axes.set_aspect("equal", adjustable="datalim")
         if options.names:
             _write_owners(axes, embedding, points)
-        axes.set_aspect("equal", adjustable="datalim")
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
         pixels = drawn(figure)
     caption = options.caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
@@ -48,6 +50,30 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
 
 
 def _write_owners(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:
-    for label, place in zip(embedding.labels, points, strict=True):
-        owner = label.partition(" @ ")[2]
-        axes.annotate(owner, place, xytext=(5, 4), textcoords="offset points", fontsize=8, color="#777777")
+    axes.figure.canvas.draw()
+    places, size = axes.transData.transform(points), text_size(0.8 * FONT * axes.figure.bbox.width)
+    line = SPACING * 0.8 * FONT * axes.figure.bbox.width
+    # names that would stand on one another are moved apart and joined to their points
+    reach, heights = 9.0 * line, places[:, 1].copy()
+    for group in _neighbours(places, reach, line):
+        heights[group] = spread(places[group, 1], line)
+    for label, point, place, height in zip(embedding.labels, points, places, heights, strict=True):
+        owner, moved = label.partition(" @ ")[2], abs(height - place[1]) > 0.3 * line
+        axes.annotate(
+            owner,
+            point,
+            xytext=(text_size(12.0 if moved else 8.0), text_size(height - place[1])),
+            textcoords="offset points",
+            fontsize=size,
+            color="#555555",
+            va="center",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": "#999999", "shrinkA": 0.0} if moved else None,
+        )
+
+
+def _neighbours(places: np.ndarray, reach: float, line: float) -> list[np.ndarray]:
+    """Rows of the points whose names, `reach` long, would touch."""
+    apart = np.abs(places[:, None] - places[None])
+    touching = (apart[:, :, 0] < reach) & (apart[:, :, 1] < line)
+    labels = connected_components(csr_array(touching))[1]
+    return [np.flatnonzero(labels == k) for k in range(labels.max() + 1)]

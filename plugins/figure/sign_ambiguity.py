@@ -46,7 +46,7 @@ def sign_ambiguity_figure(
     with canvas(options.width, round(options.width * (0.235 * rows))) as figure:
         for k, (signs, value) in enumerate(zip(choices, values, strict=True)):
             axes = figure.add_subplot(rows, columns, k + 1, projection="3d" if n > 2 else None)
-            for cloud, picked, color in ((source, some[0], "#9a9a9a"), (target * signs, some[1], COLORS[0])):
+            for cloud, picked, color in ((source, some[0], "#6e6e6e"), (target * signs, some[1], COLORS[0])):
                 axes.scatter(*cloud[picked, :3].T, s=6.0, c=color, linewidths=0, alpha=0.8)
             if n > 2:
                 axes.view_init(18, -55)
@@ -76,8 +76,10 @@ def sign_ambiguity_figure(
             )
         )
         pixels = drawn(figure)
+    least, following = (float(value) for value in np.sort(values)[:2])
+    times = f", the next best is {following / least:.2f} times as far" if least > 1e-12 * following else ""
     caption = (
         f"{target_surface.name} (blue) over {source_surface.name} (grey) in the first {n} eigenfunctions: all {2**n} choices of "
-        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding. Compare figure 6.2."
+        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding{times}. Compare figure 6.2."
     )
-    return Figure(pixels, caption, f"{2**n} embeddings", {"least": values[best], "next": float(np.sort(values)[1])})
+    return Figure(pixels, caption, f"{2**n} embeddings", {"least": least, "next": following})

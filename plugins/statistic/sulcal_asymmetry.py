@@ -3,9 +3,10 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.asymmetry import asymmetry_study, power_study
+from surfexp.embedding.asymmetry import asymmetry_study, measured, power_study
+from surfexp.embedding.fresh_populations import fresh_study
 from surfexp.embedding.length_table import chosen, length_columns, table_of
-from surfexp.embedding.population_study import measure_population
+from surfexp.embedding.population_study import Table, measure_population
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
@@ -21,6 +22,7 @@ class SulcalPopulation(Options):
     regions: int = Field(3, ge=1, le=20, description="sulcal regions that are measured, longest extent first")
     asymmetry: float = Field(0.06, ge=0, le=0.3, description="planted: share by which the first region is longer left")
     strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
+    lines: bool = Field(True, description="measure the lines of regions too, or only geodesics between ends")
     seed: int = Field(0, ge=0, description="seed of the population")
 
 
@@ -28,7 +30,9 @@ class SulcalPopulation(Options):
 def sulcal_population_statistic(options: SulcalPopulation, *, template: Surface) -> Statistic:
     """Lengths of sulci by every estimator for each subject and side of a block of a synthetic population."""
     study, numbers = make_template(template, options.regions), range(options.first, options.first + options.subjects)
-    table = measure_population(study, numbers, options.strain, options.asymmetry, 0, options.seed, report_progress)
+    table = measure_population(
+        study, numbers, options.strain, options.asymmetry, 0, options.seed, report_progress, options.lines
+    )
     rows, columns = length_columns(table, numbers)
     metrics = {f"found, {name}": float(np.isfinite(columns[name]).mean()) for name in table}
     notes = (
@@ -38,12 +42,17 @@ def sulcal_population_statistic(options: SulcalPopulation, *, template: Surface)
     return Statistic("sulcal lengths", columns, rows, {"subjects": float(options.subjects), **metrics}, notes)
 
 
-class SulcalAsymmetry(Options):
-    """How chance is measured, and of what."""
+class Estimators(Options):
+    """What is compared."""
 
     estimators: list[str] = Field(
         [], description="estimators of length, such as 'carried ends'; none: all of the table"
     )
+
+
+class SulcalAsymmetry(Estimators):
+    """How chance is measured, and of what."""
+
     draws: int = Field(200, ge=10, le=100000, description="random exchanges of sides, and samples for the power")
     seed: int = Field(0, ge=0, description="seed of exchanges and samples")
 
@@ -51,9 +60,9 @@ class SulcalAsymmetry(Options):
 @register("statistic", "sulcal_asymmetry")
 def sulcal_asymmetry_statistic(options: SulcalAsymmetry, *, lengths: dict[str, Statistic]) -> Statistic:
     """Paired tests of sulcal lengths left and right, by estimator and sulcus, corrected by Holm."""
-    table = chosen(table_of(part.columns for part in lengths.values()), options.estimators)
+    table, missing = measured(_chosen(options, lengths))
     rows, columns, metrics = asymmetry_study(table, options.draws, options.seed)
-    return Statistic("sulcal lengths, left and right", columns, rows, metrics, _notes(lengths))
+    return Statistic("sulcal lengths, left and right", columns, rows, metrics, _notes(lengths) + missing)
 
 
 class SulcalPower(SulcalAsymmetry):
@@ -65,10 +74,27 @@ class SulcalPower(SulcalAsymmetry):
 @register("statistic", "sulcal_power")
 def sulcal_power_statistic(options: SulcalPower, *, lengths: dict[str, Statistic]) -> Statistic:
     """Share of samples of so many subjects in which the planted difference is found, by estimator."""
-    table = chosen(table_of(part.columns for part in lengths.values()), options.estimators)
+    table, missing = measured(_chosen(options, lengths), 1)
     columns = power_study(table, options.sizes, options.draws, options.seed)
     metrics = {f"{name}, {size}": float(columns[name][k]) for name in table for k, size in enumerate(options.sizes)}
-    return Statistic("power to find the planted difference", columns, (), metrics, _notes(lengths))
+    return Statistic("power to find the planted difference", columns, (), metrics, _notes(lengths) + missing)
+
+
+class SulcalFalsePositives(Estimators):
+    """Sizes of the populations into which subjects are divided."""
+
+    sizes: list[int] = Field([5, 10, 40], description="subjects of each population, none in two of one size")
+
+
+@register("statistic", "sulcal_false_positives")
+def sulcal_false_positives_statistic(options: SulcalFalsePositives, *, lengths: dict[str, Statistic]) -> Statistic:
+    """Share of populations without a subject in common in which a t-test finds a difference at .05."""
+    columns, metrics = fresh_study(_chosen(options, lengths), options.sizes)
+    return Statistic("differences found in fresh populations", columns, (), metrics, _notes(lengths))
+
+
+def _chosen(options: Estimators, lengths: dict[str, Statistic]) -> Table:
+    return chosen(table_of(part.columns for part in lengths.values()), options.estimators)
 
 
 def _notes(lengths: dict[str, Statistic]) -> tuple[str, ...]:

@@ -1,6 +1,4 @@
-"""Lengths of sulci of one's own surfaces, with files of labels for the usual tools."""
-
-from pathlib import Path
+"""Lengths of sulci of one's own surfaces."""
 
 import numpy as np
 from pydantic import Field
@@ -8,8 +6,7 @@ from pydantic import Field
 from surfexp.embedding.length_table import length_columns
 from surfexp.embedding.population import Side
 from surfexp.embedding.population_study import SIDES
-from surfexp.embedding.sulcal_export import export_sulci, write_length_table
-from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci, name_sulci
+from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.labels import classes_of, groups_of
@@ -21,13 +18,9 @@ FREESURFER = {"lh": "left", "rh": "right"}
 
 
 class SulcalTable(Options):
-    """What is measured and written."""
+    """What is measured."""
 
     regions: int = Field(3, ge=1, le=100, description="sulcal regions that are measured, longest extent first")
-    export: str = Field(
-        "",
-        description="folder for lengths.csv and each surface's .label.gii, .annot and .vtk when the table is made; empty: none",
-    )
 
 
 @register("statistic", "sulcal_table")
@@ -41,21 +34,16 @@ def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces:
         raise ValueError(
             f"surfaces are {', '.join(labels)}; take one 'left @ NAME' (or lh) and one 'right @ NAME' (or rh) each"
         )
-    study, folder = make_template(template, options.regions), Path(options.export)
+    study = make_template(template, options.regions)
     table: dict[str, dict[Side, list[np.ndarray]]] = {}
     for done, (subject, side) in enumerate(sorted(place), 1):
         label = place[subject, side]
-        named = name_sulci(study, surfaces[label])
-        for name, values in measure_sulci(study, surfaces[label], named).items():
+        for name, values in measure_sulci(study, surfaces[label]).items():
             if name != TRUE:
                 table.setdefault(name, {"left": [], "right": []})["left" if side == "left" else "right"].append(values)
-        if options.export:
-            export_sulci(folder, label, surfaces[label], named, int(study.regions.max()) + 1)
         report_progress(done, 1.0 - done / len(place))
     lengths = {name: {side: np.array(rows) for side, rows in parts.items()} for name, parts in table.items()}
     rows, columns = length_columns(lengths, range(len(subjects)), subjects)
-    if options.export:
-        write_length_table(folder / "lengths.csv", rows, columns)
     metrics = {f"found, {name}": float(np.isfinite(columns[name]).mean()) for name in lengths}
     for k in range(options.regions):
         for name in (DEFAULT, "own region, line with ends"):
@@ -63,5 +51,8 @@ def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces:
             shares = 2.0 * (left - right) / (left + right)
             if np.isfinite(shares).any():
                 metrics[f"difference, sulcus {k + 1}, {name}"] = float(np.nanmean(shares))
-    notes = tuple(f"Sulcus {k} is region {number + 1} of the template." for k, number in enumerate(study.measured, 1))
+    regions = ", ".join(str(number + 1) for number in study.measured)
+    notes = (
+        f"Sulci 1 to {options.regions} are the regions {regions} of the template, whose regions count from the largest.",
+    )
     return Statistic("sulcal lengths", columns, rows, {"subjects": float(len(subjects)), **metrics}, notes)

@@ -13,6 +13,38 @@ FEWEST_PAIRS = 3
 PRINTED, WHOLE = "own region, printed line", "own region, line with ends"
 
 
+def measured(table: Table, sulci: int | None = None) -> tuple[Table, tuple[str, ...]]:
+    """Return the estimators with enough complete pairs for a test, and a sentence for each of the others.
+
+    Parameters
+    ----------
+    table : mapping
+        By estimator and side (subjects, sulci) lengths.
+    sulci : int, optional
+        How many of the first ones count; default: all.
+
+    Raises
+    ------
+    ValueError
+        If no estimator has them.
+    """
+    kept, notes = {}, []
+    for estimator, lengths in table.items():
+        pairs = np.isfinite(lengths["left"] - lengths["right"])[:, :sulci].sum(axis=0)
+        if pairs.min() >= FEWEST_PAIRS:
+            kept[estimator] = lengths
+        else:
+            place = f"{pairs.min()} complete pairs of sulcus {pairs.argmin() + 1}"
+            notes.append(f"{estimator} is left out: {place}, at least {FEWEST_PAIRS} are needed.")
+    if not kept:
+        least = ", ".join(note.split(" is left out")[0] for note in notes)
+        raise ValueError(
+            f"no estimator ({least}) has {FEWEST_PAIRS} pairs of lengths in every sulcus: take at least {FEWEST_PAIRS} "
+            "subjects with both sides"
+        )
+    return kept, tuple(notes)
+
+
 def asymmetry_study(
     table: Table, draws: int = 200, seed: int = 0
 ) -> tuple[tuple[str, ...], dict[str, Floats], dict[str, float]]:
@@ -28,12 +60,10 @@ def asymmetry_study(
     rows: list[str] = []
     columns: dict[str, list[float]] = {}
     metrics: dict[str, float] = {}
-    for estimator, lengths in table.items():
+    for estimator, lengths in measured(table)[0].items():
         count = lengths["left"].shape[1]
         sides = [{f"sulcus {k + 1}, {estimator}": lengths[side][:, k] for k in range(count)} for side in lengths]
         differences = lengths["left"] - lengths["right"]
-        if np.isfinite(differences).sum(axis=0).min() < FEWEST_PAIRS:
-            continue
         tests = paired_tests(sides[0], sides[1])
         rows += tests.names
         for name, values in vars(tests).items():
@@ -58,9 +88,7 @@ def asymmetry_study(
 def power_study(table: Table, sizes: list[int], draws: int = 200, seed: int = 0) -> dict[str, Floats]:
     """Return the column "subjects" and, by estimator, the share of samples of that many in which sulcus 1 differs."""
     columns = {"subjects": np.array(sizes, dtype=np.float64)}
-    for estimator, lengths in table.items():
+    for estimator, lengths in measured(table, 1)[0].items():
         differences = (lengths["left"] - lengths["right"])[:, 0]
-        measured = np.isfinite(differences).sum() >= FEWEST_PAIRS
-        found = power_by_subjects(differences, sizes, draws, seed=seed) if measured else np.zeros(len(sizes))
-        columns[estimator] = found
+        columns[estimator] = power_by_subjects(differences, sizes, draws, seed=seed)
     return columns

@@ -107,9 +107,10 @@ def gap_metrics(values: Floats, bounds: Floats) -> dict[str, float]:
 
 
 def unproved_pairs(labels: Sequence[str], values: Floats, bounds: Floats) -> tuple[str, ...]:
-    """One sentence for each pair that is not proved least, with the bound."""
+    """One sentence for each pair that is not proved least, with the bound and the gap."""
     return tuple(
-        f"{labels[j]} to {labels[i]}: {values[i, j]:.4f} is the best found, at least {bounds[i, j]:.4f} is proved."
+        f"{labels[j]} to {labels[i]}: {values[i, j]:.4f} is the best found, at least {bounds[i, j]:.4f} is proved, a gap "
+        f"of {100.0 * (1.0 - bounds[i, j] / values[i, j]):.2g} %."
         for i in range(len(labels))
         for j in range(i)
         if bounds[i, j] < values[i, j]

@@ -50,8 +50,12 @@ def measure_population(
     planted: int = 0,
     seed: int = 0,
     progress: Callable[[int, float], None] | None = None,
+    lines: bool = True,
 ) -> Table:
-    """Return by estimator and side the (subjects, regions) lengths; region `planted` is longer left by `asymmetry`."""
+    """Return by estimator and side the (subjects, regions) lengths; region `planted` is longer left by `asymmetry`.
+
+    Without `lines` only geodesics between ends are measured, see `measure_sulci`.
+    """
     region, direction = template.regions == template.measured[planted], template.direction(planted)
     table: dict[str, dict[Side, list[Floats]]] = {}
     numbers = list(subjects)
@@ -60,7 +64,7 @@ def measure_population(
             target = synthetic_subject(
                 template.surface, subject, side, strain, region=region, asymmetry=asymmetry, direction=direction, seed=seed
             )  # fmt: skip
-            for name, lengths in measure_sulci(template, target).items():
+            for name, lengths in measure_sulci(template, target, lines=lines).items():
                 table.setdefault(name, {place: [] for place in SIDES})[side].append(lengths)
         if progress is not None:
             progress(done, 1.0 - done / len(numbers))

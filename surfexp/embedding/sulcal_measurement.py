@@ -37,34 +37,44 @@ class NamedSulci:
     own: Integers
 
 
+def template_rows(template: Template, target: Surface) -> Integers:
+    """Return the template vertex of each vertex of a surface; only the mesh is looked at."""
+    return template_map(template, sulcal_system(target.mesh), target.mesh)
+
+
 def name_sulci(template: Template, target: Surface) -> NamedSulci:
     """Map a surface to the template and name its sulcal regions; only the mesh is looked at."""
-    rows = template_map(template, sulcal_system(target.mesh), target.mesh)
+    rows = template_rows(template, target)
     regions = sulcal_regions(target.mesh)
     names = names_by_majority(regions, target.mesh.vertex_areas, template.regions, rows)
     own = np.where(regions >= 0, names[regions], OUTSIDE)
     return NamedSulci(rows, template.regions[rows], own)
 
 
-def measure_sulci(template: Template, target: Surface, named: NamedSulci | None = None) -> dict[str, Floats]:
+def measure_sulci(
+    template: Template, target: Surface, named: NamedSulci | None = None, lines: bool = True
+) -> dict[str, Floats]:
     """Return the lengths of the template's measured regions on a target, by estimator; NaN where none is found.
 
     "carried ends" is the geodesic on the surface between the ends that the map brings from the template. The others are
     those of `sulcal_line`, on the region that the map brings and on the target's own of that name, both closed by a
     ring. Where the target has the scalar map "origin", "true" is the geodesic between the true ends. `named` is what
-    `name_sulci` gave, when that is known.
+    `name_sulci` gave, when that is known. Without `lines` only geodesics between ends are measured.
     """
-    named, mesh, source = named or name_sulci(template, target), target.mesh, template.surface.mesh
-    maps = {DEFAULT: named.rows}
+    named = named or (name_sulci(template, target) if lines else None)
+    mesh, source = target.mesh, template.surface.mesh
+    maps = {DEFAULT: named.rows if named else template_rows(template, target)}
     if ORIGIN in target.scalars:
         maps = {TRUE: target.scalars[ORIGIN].astype(np.int64), **maps}
     pairs = [carried_ends(source, rows, ends) for rows in maps.values() for ends in template.ends]
     found = np.array(geodesic_lengths(mesh, pairs)).reshape(len(maps), -1)
     lengths = dict(zip(maps, found, strict=True))
+    if not (named and lines):
+        return lengths
     for where, regions in (("carried region", named.carried), ("own region", named.own)):
-        lines = [_line_lengths(target, regions == number) for number in template.measured]
+        found_lines = [_line_lengths(target, regions == number) for number in template.measured]
         for name in LINE_ESTIMATORS:
-            lengths[f"{where}, {name}"] = np.array([line.get(name, np.nan) for line in lines])
+            lengths[f"{where}, {name}"] = np.array([line.get(name, np.nan) for line in found_lines])
     return lengths
 
 

@@ -88,7 +88,9 @@ def test_gaps_by_hand() -> None:
     bounds[1, 0] = bounds[0, 1] = 1.5
     bounds[2, 0] = bounds[0, 2] = 4.0
     assert gap_metrics(values, bounds) == pytest.approx({"proved": 2 / 3, "mean gap": 0.25 / 3, "largest gap": 0.25})
-    assert unproved_pairs("abc", values, bounds) == ("a to b: 2.0000 is the best found, at least 1.5000 is proved.",)
+    assert unproved_pairs("abc", values, bounds) == (
+        "a to b: 2.0000 is the best found, at least 1.5000 is proved, a gap of 25 %.",
+    )
     assert gap_metrics(values[:1, :1], bounds[:1, :1])["proved"] == 1.0
 
 

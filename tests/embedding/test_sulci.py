@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from surfexp.embedding.asymmetry import asymmetry_study, power_study
+from surfexp.embedding.asymmetry import asymmetry_study, measured, power_study
+from surfexp.embedding.fresh_populations import fresh_study, fresh_tests
 from surfexp.embedding.length_table import chosen, length_columns, table_of
 from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
 from surfexp.embedding.population import random_displacement, stretch, synthetic_subject
@@ -237,7 +238,35 @@ def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(len
     nothing = {side: np.full((30, 2), np.nan) for side in ("left", "right")}
     rows, _, metrics = asymmetry_study({**lengths, "none": nothing})
     assert len(rows) == 4 and "p, none" not in metrics
-    assert power_study({"none": nothing}, [5])["none"].tolist() == [0.0]
+    assert measured({**lengths, "none": nothing})[1] == (
+        "none is left out: 0 complete pairs of sulcus 1, at least 3 are needed.",
+    )
+    with pytest.raises(ValueError, match="take at least 3 subjects with both sides"):
+        power_study({"none": nothing}, [5])
+    two = {side: rows[:2] for side, rows in lengths["true"].items()}
+    with pytest.raises(ValueError, match="take at least 3 subjects with both sides"):
+        asymmetry_study({"true": two})
+
+
+def test_populations_without_a_common_subject() -> None:
+    rng = np.random.default_rng(4)
+    differences = rng.normal(0.0, 1.0, (1003, 4))
+    found, tests = fresh_tests(differences, 5)
+    assert tests == 800 and 0.03 < found / tests < 0.07
+    apart = sum(stats.ttest_1samp(differences[5 * k : 5 * k + 5], 0.0).pvalue < 0.05 for k in range(200))
+    assert found == apart.sum()
+    # a fault that makes the left side longer is found, where exchanges of sides would hide it
+    assert fresh_tests(differences + 0.5, 40)[0] / fresh_tests(differences, 40)[1] > 0.7
+    differences[:3, 0] = np.nan
+    assert fresh_tests(differences, 5)[1] == 799
+    left = rng.normal(100.0, 5.0, (1003, 4))
+    table = {"true": {"left": left + differences, "right": left}}
+    columns, metrics = fresh_study(table, [5, 40])
+    assert columns["tests, true"].tolist() == [799, 100]
+    assert columns["low"][0] < 0.05 < columns["high"][0] and columns["high"][0] < columns["high"][1]
+    assert metrics["least p of all, true"] > 0.01 and metrics["all subjects, true"] == 1000
+    with pytest.raises(ValueError, match="take 3 to 1003"):
+        fresh_tests(differences, 2)
 
 
 @pytest.mark.slow

@@ -1,0 +1,37 @@
+"""Evaluations that a search over signs takes against the number of eigenfunctions."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.embedding.distance import Distance
+from surfexp.figures.figure import Figure
+from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.statistics.labels import classes_of
+from surfexp.workflow.registry import Options, register
+
+
+class SearchEffort(Options):
+    """What is written above and below."""
+
+    title: str = Field("", description="heading in the figure")
+    caption: str = Field("", description="sentence below the figure")
+
+
+@register("figure", "search_effort")
+def search_effort_figure(options: SearchEffort, *, distances: dict[str, Distance]) -> Figure:
+    """Evaluations against n, a line for each method before " @ " in the labels, beside the 2^n of enumeration."""
+    sizes = {label: found.source_points.shape[1] for label, found in distances.items()}
+    x = np.array(sorted(set(sizes.values())), dtype=np.float64)
+    lines = {"enumeration": 2.0**x}
+    for method, (label, found) in zip(classes_of(distances), distances.items(), strict=True):
+        line = lines.setdefault(method, np.full(len(x), np.nan))
+        line[np.searchsorted(x, sizes[label])] = found.evaluations
+    return sweep_plot(
+        x,
+        lines,
+        x_label="number of eigenfunctions n",
+        y_label="evaluations of the distance",
+        log="y",
+        title=options.title,
+        caption=options.caption,
+    )
