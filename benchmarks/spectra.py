@@ -64,13 +64,14 @@ def tuned(mesh: TriangleMesh, count: int) -> Spectrum:
     return _apart(_tuned, mesh, count, 1, 1)
 
 
-def race(work: str, rival: str, least: float, one: Spectrum, other: Spectrum, *, wall: bool = False) -> Line:
-    """Return the line; it is met only where ours is complete, within the residual, and at most 1.2 of LaPy's memory."""
+def race(
+    work: str, rival: str, least: float, one: Spectrum, other: Spectrum, *, wall: bool = False, memory: float = np.inf
+) -> Line:
+    """Return the line; it is met only where ours is complete, within the residual and `memory` times the rival's."""
     ratio = other.cost.wall / one.cost.wall if wall else other.cost.cpu / one.cost.cpu
-    memory = one.memory / other.memory
     agree = float(np.abs(one.values[1:] - other.values[1:]).max() / one.values[-1])
     accuracy = f"{describe(one)}; rival {other.residual:.1e}, {_gigabytes(other)}; values agree to {agree:.0e}"
-    fair = one.complete and one.residual <= RESIDUAL and agree < 1e-8 and (rival != LAPY or memory <= 1.2)
+    fair = one.complete and one.residual <= RESIDUAL and agree < 1e-8 and one.memory <= memory * other.memory
     note = "ratio of wall seconds" if wall else ""
     return Line(
         work, rival, f"{least:g}×", f"{ratio:.1f}×", fair and ratio >= least, one.cost, other.cost, accuracy, note

@@ -12,15 +12,13 @@ POLES = 4
 
 
 @njit(cache=True, nogil=True)
-def measure_distances(
-    indptr: Integers, indices: Integers, members: Integers, piece: Integers, label: int, level: Integers, poles: int
-) -> bool:
+def measure_distances(indptr: Integers, indices: Integers, members: Integers, level: Integers, poles: int) -> bool:
     """Write distances inside a piece to `level`: from two far-apart vertices, and from two across from them.
 
     Parameters
     ----------
     level : (4, n) int32
-        -1 at all vertices of the piece before; see `forget_distances`.
+        0 before, so that searches go nowhere but to the vertices that are opened here; see `forget_distances`.
     poles : int
         2 or 4 of the four.
 
@@ -30,29 +28,32 @@ def measure_distances(
         Whether the piece is connected. If not, row 0 is -1 where its first vertex does not reach.
     """
     queue = np.empty(len(members), np.int32)
-    if _distances(indptr, indices, members[0], piece, label, level[0], queue) < len(members):
+    for pole in range(poles):
+        for v in members:
+            level[pole, v] = -1
+    if _distances(indptr, indices, members[0], level[0], queue) < len(members):
         return False
     start = queue[-1]
     for v in members:
         level[0, v] = -1
-    _distances(indptr, indices, start, piece, label, level[0], queue)
-    _distances(indptr, indices, queue[-1], piece, label, level[1], queue)
+    _distances(indptr, indices, start, level[0], queue)
+    _distances(indptr, indices, queue[-1], level[1], queue)
     if poles == POLES:
         across = members[0]
         for v in members:
             if min(level[0, v], level[1, v]) > min(level[0, across], level[1, across]):
                 across = v
-        _distances(indptr, indices, across, piece, label, level[2], queue)
-        _distances(indptr, indices, queue[-1], piece, label, level[3], queue)
+        _distances(indptr, indices, across, level[2], queue)
+        _distances(indptr, indices, queue[-1], level[3], queue)
     return True
 
 
 @njit(cache=True, nogil=True)
 def forget_distances(members: Integers, level: Integers) -> None:
-    """Set `level` to -1 again."""
+    """Set `level` to 0 again."""
     for pole in range(POLES):
         for v in members:
-            level[pole, v] = -1
+            level[pole, v] = 0
 
 
 @njit(cache=True, nogil=True)
@@ -95,10 +96,8 @@ def bisect(
 
 
 @njit(cache=True, nogil=True)
-def _distances(
-    indptr: Integers, indices: Integers, start: int, piece: Integers, label: int, level: Integers, queue: Integers
-) -> int:
-    """Breadth-first distances from `start` inside the piece; returns how many vertices it reaches."""
+def _distances(indptr: Integers, indices: Integers, start: int, level: Integers, queue: Integers) -> int:
+    """Breadth-first distances from `start` to the vertices at -1; returns how many it reaches."""
     queue[0] = start
     level[start] = 0
     head, tail = 0, 1
@@ -107,7 +106,7 @@ def _distances(
         head += 1
         for at in range(indptr[v], indptr[v + 1]):
             u = indices[at]
-            if piece[u] == label and level[u] < 0:
+            if level[u] < 0:
                 level[u] = level[v] + 1
                 queue[tail] = u
                 tail += 1

@@ -49,7 +49,7 @@ def _dissect(indptr: Integers, indices: Integers, leaf_size: int) -> Integers:
     # which piece a vertex belongs to now; separators and finished leaves leave all pieces
     piece = np.zeros(n, np.int32)
     local = np.full(n, -1, np.int64)
-    level = np.full((POLES, n), -1, np.int32)
+    level = np.zeros((POLES, n), np.int32)
     side = np.zeros(n, np.int8)
     ties = np.zeros((n, 2), np.int64)
     locked = np.zeros(n, np.bool_)
@@ -93,7 +93,7 @@ def _separate(
 ) -> None:
     """Write the shortest separator of a few attempts to `side`; the parts of a piece in several parts need none."""
     large = len(members) >= LARGE_PIECE
-    if not measure_distances(indptr, indices, members, piece, label, level, POLES if large else 2):
+    if not measure_distances(indptr, indices, members, level, POLES if large else 2):
         for v in members:
             side[v] = 0 if level[0, v] >= 0 else 1
         forget_distances(members, level)

@@ -48,10 +48,27 @@ def assembly_pattern(faces: Integers, vertex_count: int) -> AssemblyPattern:
 
 @njit(cache=True, nogil=True)
 def _pattern(faces: Integers, vertex_count: int) -> tuple[Indices, Indices, Indices, Indices]:
-    """Append each column, in ascending order, to the rows of the vertices around it: rows come out sorted."""
+    """Fill rows as long as on a closed manifold, where a vertex has as many neighbours as faces; else count them first."""
     starts, around = _faces_around(faces, vertex_count)
-    seen, indptr = np.full(vertex_count, -1, np.int32), np.zeros(vertex_count + 1, np.int32)
-    for column in range(vertex_count):
+    indptr = starts.copy()
+    rows = 0
+    for vertex in range(vertex_count):
+        rows += starts[vertex + 1] > starts[vertex]
+        indptr[vertex + 1] += rows
+    slots, diagonal = np.empty((len(faces), 3, 3), np.int32), np.full(vertex_count, -1, np.int32)
+    indices = np.empty(indptr[-1], np.int32)
+    if not _fill(faces, starts, around, indptr, indices, slots, diagonal):
+        indptr = _count(faces, starts, around)
+        indices = np.empty(indptr[-1], np.int32)
+        _fill(faces, starts, around, indptr, indices, slots, diagonal)
+    return indptr, indices, slots, diagonal
+
+
+@njit(cache=True, nogil=True)
+def _count(faces: Integers, starts: Indices, around: Indices) -> Indices:
+    """Return where the rows begin."""
+    seen, indptr = np.full(len(starts) - 1, -1, np.int32), np.zeros(len(starts), np.int32)
+    for column in range(len(starts) - 1):
         count = 0
         for at in range(starts[column], starts[column + 1]):
             for a in range(3):
@@ -59,22 +76,39 @@ def _pattern(faces: Integers, vertex_count: int) -> tuple[Indices, Indices, Indi
                 count += seen[row] != column
                 seen[row] = column
         indptr[column + 1] = indptr[column] + count
-    indices, ends, place = np.empty(indptr[-1], np.int32), indptr[:-1].copy(), np.empty(vertex_count, np.int32)
-    slots, diagonal = np.empty((len(faces), 3, 3), np.int32), np.full(vertex_count, -1, np.int32)
-    seen[:] = -1
+    return indptr
+
+
+@njit(cache=True, nogil=True)
+def _fill(
+    faces: Integers,
+    starts: Indices,
+    around: Indices,
+    indptr: Indices,
+    indices: Indices,
+    slots: Indices,
+    diagonal: Indices,
+) -> bool:
+    """Append each column, in ascending order, to the rows of the vertices around it; False if a row is too short or long."""
+    vertex_count = len(starts) - 1
+    # column written last, its place, next place, end: side by side, as vertices come in no order
+    rows = np.full((vertex_count, 4), -1, np.int32)
+    rows[:, 2], rows[:, 3] = indptr[:-1], indptr[1:]
     for column in range(vertex_count):
         for at in range(starts[column], starts[column + 1]):
             face, b = around[at] >> 2, around[at] & 3
             for a in range(3):
-                row = faces[face, a]
-                if seen[row] != column:
-                    seen[row] = column
-                    place[row] = ends[row]
-                    indices[ends[row]] = column
-                    ends[row] += 1
-                slots[face, a, b] = place[row]
-            diagonal[column] = place[column]
-    return indptr, indices, slots, diagonal
+                row = rows[faces[face, a]]
+                if row[0] != column:
+                    if row[2] == row[3]:
+                        return False
+                    row[0], row[1] = column, row[2]
+                    indices[row[2]] = column
+                    row[2] += 1
+                slots[face, a, b] = row[1]
+        if starts[column + 1] > starts[column]:
+            diagonal[column] = rows[column, 1]
+    return bool((rows[:, 2] == rows[:, 3]).all())
 
 
 @njit(cache=True, nogil=True)

@@ -49,23 +49,22 @@ def check_mesh(mesh: TriangleMesh, flat_faces: bool = False) -> None:
         raise ValueError(
             f"vertex {bad[0]} is at {mesh.vertices[bad[0]]}, positions must be finite ({len(bad)} are not)"
         )
-    first, count = (0, 0) if flat_faces else _faces_without_area(mesh.vertices, mesh.faces)
-    if count:
+    first, count, loose, unused = _defects(mesh.vertices, mesh.faces)
+    if count and not flat_faces:
         raise ValueError(
             f"face {first} has area 0, must be positive ({count} such faces): repair the mesh or use intrinsic_delaunay"
         )
-    used = np.zeros(len(mesh.vertices), dtype=bool)
-    used[mesh.faces] = True
-    if not used.all():
-        loose = np.flatnonzero(~used)
-        raise ValueError(f"vertex {loose[0]} belongs to no face ({len(loose)} such vertices): repair the mesh")
+    if unused:
+        raise ValueError(f"vertex {loose} belongs to no face ({unused} such vertices): repair the mesh")
 
 
 @njit(cache=True, nogil=True)
-def _faces_without_area(vertices: Floats, faces: Integers) -> tuple[int, int]:
-    """Return the first one and their number."""
-    first, count = -1, 0
+def _defects(vertices: Floats, faces: Integers) -> tuple[int, int, int, int]:
+    """Return the first face without area and their number, the first vertex without faces and their number."""
+    first, count, loose, unused = -1, 0, -1, 0
+    used = np.zeros(len(vertices), np.bool_)
     for f in range(len(faces)):
+        used[faces[f, 0]] = used[faces[f, 1]] = used[faces[f, 2]] = True
         a, b, c = vertices[faces[f, 0]], vertices[faces[f, 1]], vertices[faces[f, 2]]
         ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
         vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
@@ -73,7 +72,11 @@ def _faces_without_area(vertices: Floats, faces: Integers) -> tuple[int, int]:
         if nx * nx + ny * ny + nz * nz <= 0.0:
             first = f if count == 0 else first
             count += 1
-    return first, count
+    for v in range(len(used)):
+        if not used[v]:
+            loose = v if unused == 0 else loose
+            unused += 1
+    return first, count, loose, unused
 
 
 @njit(cache=True, nogil=True)

@@ -46,6 +46,7 @@ class ShiftedPencil:
         self._mass_entries = _entries_on(self._pattern, self.mass)
         diagonal = self.mass.diagonal()
         self._diagonal = diagonal[:, None] if self.mass.nnz == np.count_nonzero(diagonal) else None
+        self._factors: LDLT | None = None
         self.counts: dict[float, int] = {}
         self.doubts: dict[float, float] = {}
 
@@ -75,6 +76,7 @@ class ShiftedPencil:
         shift : float
             The shift that was used; `counts` knows how many eigenvalues lie below it.
         factors : LDLT
+            Of the shift, until this is called again: there is memory for one.
 
         Raises
         ------
@@ -82,16 +84,16 @@ class ShiftedPencil:
             If no shift nearby solves to a residual of 1e-9.
         """
         step = 1e-3 * (abs(shift) or 1.0 / float(self.mass.sum()))
-        found: list[tuple[float, float, LDLT]] = []
-        worst = np.inf
+        found: list[tuple[float, float]] = []
+        worst, tried = np.inf, shift
         for nudge in range(NUDGES):
             tried = float(shift + step * nudge * (-1) ** nudge)
-            factors = LDLT(self._shifted(tried), self.symbolic)
+            factors = self._factorised(tried)
             doubt = 10.0 * factors.perturbation * self.size / float(self.mass.sum())
             worst = min(worst, factors.residual)
             if factors.residual <= WORST_RESIDUAL and not factors.replaced_pivots:
                 self.counts[tried], self.doubts[tried] = factors.inertia[0], doubt
-                found = sorted([*found, (doubt, tried, factors)], key=lambda entry: entry[0])[:1]
+                found.append((doubt, tried))
                 if doubt <= accuracy * max(abs(tried), step):
                     break
         if not found:
@@ -99,7 +101,16 @@ class ShiftedPencil:
                 f"A - s B solves with residual {worst:.1e} at best near s = {shift:g}, at most {WORST_RESIDUAL:.0e} is "
                 "accepted: repair slivers or faces of nearly no area"
             )
-        return found[0][1], found[0][2]
+        best = min(found)[1]
+        return best, factors if best == tried else self._factorised(best)
+
+    def _factorised(self, shift: float) -> LDLT:
+        """Factorise in the memory of the last shift."""
+        if self._factors is None:
+            self._factors = LDLT(self._shifted(shift), self.symbolic)
+        else:
+            self._factors.refactor(self._shifted(shift))
+        return self._factors
 
     def _shifted(self, shift: float) -> csr_array:
         entries = self._stiffness_entries - shift * self._mass_entries

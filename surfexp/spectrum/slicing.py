@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse import sparray
+from threadpoolctl import threadpool_limits
 
 from surfexp.linalg.block_lanczos import BLOCK
 from surfexp.linalg.ldlt import LDLT
@@ -62,7 +63,16 @@ def slicing(
     ValueError
         If no shift factorises well.
     """
-    pencil = ShiftedPencil(stiffness, mass)
+    # products of blocks of eight columns are too small for two threads, which wait for each other for longer
+    with threadpool_limits(1, "blas"):
+        pencil = ShiftedPencil(stiffness, mass)
+        return _assemble(pencil, k, tolerance, _slices(pencil, k, tolerance, seed, progress))
+
+
+def _slices(
+    pencil: ShiftedPencil, k: int, tolerance: float, seed: int, progress: Progress | None
+) -> list[SpectrumSlice]:
+    """Return slices from the lowest on until they hold k pairs or one is not complete."""
     slices: list[SpectrumSlice] = []
     found, low = 0, -np.inf
     while found < k:
@@ -76,7 +86,7 @@ def slicing(
             progress(found, max(0.0, 1.0 - found / k))
         if not part.complete or not len(part.values):
             break
-    return _assemble(pencil, k, tolerance, slices)
+    return slices
 
 
 def _solve_at_good_shift(

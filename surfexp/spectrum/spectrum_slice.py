@@ -71,6 +71,8 @@ def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: Sli
     values, vectors = np.empty(0), np.empty((pencil.size, 0), order="F")
     edge, expected, basis_size, drift = np.inf, request.below + request.above, 0, 0.0
     for attempt in range(RESTARTS):
+        if attempt:
+            factors = pencil.factor(shift)[1]
         capacity = min(int(4.5 * (expected - len(values))) + 20 * BLOCK, pencil.size - len(values))
         lanczos = BlockLanczos(
             *(
