@@ -1,18 +1,23 @@
-"""Stiffness and consistent mass of linear elements, against libigl."""
+"""Stiffness and consistent mass of linear elements, against libigl and LaPy."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
 
 import igl
 import numpy as np
 from scipy.sparse import sparray
 
-from benchmarks.line import Line, race
+from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import measure
 from benchmarks.scenes import cortex_scene
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
+
+LEAST = 4.0
 
 
 def warm_up() -> None:
@@ -21,17 +26,32 @@ def warm_up() -> None:
 
 
 def lines(quick: bool) -> list[Line]:
-    """Return the line of the folded cortex."""
+    """Return the lines of the folded cortex."""
     mesh = cortex_scene(10000 if quick else 39994).surface.mesh
+    work = f"P1 stiffness and mass, {len(mesh.vertices):,} V, from the mesh"
+    found = [_line(work, mesh, "libigl", lambda: _libigl(mesh))]
+    if find_spec("lapy") is None:
+        return [*found, not_installed(work, "LaPy", LEAST, "lapy")]
+    from lapy import Solver, TriaMesh
+
+    given = TriaMesh(mesh.vertices, mesh.faces)
+
+    def lapy() -> tuple[sparray, sparray]:
+        solver = Solver(given)
+        return solver.stiffness, solver.mass
+
+    return [*found, _line(work, mesh, "LaPy", lapy)]
+
+
+def _line(work: str, mesh: TriangleMesh, rival: str, solve: Callable[[], tuple[sparray, sparray]]) -> Line:
     ours, cost = measure(lambda: _ours(mesh), runs=9)
-    theirs, their_cost = measure(lambda: _libigl(mesh), runs=9)
+    theirs, their_cost = measure(solve, runs=9)
     difference = max(
         float(np.abs((a - b).data).max() / np.abs(b.data).max()) for a, b in zip(ours, theirs, strict=True)
     )
     accuracy = f"matrices equal to {difference:.0e}; {1e9 * cost.cpu / len(mesh.faces):.0f} and "
     accuracy += f"{1e9 * their_cost.cpu / len(mesh.faces):.0f} ns a face"
-    work = f"P1 stiffness and mass, {len(mesh.vertices):,} V, from the mesh"
-    return [race(work, "libigl", 4, cost, their_cost, accuracy, fair=difference < 1e-9)]
+    return race(work, rival, LEAST, cost, their_cost, accuracy, fair=difference < 1e-9)
 
 
 def _ours(mesh: TriangleMesh) -> tuple[sparray, sparray]:

@@ -10,6 +10,9 @@ COUNTS = "spectrum/test_nodal.py::test_counts_and_labels_equal_scipy"
 BUMP = "spectrum/test_nodal.py::test_a_bump_below_the_peak_threshold_is_no_domain"
 MISSED = "spectrum/test_eigensolver.py::test_a_planted_gap_is_caught"
 INERTIA = "linalg/test_ldlt.py::test_inertia_equals_dense_counts_at_random_shifts_on_a_clustered_spectrum"
+SOLVES = "linalg/test_ldlt.py::test_any_symmetric_pattern_solves_and_counts"
+RESTARTED = "spectrum/test_eigensolver.py::test_every_component_has_its_zero_mode_even_beyond_the_block_size"
+SOUP = "operators/test_assembly.py::test_any_soup_is_the_sum_of_its_triplets"
 PLANE = "statistics/test_embeddings.py::test_points_of_the_plane_are_recovered"
 PEOPLE = "statistics/test_classifiers.py::test_nobody_is_judged_by_their_own_other_side"
 FRONT = "skeleton/test_flux.py::test_fast_marching_converges_to_arcs_on_the_sphere"
@@ -109,5 +112,33 @@ GEOMETRY_FAULTS = (
         "ot.emd2(*weights, cdist(first, second))",
         "ot.emd2(*weights, cdist(first, second) ** 2)",
         (SHIFTED,),
+    ),
+    Fault(
+        "one row too few of those that are not four together",
+        "linalg/ldlt_solve.py",
+        "    for t in range(fours, len(below)):\n        a = load(x, below[t])\n        for j in range(width):",
+        "    for t in range(fours + 1, len(below)):\n        a = load(x, below[t])\n        for j in range(width):",
+        (SOLVES,),
+    ),
+    Fault(
+        "a front's last eight columns keep their products",
+        "linalg/ldlt_front.py",
+        "        for part in range(i // LANES + 1):",
+        "        for part in range(i // LANES):",
+        (SOLVES,),
+    ),
+    Fault(
+        "a search that starts again solves at the edge",
+        "spectrum/spectrum_slice.py",
+        "        if attempt:",
+        "        if attempt > RESTARTS:",
+        (RESTARTED,),
+    ),
+    Fault(
+        "rows that stayed too short pass for full ones",
+        "operators/assembly_pattern.py",
+        "    return bool((rows[:, 2] == rows[:, 3]).all())",
+        "    return True",
+        (SOUP,),
     ),
 )
