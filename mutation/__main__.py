@@ -71,13 +71,18 @@ def _try(copy: Path, fault: Fault) -> str:
 def _pytest(copy: Path, tests: list[str] | tuple[str, ...]) -> tuple[int, str]:
     """Run tests of the copy until one fails; return pytest's code and which test failed how.
 
-    tests/conftest.py gives every state of the code a numba cache of its own.
+    Nothing compiled is kept: numba looks for changes only in the file of a function, not in those that it calls.
     """
     command = [sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "-p", "no:cacheprovider"]
-    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy), "COLUMNS": "200"}
-    run = subprocess.run(
-        [*command, *(f"tests/{test}" for test in tests)], cwd=copy, env=environment, capture_output=True, text=True
-    )
+    with tempfile.TemporaryDirectory() as cache:
+        environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy), "COLUMNS": "200"}
+        run = subprocess.run(
+            [*command, *(f"tests/{test}" for test in tests)],
+            cwd=copy,
+            env=environment | {"NUMBA_CACHE_DIR": cache},
+            capture_output=True,
+            text=True,
+        )
     rows = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
     return run.returncode, rows[0] if rows else run.stderr[-500:]
 
