@@ -52,7 +52,7 @@ def race(
 def within(work: str, seconds: float, cost: Cost, accuracy: str, fair: bool) -> Line:
     """Return the line whose processor seconds should be at most `seconds`; `fair` is any further condition."""
     met = fair and cost.cpu <= seconds
-    return Line(work, "a limit", f"≤ {seconds:g} s", f"{cost.cpu:.3g} s", met, cost, None, accuracy)
+    return Line(work, "a limit", f"≤ {seconds:.3g} s", f"{cost.cpu:.3g} s", met, cost, None, accuracy)
 
 
 def not_installed(work: str, rival: str, least: float, packages: str) -> Line:
