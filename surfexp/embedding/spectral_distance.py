@@ -10,7 +10,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Signs, SignSearch, greedy_signs, search_signs
-from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
+from surfexp.embedding.spectral_embedding import SpectralEmbedding
 from surfexp.mesh.triangle_mesh import Floats
 
 Reading = Literal["inf_of_max", "max_of_inf"]
@@ -54,7 +54,6 @@ def spectral_distance(
     ValueError
         If the embeddings differ in n or weighting, or an option is unknown.
     """
-    check_pair(source, target)
     if reading not in READINGS:
         raise ValueError(f"reading {reading!r} is unknown, choose one of {', '.join(READINGS)}")
     searches, notes = [], []
@@ -71,8 +70,6 @@ def spectral_distance(
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
     rows, backward = nearest(moved, source.points)
-    forward = nearest(source.points, moved)[1]
-    same = float(all((search.signs == chosen.signs).all() for search in searches))
     optimal = all(search.optimal for search in searches)
     if exact and not optimal:
         notes += [f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."]
@@ -88,19 +85,24 @@ def spectral_distance(
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
         method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
-        metrics=_directions(source, target, forward, backward) | {"same_signs": same},
+        metrics=_directions(source, target, nearest(source.points, moved)[1], backward, searches),
         notes=tuple(dict.fromkeys(notes)),
     )
 
 
 def _directions(
-    source: SpectralEmbedding, target: SpectralEmbedding, forward: Floats, backward: Floats
+    source: SpectralEmbedding,
+    target: SpectralEmbedding,
+    forward: Floats,
+    backward: Floats,
+    searches: list[SignSearch],
 ) -> dict[str, float]:
-    """Mean distance from each surface to the other, and the largest."""
+    """Mean distance from each surface to the other, the largest, and whether all searches found the same signs."""
     return {
         "forward": float(forward @ source.weights),
         "backward": float(backward @ target.weights),
         "hausdorff": float(max(forward.max(), backward.max())),
+        "same_signs": float(all((search.signs == searches[0].signs).all() for search in searches)),
     }
 
 

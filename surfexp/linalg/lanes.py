@@ -94,23 +94,13 @@ def store_part(typing: Any, matrix: Any, row: Any, column: Any, lanes: Any) -> A
 @intrinsic
 def plus_product(typing: Any, lanes: Any, factor: Any, others: Any) -> Any:
     """Return lanes + factor others."""
-
-    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        product = builder.fmul(_spread(builder, arguments[1]), arguments[2], flags=CONTRACT)
-        return builder.fadd(arguments[0], product, flags=CONTRACT)
-
-    return LANES_TYPE(LANES_TYPE, types.float64, LANES_TYPE), generate
+    return _with_product("fadd")
 
 
 @intrinsic
 def minus_product(typing: Any, lanes: Any, factor: Any, others: Any) -> Any:
     """Return lanes - factor others."""
-
-    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        product = builder.fmul(_spread(builder, arguments[1]), arguments[2], flags=CONTRACT)
-        return builder.fsub(arguments[0], product, flags=CONTRACT)
-
-    return LANES_TYPE(LANES_TYPE, types.float64, LANES_TYPE), generate
+    return _with_product("fsub")
 
 
 @intrinsic
@@ -121,6 +111,14 @@ def quotient(typing: Any, lanes: Any, divisor: Any) -> Any:
         return builder.fdiv(arguments[0], _spread(builder, arguments[1]))
 
     return LANES_TYPE(LANES_TYPE, types.float64), generate
+
+
+def _with_product(operation: str) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        product = builder.fmul(_spread(builder, arguments[1]), arguments[2], flags=CONTRACT)
+        return getattr(builder, operation)(arguments[0], product, flags=CONTRACT)
+
+    return LANES_TYPE(LANES_TYPE, types.float64, LANES_TYPE), generate
 
 
 def _check_order(block: Any) -> None:

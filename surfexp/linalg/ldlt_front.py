@@ -13,6 +13,12 @@ ROWS_AT_ONCE = 96
 SMALL_UPDATE = 600
 
 
+@njit(cache=True, nogil=True)
+def padded(count: int) -> int:
+    """Return how many entries a row of an update has, so that it is made of whole lanes."""
+    return (count + LANES - 1) // LANES * LANES
+
+
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 def eliminate_front(panel: Floats, pivots: Floats, smallest: float, update: Floats) -> int:
     """Factorise the columns of a front in place and subtract their products from the rest of it."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.linalg.lanes import LANES
-from surfexp.linalg.ldlt_front import eliminate_front
+from surfexp.linalg.ldlt_front import eliminate_front, padded
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
@@ -62,12 +61,11 @@ def eliminate(
         for a in range(len(below)):
             place[below[a]] = width + a
         gather(indptr, indices, entries, start, end, place, panel)
-        padded = (len(below) + LANES - 1) // LANES * LANES
-        update = np.zeros((len(below), padded))
+        update = np.zeros((len(below), padded(len(below))))
         child, bottom = first_child[s], top
         while child != -1:
             child_rows = rows[row_starts[child] : row_starts[child + 1]]
-            size, row = len(child_rows), (len(child_rows) + LANES - 1) // LANES * LANES
+            size, row = len(child_rows), padded(len(child_rows))
             bottom = min(bottom, begins[child])
             child_update = stack[begins[child] : begins[child] + size * row].reshape(size, row)
             extend(child_update, child_rows, place, panel, update)

@@ -14,6 +14,7 @@ from surfexp.statistics.permutation_test import p_value
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic
 
+ALARMS = ("false_alarms", "false_alarms_low", "false_alarms_high")
 Unit = Literal["member", "person"]
 ROUNDING = 1e-9
 
@@ -78,18 +79,16 @@ def group_power(
             found = [p_value(matrix.values, *pair, permutations, rng, units) <= level + ROUNDING for pair in pairs]
             shares[row] = np.mean(found), *exact_interval(sum(found), len(found))
     metrics = {f"power {size}": float(share) for size, share in zip(sizes, power[:, 0], strict=True)}
-    alarm_names = ("false_alarms", "false_alarms_low", "false_alarms_high")
-    metrics |= dict(zip(alarm_names, alarms[-1].tolist(), strict=True))
+    metrics |= dict(zip(ALARMS, alarms[-1].tolist(), strict=True))
     moved = [len(np.unique(units[group])) for group in pairs[-1]]
     least = (2.0 if moved[0] == moved[1] else 1.0) / comb(sum(moved), moved[0])
     metrics |= {"level": level, "draws": float(len(pairs)), "least_p": least}
     metrics["p_value"] = p_value(matrix.values, first, second, 999, rng, np.arange(len(owners)))
     levels = np.full(len(sizes), level)
     columns = {"size": np.array(sizes, dtype=float), "power": power, "false alarms": alarms, "level": levels}
-    notes: tuple[str, ...] = ()
-    if metrics["least_p"] > level:
-        notes = (f"No split of {sizes[-1]} against {sizes[-1]} has a p-value under {metrics['least_p']:.2g}.",)
-    return Statistic(f"power to tell {names[0]} from {names[1]} by {matrix.name}", columns, (), metrics, notes)
+    note = f"No split of {sizes[-1]} against {sizes[-1]} has a p-value under {least:.2g}."
+    heading = f"power to tell {names[0]} from {names[1]} by {matrix.name}"
+    return Statistic(heading, columns, (), metrics, (note,) if least > level else ())
 
 
 def _drawn(
