@@ -6,15 +6,13 @@ import argparse
 import os
 import subprocess
 import sys
-from collections import Counter
-from collections.abc import Mapping
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.report.claims import as_markdown, judge
 from surfexp.report.page import write_report
+from surfexp.report.reproduction import reproduction
 from surfexp.report.table import comparisons, format_number, rows_of, short_name
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
@@ -34,7 +32,7 @@ def command(name: str, arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
     if name == "report" and given.claims:
-        print_verdicts(plans, given.results)
+        print(reproduction(plans, given.results.resolve()))
         return 0
     for plan in plans.values():
         if name == "table":
@@ -42,19 +40,6 @@ def command(name: str, arguments: list[str]) -> int:
         else:
             print(write_report(plan, given.results.resolve()) / "report.html")
     return 0
-
-
-def print_verdicts(plans: Mapping[str, Plan], results: Path) -> None:
-    """Markdown of the verdicts of several experiments, those without claims left out, with their count at the head."""
-    sections, count = [], Counter[str]()
-    for experiment, plan in plans.items():
-        verdicts = judge(plan.settings.claims, rows_of(plan, results.resolve()))
-        count.update(item.verdict for item in verdicts)
-        if verdicts:
-            sections.append(as_markdown(experiment, plan.settings.title, verdicts))
-    counts = ", ".join(f"{number} {verdict}" for verdict, number in sorted(count.items()))
-    print(f"# Published claims, checked\n\n{sum(count.values())} claims: {counts}.\n")
-    print("\n".join(sections).rstrip())
 
 
 def latest_plan(results: Path, experiment: str) -> Plan:

@@ -11,9 +11,10 @@ from markupsafe import Markup, escape
 
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
-from surfexp.report.claims import judge
+from surfexp.report.claim import read_claims
 from surfexp.report.costs import cost_figure
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
+from surfexp.report.verdict import judge
 from surfexp.workflow import store
 from surfexp.workflow.plan import Plan
 
@@ -33,7 +34,7 @@ def write_report(plan: Plan, results: Path) -> Path:
         groups=[(group, _figures_of(group, figures) + costs[group.title]) for group in groups],
         failures=[row for row in rows if row.failure],
         best=_best,
-        verdicts=judge(plan.settings.claims, rows),
+        verdicts=judge(read_claims(plan.settings.claims), rows),
         stages=len(plan.stored),
         requested=plan.requested,
     )

@@ -1,4 +1,4 @@
-"""Verdicts are computed from rows: their words, their intervals, and that wrong code overturns them."""
+"""Claims are checked when read and judged from rows: their words, their quantities, and that wrong code overturns them."""
 
 from __future__ import annotations
 
@@ -11,70 +11,204 @@ import yaml
 from surfexp.mesh.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
-from surfexp.report.claims import as_markdown, judge
+from surfexp.report.claim import read_claims
+from surfexp.report.reproduction import section
 from surfexp.report.table import Row
+from surfexp.report.verdict import Verdict, judge
 from surfexp.workflow import registry
+from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import Leaf
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "conf" / "experiment"
-CLAIM: dict[str, Any] = {"claim": "twice", "metric": "energy", "of": {"solver.name": "a"}, "holds": [1.9, 2.1]}
+PUBLISHED = {"published": {"table": "2.2", "value": "2"}}
+CLAIM: dict[str, Any] = {
+    "claim": "twice",
+    "quantity": "all",
+    "metric": "energy",
+    "rows": {"solver.name": "a"},
+    "between": [1.9, 2.1],
+    "because": "a twentieth either way",
+}
 
 
-def row(name: str, seconds: float = 1.0, failure: str = "", **metrics: float) -> Row:
-    return Row(Leaf(name, name, {}, {}), {"solver.name": name}, metrics, seconds, failure=failure)
+def row(name: str, seconds: float = 1.0, failure: str = "", seed: int = 0, **metrics: float) -> Row:
+    parameters = {"solver.name": name, "image.seed": seed}
+    return Row(Leaf(name, name, {"target": "solver"}, {}), parameters, metrics, seconds, failure=failure)
 
 
-def verdict(claim: dict[str, Any], *rows: Row) -> str:
-    return judge([claim], rows)[0].verdict
+def judged(claim: dict[str, Any], *rows: Row) -> Verdict:
+    return judge(read_claims([claim]), rows)[0]
 
 
 @pytest.mark.parametrize(
     ("more", "energy", "word"),
     [
-        ({"printed": "2"}, 2.0, "reproduced"),
-        ({"printed": "2"}, 3.0, "not reproduced"),
-        ({"printed": "2", "otherwise": "corrected"}, 3.0, "corrected"),
+        (PUBLISHED, 2.0, "reproduced"),
+        (PUBLISHED, 3.0, "not reproduced"),
+        (PUBLISHED | {"otherwise": "corrected"}, 3.0, "corrected"),
+        ({"reference": "Pleijel 1956"}, 2.0, "reproduced"),
+        ({"reference": "Pleijel 1956"}, 3.0, "not reproduced"),
         ({}, 2.0, "holds"),
         ({}, 3.0, "does not hold"),
     ],
 )
 def test_words_tell_published_claims_from_our_own(more: dict[str, Any], energy: float, word: str) -> None:
-    assert verdict(CLAIM | more, row("a", energy=energy)) == word
+    assert judged(CLAIM | more, row("a", energy=energy)).verdict == word
 
 
-def test_a_ratio_has_the_range_over_its_rows() -> None:
+@pytest.mark.parametrize(
+    ("quantity", "energies", "word", "number"),
+    [
+        ("all", (2.0, 2.0), "holds", "2"),
+        ("all", (2.0, 2.05), "holds", "2 to 2.05"),
+        ("all", (1.0, 3.0), "does not hold", "1 to 3"),  # its mean is 2
+        ("any", (2.0, 9.0), "holds", "2 to 9"),
+        ("any", (1.0, 3.0), "does not hold", "1 to 3"),
+        ("mean", (1.0, 3.0), "holds", "2 (1 to 3)"),
+        ("mean", (2.0, 9.0), "does not hold", "5.5 (2 to 9)"),
+        ("min", (2.0, 9.0), "holds", "2 (2 to 9)"),
+        ("min", (1.0, 2.0), "does not hold", "1 (1 to 2)"),
+        ("max", (1.0, 2.0), "holds", "2 (1 to 2)"),
+        ("max", (2.0, 9.0), "does not hold", "9 (2 to 9)"),
+    ],
+)
+def test_each_quantity_has_its_own_verdict(quantity: str, energies: tuple[float, ...], word: str, number: str) -> None:
+    rows = [row("a", seed=seed, energy=energy) for seed, energy in enumerate(energies)]
+    verdict = judged(CLAIM | {"quantity": quantity}, *rows, row("b", energy=-7.0))
+    assert (verdict.verdict, verdict.number, verdict.count) == (word, number, 2)
+
+
+def test_a_ratio_has_the_range_over_its_pairs_of_rows() -> None:
     rows = [row("a", energy=3.0), row("a", energy=5.0), row("b", energy=1.0), row("b", energy=3.0)]
-    found = judge([CLAIM | {"over": {"solver.name": "b"}}], rows)[0]
-    assert (found.value, found.low, found.high, found.verdict) == (2.0, 1.0, 5.0, "holds")
+    verdict = judged(CLAIM | {"quantity": "ratio", "over": {"solver.name": "b"}}, *rows)
+    assert (verdict.value, verdict.low, verdict.high, verdict.verdict) == (2.0, 1.0, 5.0, "holds")
+    negative = [row("a", energy=-4.0), row("b", energy=-2.0), row("b", energy=-1.0)]
+    verdict = judged(CLAIM | {"quantity": "ratio", "over": {"solver.name": "b"}}, *negative)
+    assert (verdict.low, verdict.high) == (2.0, 4.0)
 
 
 def test_seconds_can_be_claimed() -> None:
-    assert verdict(CLAIM | {"metric": "seconds"}, row("a", seconds=2.0)) == "holds"
+    assert judged(CLAIM | {"metric": "seconds"}, row("a", seconds=2.0)).verdict == "holds"
+
+
+GOOD = [row("a", seed=seed, energy=2.0) for seed in range(9)]
+
+
+@pytest.mark.parametrize("quantity", ["all", "any", "mean", "min", "max"])
+@pytest.mark.parametrize(
+    ("spoilt", "reason"),
+    [
+        (row("a", seed=77, failure="x", energy=2.0), "failed: 77 (1 of 10 rows)"),
+        (row("a", seed=77, other=2.0), "without energy: 77 (1 of 10 rows)"),
+        (row("a", seed=77, energy=float("nan")), "without energy: 77 (1 of 10 rows)"),
+        (row("a", seed=77, energy=float("inf")), "without energy: 77 (1 of 10 rows)"),
+        (row("a", seed=77, energy=2.0, converged=0.0), "not converged: 77 (1 of 10 rows)"),
+    ],
+)
+def test_one_unusable_row_leaves_a_claim_not_computed_and_is_named(quantity: str, spoilt: Row, reason: str) -> None:
+    verdict = judged(CLAIM | {"quantity": quantity}, *GOOD, spoilt)
+    assert (verdict.verdict, verdict.why, verdict.number) == ("not computed", reason, "–")
+
+
+def test_unusable_rows_to_divide_by_count_too() -> None:
+    ratio = CLAIM | {"quantity": "ratio", "over": {"solver.name": "b"}}
+    assert judged(ratio, *GOOD).why == "no row is selected"
+    assert judged(ratio, *GOOD, row("b", failure="x")).why == "failed: b (1 of 1 rows)"
+    for zero in ([0.0], [1.0, 0.0], [1.0, -1.0]):
+        verdict = judged(ratio, *GOOD, *(row("b", seed=k, energy=value) for k, value in enumerate(zero)))
+        assert verdict.verdict == "not computed" and "energy is 0 in rows to divide by" in verdict.why
+
+
+def test_no_row_is_no_verdict() -> None:
+    assert judged(CLAIM).verdict == judged(CLAIM, row("b", energy=2.0)).verdict == "not computed"
+
+
+def test_rows_that_stopped_early_count_where_a_claim_says_why_and_where_convergence_is_the_question() -> None:
+    rows = [row("a", energy=2.0, converged=0.0), row("a", energy=2.0, converged=1.0)]
+    assert judged(CLAIM, *rows).verdict == "not computed"
+    assert judged(CLAIM | {"unconverged": "the scheme has no certificate"}, *rows).verdict == "holds"
+    assert judged(CLAIM | {"metric": "converged", "between": [1, 1]}, *rows).verdict == "does not hold"
 
 
 @pytest.mark.parametrize(
-    "rows", [[], [row("b", energy=2.0)], [row("a", other=2.0)], [row("a", failure="x", energy=2.0)]]
+    ("wanted", "count"),
+    [
+        ({"image.seed": 3}, 1),
+        ({"image.seed": [3, 4, 99]}, 2),
+        ({"image.seed": 3.0}, 1),
+        ({"image.seed": "3"}, 0),
+        ({"image.seed": True}, 0),
+        ({}, 9),
+        ({"model.name": "rof"}, 0),
+    ],
 )
-def test_nothing_is_claimed_of_rows_that_are_missing_or_failed(rows: list[Row]) -> None:
-    assert verdict(CLAIM, *rows) == "not computed"
+def test_rows_are_selected_by_typed_values_and_lists_of_them(wanted: dict[str, Any], count: int) -> None:
+    assert judged(CLAIM | {"rows": wanted}, *GOOD).count == count
+
+
+def test_an_option_that_is_a_list_is_matched_as_a_whole_or_as_one_of_several() -> None:
+    turned = Row(Leaf("x", "x", {"target": "surface"}, {}), {"clean.rotation": [30.0, 25.0]}, {"energy": 2.0}, 0.0)
+    for wanted in ([30, 25], [[0, 0], [30, 25]]):
+        assert judged(CLAIM | {"rows": {"clean.rotation": wanted}}, turned).count == 1
+    assert judged(CLAIM | {"rows": {"clean.rotation": [30, 26]}}, turned).count == 0
 
 
 @pytest.mark.parametrize(
-    ("holds", "text"),
-    [([1, 2], "1 to 2"), ([None, 2], "≤ 2"), ([1, None], "≥ 1"), ([1, 1], "1"), ([None, None], "any")],
+    ("between", "text"), [([1, 2], "1 to 2"), ([None, 2], "≤ 2"), ([1, None], "≥ 1"), ([1, 1], "1")]
 )
-def test_the_interval_is_shown(holds: list[float | None], text: str) -> None:
-    found = judge([CLAIM | {"holds": holds}], [row("a", energy=1.0)])
-    assert found[0].interval == text and f"| {text} |" in as_markdown("x", "", found)
+def test_the_interval_its_reason_and_where_it_was_before_are_shown(between: list[float | None], text: str) -> None:
+    verdict = judged(CLAIM | {"between": between, "moved": "≤ 9"}, row("a", energy=1.0))
+    page = section("x", "", [verdict])
+    assert verdict.interval == text and f"| {text} (before the result: ≤ 9) | a twentieth either way | 1 | 1 |" in page
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"printed": "2"}, "'printed' is called 'published' now"),
+        ({"of": {}}, "'of' is called 'rows' now"),
+        ({"holds": [1, 2]}, "'holds' is called 'between' now"),
+        ({"metrc": "x"}, "unknown key 'metrc'; did you mean 'metric'?"),
+        ({"quantity": None}, "claim.quantity = None"),
+        ({"quantity": "median"}, "claim.quantity = 'median'"),
+        ({"because": ""}, "claim.because = ''"),
+        ({"between": [None, None]}, "both ends are open"),
+        ({"between": [2, 1]}, "the lower end 2 is above the upper end 1"),
+        ({"between": [1, float("inf")]}, "null is an open end"),
+        ({"quantity": "ratio"}, "over is for a ratio and needed there"),
+        ({"over": {}}, "over is for a ratio"),
+        ({"otherwise": "corrected"}, "ours does not hold"),
+        ({"published": {"value": "2"}}, "no place given, one of table, figure"),
+        ({"published": {"table": "1", "figure": "2", "value": "2"}}, "table and figure given"),
+        ({"published": {"table": "1"}}, "'value' is missing"),
+        (PUBLISHED | {"reference": "Pleijel 1956"}, "give one of them"),
+    ],
+)
+def test_a_wrong_claim_is_refused_in_one_line(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(UserError) as error:
+        read_claims([CLAIM | change])
+    assert message in str(error.value) and "\n" not in str(error.value)
+    assert str(error.value).startswith("claim 1 (twice): ")
+
+
+@pytest.mark.parametrize("key", ["quantity", "metric", "between", "because"])
+def test_a_key_that_is_missing_is_named(key: str) -> None:
+    with pytest.raises(UserError, match=f"'{key}' is missing"):
+        read_claims([{name: value for name, value in CLAIM.items() if name != key}])
+
+
+@pytest.mark.parametrize("file", sorted(EXPERIMENTS.glob("*.yaml")), ids=lambda file: file.stem)
+def test_the_claims_of_every_experiment_are_well_formed(file: Path) -> None:
+    read_claims(yaml.safe_load(file.read_text()).get("claims") or [])
 
 
 def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     claims = yaml.safe_load((EXPERIMENTS / "operator_convergence.yaml").read_text())["claims"]
     claim = next(claim for claim in claims if claim["claim"].startswith("The face-based divergence"))
-    assert verdict(claim, measured()) == "holds"
+    assert judged(claim, measured()).verdict == "holds"
     right = diagnostics.divergence
     monkeypatch.setattr(diagnostics, "divergence", lambda operator, field: -right(operator, field))
-    assert verdict(claim, measured()) == "does not hold"
+    assert judged(claim, measured()).verdict == "does not hold"
 
 
 def measured() -> Row:
