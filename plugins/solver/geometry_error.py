@@ -29,4 +29,5 @@ def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, 
         "normal_error_before": normal_deviation(before, truth),
         "normal_error": normal_deviation(moved, truth),
     }
+    metrics["normal_error_share"] = metrics["normal_error"] / max(metrics["normal_error_before"], 1e-12)
     return replace(result, metrics=result.metrics | metrics)

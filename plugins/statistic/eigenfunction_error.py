@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from surfexp.spectrum.eigenfunction_error import eigenfunction_errors, midpoint_gain
+from surfexp.spectrum.eigenfunction_error import eigenfunction_errors, midpoint_gain, values_below
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
@@ -56,3 +56,19 @@ def midpoint_gain_statistic(options: MidpointGain) -> Statistic:
     columns = {"mode": np.arange(1.0, options.count + 1.0), "gain": gains}
     where = "on the smooth surface" if options.project else "on the facets"
     return Statistic(f"gain by midpoints {where}, {options.shape}", columns, metrics=metrics)
+
+
+class ValuesBelow(Options):
+    """Where the facets lie."""
+
+    level: int = Field(4, ge=1, le=6, description="level of the icosphere")
+    count: int = Field(24, ge=1, le=400, description="eigenvalues after 0")
+    circumscribed: bool = Field(False, description="facets outside of the sphere; else inside")
+
+
+@register("statistic", "values_below")
+def values_below_statistic(options: ValuesBelow) -> Statistic:
+    """Number of eigenvalues of linear elements that lie under those of the sphere, which (3.25) excludes."""
+    where = "outside" if options.circumscribed else "inside"
+    below = float(values_below(options.level, options.count, options.circumscribed))
+    return Statistic(f"values of facets {where} of the sphere", metrics={"below_exact": below})

@@ -53,7 +53,7 @@ class Estimators(Options):
 class SulcalAsymmetry(Estimators):
     """How chance is measured, and of what."""
 
-    draws: int = Field(200, ge=10, le=100000, description="random exchanges of sides, and samples for the power")
+    draws: int = Field(200, ge=10, le=100000, description="random halves of the subjects, and samples for the power")
     seed: int = Field(0, ge=0, description="seed of exchanges and samples")
 
 

@@ -107,6 +107,27 @@ def midpoint_gain(shape: Shape, level: int, count: int, project: bool) -> Floats
     return np.asarray(errors[0][1:] / errors[1][1:])
 
 
+def values_below(level: int, count: int, circumscribed: bool) -> int:
+    """Return how many of the first eigenvalues of linear elements lie under those of the unit sphere, which (3.25) excludes.
+
+    Parameters
+    ----------
+    level : int
+        Of the icosphere.
+    count : int
+        Eigenvalues after 0.
+    circumscribed : bool
+        Push the facets out until none cuts the sphere; else the vertices lie on it.
+    """
+    mesh = shape_mesh("sphere", level)
+    if circumscribed:
+        heights = np.einsum("fx,fx->f", mesh.face_normals, mesh.vertices[mesh.faces[:, 0]])
+        mesh = TriangleMesh(mesh.vertices / heights.min(), mesh.faces)
+    elements = surface_elements(mesh)
+    values = eigenpairs(elements.stiffness, elements.mass, count + 1).values[1:]
+    return int((values < sphere_spectrum(count + 1)[1:] * (1.0 - 1e-9)).sum())
+
+
 def _onto_sphere(points: Floats) -> Floats:
     return points / np.linalg.norm(points, axis=1, keepdims=True)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
@@ -71,7 +73,7 @@ def integral_of_face_perimeters(mesh: TriangleMesh, values: Floats) -> float:
     lengths, pairs = _inner_edges(mesh)
     knots = np.unique(values)
     total = 0.0
-    for low, high in zip(knots[:-1], knots[1:], strict=True):
+    for low, high in pairwise(knots):
         inside = values > low
         total += (high - low) * float(lengths[inside[pairs[:, 0]] != inside[pairs[:, 1]]].sum())
     return total
