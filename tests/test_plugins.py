@@ -12,6 +12,8 @@ from pydantic_core import PydanticUndefined
 
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.writing import write_mesh
+from surfexp.metric import find_metric
+from surfexp.report.declared import declared
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
@@ -262,6 +264,10 @@ def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[st
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored:
             assert stage.run_stage(path, key) == 0, stage.read_event(results, node.kind, key)["failure"]
+            known = declared(plan.nodes, key)
+            measured = getattr(store.load(results, node.kind, key), "metrics", {})
+            undeclared = [name for name in measured if find_metric(name, known) is None]
+            assert not undeclared, f"{node.kind}/{node.plugin} does not declare {', '.join(undeclared)}"
     files = {str(file.relative_to(results / "store")): file.read_bytes() for file in (results / "store").rglob("*.*")}
     return plan.leaves[0].key, files
 
@@ -279,6 +285,13 @@ def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
         if field.default is not PydanticUndefined and number and bounded:
             with pytest.raises(ValidationError):
                 method.options(**{option: float("nan")})
+
+
+@pytest.mark.parametrize(("kind", "name"), PLUGINS)
+def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
+    metrics = {**getattr(KINDS[kind].result, "METRICS", {}), **registry.plugin(kind, name).metrics}
+    for metric, declaration in metrics.items():
+        assert declaration.meaning and declaration.better in ("", "lower", "higher"), f"{kind}/{name}: {metric}"
 
 
 @pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])

@@ -11,6 +11,7 @@ from rich.table import Table
 
 from surfexp.commands.progress import follow
 from surfexp.commands.views import print_tables, wide_console
+from surfexp.report.declared import check_names
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.launch import launch, run, unfinished
@@ -33,6 +34,7 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def _run(plan: Plan) -> None:
+    check_names(plan)
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
     console = wide_console()
@@ -52,6 +54,7 @@ def _run(plan: Plan) -> None:
 
 
 def _show(plan: Plan) -> None:
+    check_names(plan)
     results = Path(plan.settings.results)
     missing = Counter(node.kind for node in unfinished(plan, results))
     unique = Counter(node.kind for node in plan.stored)
