@@ -15,6 +15,7 @@ from surfexp.mesh.writing import write_mesh
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.outcome import read_event
 from surfexp.workflow.plan import make_plan
 
 registry.load_all(Path("/nonexistent"))
@@ -261,7 +262,7 @@ def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[st
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored:
-            assert stage.run_stage(path, key) == 0, stage.read_event(results, node.kind, key)["failure"]
+            assert stage.run_stage(path, key) == 0, read_event(results, node.kind, key)["failure"]
     files = {str(file.relative_to(results / "store")): file.read_bytes() for file in (results / "store").rglob("*.*")}
     return plan.leaves[0].key, files
 
@@ -291,8 +292,7 @@ def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp
     assert first == second
     result = store.load(tmp_path / "a", kind, key)
     assert isinstance(result, KINDS[kind].result)
-    event = stage.read_event(tmp_path / "a", kind, key)
-    assert all(np.isfinite(value) for value in event["metrics"].values()), event["metrics"]
+    assert all(np.isfinite(value) for value in result.metrics.values()), result.metrics
 
 
 def solve(context: dict[str, typing.Any], results: Path) -> str:
@@ -300,7 +300,7 @@ def solve(context: dict[str, typing.Any], results: Path) -> str:
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored and stage.run_stage(path, key):
-            return str(stage.read_event(results, node.kind, key)["failure"])
+            return str(read_event(results, node.kind, key)["failure"])
     return ""
 
 
