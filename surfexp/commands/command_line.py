@@ -26,6 +26,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "export": ("export", "tables as CSV, sulci as label files: surfexp export EXPERIMENT [--to FOLDER]"),
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
     "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
+    "verify": ("verify", "hash every stored result again and name what is damaged: surfexp verify"),
     "new": ("new", "write a plugin file with its test: surfexp new KIND NAME"),
     "view": ("view", "turn a surface in a window (needs open3d): surfexp view FILE"),
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
