@@ -17,6 +17,7 @@ from surfexp.report.declared import declared
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.outcome import read_event
 from surfexp.workflow.plan import make_plan
 
 registry.load_all(Path("/nonexistent"))
@@ -263,7 +264,7 @@ def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[st
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored:
-            assert stage.run_stage(path, key) == 0, stage.read_event(results, node.kind, key)["failure"]
+            assert stage.run_stage(path, key) == 0, read_event(results, node.kind, key)["failure"]
             known = declared(plan.nodes, key)
             measured = getattr(store.load(results, node.kind, key), "metrics", {})
             undeclared = [name for name in measured if find_metric(name, known) is None]
@@ -304,8 +305,7 @@ def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp
     assert first == second
     result = store.load(tmp_path / "a", kind, key)
     assert isinstance(result, KINDS[kind].result)
-    event = stage.read_event(tmp_path / "a", kind, key)
-    assert all(np.isfinite(value) for value in event["metrics"].values()), event["metrics"]
+    assert all(np.isfinite(value) for value in result.metrics.values()), result.metrics
 
 
 def solve(context: dict[str, typing.Any], results: Path) -> str:
@@ -313,7 +313,7 @@ def solve(context: dict[str, typing.Any], results: Path) -> str:
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored and stage.run_stage(path, key):
-            return str(stage.read_event(results, node.kind, key)["failure"])
+            return str(read_event(results, node.kind, key)["failure"])
     return ""
 
 
