@@ -4,17 +4,21 @@ from pathlib import Path
 
 include: str(Path(importlib.util.find_spec("surfexp.workflow").origin).parent / "rules.smk")
 
+from surfexp.commands import execution
+
+execution.before_snakemake(plan, results)
+
 # Snakemake takes its default target and its handlers from this file only, not from an included one.
 workflow.default_target = "all"
 
 
 onstart:
-    launch.hold_results(results)
+    execution.hold_results(results)
 
 
 onsuccess:
-    launch.after_snakemake(plan_path)
+    execution.after_snakemake(plan_path)
 
 
 onerror:
-    launch.after_snakemake(plan_path)
+    execution.after_snakemake(plan_path)

@@ -12,9 +12,12 @@ from pydantic_core import PydanticUndefined
 
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.writing import write_mesh
+from surfexp.metric import find_metric
+from surfexp.report.declared import declared
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.outcome import read_event
 from surfexp.workflow.plan import make_plan
 
 registry.load_all(Path("/nonexistent"))
@@ -274,7 +277,11 @@ def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[st
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored:
-            assert stage.run_stage(path, key) == 0, stage.read_event(results, node.kind, key)["failure"]
+            assert stage.run_stage(path, key) == 0, read_event(results, node.kind, key)["failure"]
+            known = declared(plan.nodes, key)
+            measured = getattr(store.load(results, node.kind, key), "metrics", {})
+            undeclared = [name for name in measured if find_metric(name, known) is None]
+            assert not undeclared, f"{node.kind}/{node.plugin} does not declare {', '.join(undeclared)}"
     files = {str(file.relative_to(results / "store")): file.read_bytes() for file in (results / "store").rglob("*.*")}
     return plan.leaves[0].key, files
 
@@ -294,6 +301,13 @@ def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
                 method.options(**{option: float("nan")})
 
 
+@pytest.mark.parametrize(("kind", "name"), PLUGINS)
+def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
+    metrics = {**getattr(KINDS[kind].result, "METRICS", {}), **registry.plugin(kind, name).metrics}
+    for metric, declaration in metrics.items():
+        assert declaration.meaning and declaration.better in ("", "lower", "higher"), f"{kind}/{name}: {metric}"
+
+
 @pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
 def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
     if (kind, name) in NEEDS:
@@ -304,8 +318,7 @@ def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp
     assert first == second
     result = store.load(tmp_path / "a", kind, key)
     assert isinstance(result, KINDS[kind].result)
-    event = stage.read_event(tmp_path / "a", kind, key)
-    assert all(np.isfinite(value) for value in event["metrics"].values()), event["metrics"]
+    assert all(np.isfinite(value) for value in result.metrics.values()), result.metrics
 
 
 def solve(context: dict[str, typing.Any], results: Path) -> str:
@@ -313,7 +326,7 @@ def solve(context: dict[str, typing.Any], results: Path) -> str:
     path = plan.write(results)
     for key, node in plan.nodes.items():
         if KINDS[node.kind].stored and stage.run_stage(path, key):
-            return str(stage.read_event(results, node.kind, key)["failure"])
+            return str(read_event(results, node.kind, key)["failure"])
     return ""
 
 

@@ -10,6 +10,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks, size_at_gap
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.workflow.registry import Options, register
 
@@ -28,7 +29,18 @@ class BlockOrthogonal(Options):
     seed: int = Field(0, ge=0, description="seed of starts and samples")
 
 
-@register("distance", "block_orthogonal")
+METRICS = {
+    "forward": Metric("mean distance from the source to the target"),
+    "backward": Metric("mean distance from the target to the source"),
+    "hausdorff": Metric("largest distance either way"),
+    "same_signs": Metric("1 where all searches found the same signs, else 0", better="higher"),
+    "blocks": Metric("blocks of nearly equal eigenvalues"),
+    "largest_block": Metric("eigenfunctions of the largest block"),
+    "eigenfunctions": Metric("eigenfunctions that are compared"),
+}
+
+
+@register("distance", "block_orthogonal", metrics=METRICS)
 def block_orthogonal_distance(
     options: BlockOrthogonal,
     *,

@@ -13,6 +13,7 @@ from surfexp.embedding.surface_map import (
     zoomout_map,
 )
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.workflow.registry import Options, register
 
@@ -56,7 +57,15 @@ class Wave(Start):
     width: float = Field(7.0, gt=0, le=1000, description="width of a band in steps between energies")
 
 
-@register("distance", "embedding_map")
+METRICS = {
+    "forward": Metric("mean distance from the source to the target"),
+    "backward": Metric("mean distance from the target to the source"),
+    "hausdorff": Metric("largest distance either way"),
+    "same_signs": Metric("1 where all searches found the same signs, else 0", better="higher"),
+}
+
+
+@register("distance", "embedding_map", metrics=METRICS)
 def embedding_map_distance(
     options: Sampled, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -64,7 +73,7 @@ def embedding_map_distance(
     return embedding_map(Pair(source_surface, target_surface, source, target), **dict(options))
 
 
-@register("distance", "spectral_icp")
+@register("distance", "spectral_icp", metrics=METRICS)
 def spectral_icp_distance(
     options: Icp, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -72,7 +81,7 @@ def spectral_icp_distance(
     return icp_map(Pair(source_surface, target_surface, source, target), **dict(options))
 
 
-@register("distance", "zoomout")
+@register("distance", "zoomout", metrics=METRICS)
 def zoomout_distance(
     options: Zoomout, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -80,7 +89,7 @@ def zoomout_distance(
     return zoomout_map(Pair(source_surface, target_surface, source, target), **dict(options))
 
 
-@register("distance", "heat_kernel_signature")
+@register("distance", "heat_kernel_signature", metrics=METRICS)
 def heat_kernel_signature_distance(
     options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -88,7 +97,7 @@ def heat_kernel_signature_distance(
     return signature_map(Pair(source_surface, target_surface, source, target), "heat", **dict(options))
 
 
-@register("distance", "wave_kernel_signature")
+@register("distance", "wave_kernel_signature", metrics=METRICS)
 def wave_kernel_signature_distance(
     options: Wave, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -96,7 +105,7 @@ def wave_kernel_signature_distance(
     return signature_map(Pair(source_surface, target_surface, source, target), "wave", **dict(options))
 
 
-@register("distance", "mirrored_space")
+@register("distance", "mirrored_space", metrics=METRICS)
 def mirrored_space_distance(
     options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:
@@ -104,7 +113,7 @@ def mirrored_space_distance(
     return mirrored_space_map(Pair(source_surface, target_surface, source, target), **dict(options))
 
 
-@register("distance", "vertex_index")
+@register("distance", "vertex_index", metrics=METRICS)
 def vertex_index_distance(
     options: Start, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:

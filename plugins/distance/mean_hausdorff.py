@@ -11,6 +11,7 @@ from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.workflow.registry import Options, register
 
@@ -39,7 +40,18 @@ class MeanHausdorff(Embedded):
     faces: bool = Field(False, description="measure the distance to faces too, in the signs that are best for vertices")
 
 
-@register("distance", "mean_hausdorff")
+METRICS = {
+    "forward": Metric("mean distance from the source to the target"),
+    "backward": Metric("mean distance from the target to the source"),
+    "hausdorff": Metric("largest distance either way"),
+    "same_signs": Metric("1 where all searches found the same signs, else 0", better="higher"),
+    "distance to faces": Metric("the distance to triangles in place of vertices"),
+    "gap of vertices": Metric("distance to vertices less that to triangles", better="lower"),
+    "edge length": Metric("mean length of the edges over the root of the area"),
+}
+
+
+@register("distance", "mean_hausdorff", metrics=METRICS)
 def mean_hausdorff_distance(
     options: MeanHausdorff,
     *,
@@ -52,7 +64,7 @@ def mean_hausdorff_distance(
     return _distance(options, source_surface, target_surface, source, target, "mean")
 
 
-@register("distance", "hausdorff")
+@register("distance", "hausdorff", metrics=METRICS)
 def hausdorff_distance(
     options: MeanHausdorff,
     *,

@@ -8,6 +8,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.wasserstein import wasserstein_distance
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.workflow.registry import Options, register
 
@@ -27,7 +28,12 @@ class Wasserstein(Options):
     seed: int = Field(0, ge=0, description="seed of the samples")
 
 
-@register("distance", "wasserstein")
+METRICS = {
+    "samples": Metric("samples of each surface"),
+}
+
+
+@register("distance", "wasserstein", metrics=METRICS)
 def wasserstein_plugin(
     options: Wasserstein, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:

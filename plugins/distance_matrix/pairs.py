@@ -8,6 +8,7 @@ from pydantic import Field
 from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.workflow.registry import Options, register
@@ -34,7 +35,19 @@ class Pairs(Options):
     seed: int = Field(0, ge=0, description="seed of samples and bases")
 
 
-@register("distance_matrix", "pairs")
+METRICS = {
+    "triangle_ratio": Metric("worst d(a, c) over d(a, b) + d(b, c)", better="lower"),
+    "triangles_broken": Metric("share of triples that break the triangle inequality", better="lower"),
+    "pairs": Metric("number of pairs"),
+    "triples": Metric("number of triples"),
+    "largest_distance": Metric("largest distance of a pair"),
+    "proved": Metric("share of pairs proved least", better="higher"),
+    "mean gap": Metric("mean of distance above its lower bound, relative", better="lower"),
+    "largest gap": Metric("largest distance above its lower bound, relative", better="lower"),
+}
+
+
+@register("distance_matrix", "pairs", metrics=METRICS)
 def pairs_matrix(options: Pairs, *, surfaces: dict[str, Surface], systems: dict[str, EigenSystem]) -> DistanceMatrix:
     """Spectral distance of every pair, the worst triangle, and the share of pairs proved least."""
     chosen = dict(options)

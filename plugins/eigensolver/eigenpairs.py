@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -43,7 +44,16 @@ class Dense(Eigenpairs):
     """Dense algebra."""
 
 
-@register("eigensolver", "slicing")
+METRICS = {
+    "factorisations": Metric("factorisations of the shifted pencil", better="lower"),
+    "factor_entries_per_row": Metric("entries of the factor a row", better="lower"),
+    "basis_size": Metric("vectors of all Lanczos bases", better="lower"),
+    "slices": Metric("intervals of the spectrum"),
+    "polishes": Metric("vectors improved at the end", better="lower"),
+}
+
+
+@register("eigensolver", "slicing", metrics=METRICS)
 def slicing_eigensolver(options: Sliced, *, surface: Surface, operator: SurfaceOperator) -> EigenSystem:
     """Shifted LDL factors, block Lanczos and inertia counts: proved complete, the default."""
     return surface_spectrum(surface, operator, **dict(options), method="auto", progress=report_progress)

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.embeddings import (
     classical_scaling,
@@ -26,19 +27,25 @@ class Seeded(Scaling):
     seed: int = Field(0, ge=0, description="seed of the random starts")
 
 
-@register("embedding", "classical")
+METRICS = {
+    "explained": Metric("share of the positive spectrum that is shown", better="higher"),
+    "negative_share": Metric("share of negative eigenvalues", better="lower"),
+}
+
+
+@register("embedding", "classical", metrics=METRICS)
 def classical_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
     """Classical multidimensional scaling, deterministic, the default."""
     return classical_scaling(distance_matrix, options.dimensions)
 
 
-@register("embedding", "smacof")
+@register("embedding", "smacof", metrics={"starts": Metric("starting configurations")})
 def smacof_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
     """Multidimensional scaling of least stress by majorisation, from seeded starts."""
     return stress_majorisation(distance_matrix, options.dimensions, options.seed)
 
 
-@register("embedding", "pca")
+@register("embedding", "pca", metrics={"explained": Metric("share of the variance that is shown", better="higher")})
 def pca_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
     """Principal components of the weighted signatures themselves."""
     return principal_components(distance_matrix, options.dimensions)

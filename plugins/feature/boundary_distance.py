@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.feature import Feature
 from surfexp.workflow.registry import Options, register
@@ -17,7 +18,7 @@ class BoundaryDistance(Options):
     halvings: int = Field(3, ge=0, le=6, description="halvings of the boundary's edges, for exact distances")
 
 
-@register("feature", "boundary_distance")
+@register("feature", "boundary_distance", metrics={"largest": Metric("largest distance", "unit of length")})
 def boundary_distance_feature(options: BoundaryDistance, *, surface: Surface) -> Feature:
     """Geodesic distance to the boundary (5.6), from which flux and Hamilton-Jacobi skeleton are made."""
     values = boundary_distance(surface.mesh, options.method, options.halvings)

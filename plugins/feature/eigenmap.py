@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.feature import Feature
@@ -15,7 +16,14 @@ class Eigenmap(Options):
     index: int = Field(1, ge=1, le=200, description="number of the eigenfunction, counted from the constant one, 0")
 
 
-@register("feature", "eigenmap")
+METRICS = {
+    "eigenvalue": Metric("its eigenvalue"),
+    "gap": Metric("distance to the nearest other eigenvalue, relative", better="higher"),
+    "residual": Metric("relative residual of the pair", better="lower"),
+}
+
+
+@register("feature", "eigenmap", metrics=METRICS)
 def eigenmap_feature(options: Eigenmap, *, surface: Surface, operator: SurfaceOperator) -> Feature:
     """Eigenfunction of the operator, isotropic or weighted, with free boundary (5.4)."""
     return eigenmap(operator, options.index)

@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.flux import flux, flux_weights, skeleton_points, weight_far_from_boundary
@@ -16,7 +17,16 @@ class Flux(Options):
     contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent; 1 as printed")
 
 
-@register("feature", "flux")
+METRICS = {
+    "least_flux": Metric("least flux"),
+    "largest_flux": Metric("largest flux"),
+    "skeleton_points": Metric("points of the skeleton"),
+    "smallest_weight": Metric("smallest weight"),
+    "largest_weight": Metric("largest weight"),
+}
+
+
+@register("feature", "flux", metrics=METRICS)
 def flux_feature(options: Flux, *, surface: Surface) -> Feature:
     """Flux of the gradient of the distance to the boundary (5.9), or the weight (5.10)."""
     distance = boundary_distance(surface.mesh)

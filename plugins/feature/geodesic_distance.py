@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.feature import Feature
 from surfexp.workflow.registry import Options, register
@@ -15,7 +16,7 @@ class GeodesicDistance(Options):
     source: int | None = Field(None, ge=0, description="vertex; default: one of the two that lie far apart")
 
 
-@register("feature", "geodesic_distance")
+@register("feature", "geodesic_distance", metrics={"largest": Metric("largest distance", "unit of length")})
 def geodesic_distance_feature(options: GeodesicDistance, *, surface: Surface) -> Feature:
     """Distance along the surface from a vertex, by fast marching."""
     source = options.source

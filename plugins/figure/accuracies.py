@@ -4,6 +4,7 @@ from pydantic import Field
 
 from surfexp.figures.figure import Figure
 from surfexp.figures.interval_plot import interval_plot
+from surfexp.metric import MetricName
 from surfexp.statistics.classification import Classification
 from surfexp.workflow.registry import Options, register
 
@@ -11,7 +12,9 @@ from surfexp.workflow.registry import Options, register
 class Accuracies(Options):
     """Which number is drawn, and what is written above and below."""
 
-    metric: str = Field("accuracy", description="metric of the classifications; with _low and _high its interval")
+    metric: MetricName = Field(
+        "accuracy", description="metric of the classifications; with _low and _high its interval"
+    )
     title: str = Field("", description="heading in the figure; default: the method, if it is one")
     caption: str = Field("", description="sentence below the figure")
 

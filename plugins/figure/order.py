@@ -5,6 +5,7 @@ from pydantic import Field
 
 from surfexp.figures.figure import Figure
 from surfexp.figures.order_plot import order_plot
+from surfexp.metric import Metric, MetricName
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
@@ -12,12 +13,17 @@ from surfexp.workflow.registry import Options, register
 class Order(Options):
     """Which errors are drawn against the mesh size."""
 
-    errors: dict[str, str] = Field(description="metric of each line, by its label")
+    errors: dict[str, MetricName] = Field(description="metric of each line, by its label")
     title: str = Field("", description="heading in the figure")
     caption: str = Field("", description="sentence below the figure")
 
 
-@register("figure", "order")
+METRICS = {
+    "order {line}": Metric("order of convergence", better="higher"),
+}
+
+
+@register("figure", "order", metrics=METRICS)
 def order_figure(options: Order, *, solvers: dict[str, Solution]) -> Figure:
     """Errors over the edge length along an axis of refinement, with the measured orders."""
     results = list(solvers.values())

@@ -11,6 +11,7 @@ from surfexp.figures.axes import FONT, SPACING, add_axes, class_style, spread
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn
 from surfexp.figures.typography import points as text_size
+from surfexp.metric import Metric
 from surfexp.statistics.point_embedding import PointEmbedding
 from surfexp.workflow.registry import Options, register
 
@@ -27,7 +28,12 @@ class Scatter(Options):
     width: int = Field(1000, ge=300, le=4000, description="pixels across")
 
 
-@register("figure", "scatter")
+METRICS = {
+    "stress": Metric("root of the squared misfit of the distances over their squares", better="lower"),
+}
+
+
+@register("figure", "scatter", metrics=METRICS)
 def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
     """The first two coordinates of an embedding, a colour and a marker for each class."""
     points = embedding.points[:, :2] if embedding.points.shape[1] > 1 else np.pad(embedding.points, [(0, 0), (0, 1)])

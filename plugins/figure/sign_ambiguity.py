@@ -12,6 +12,7 @@ from surfexp.figures.axes import COLORS
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, points
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -23,7 +24,13 @@ class SignAmbiguity(Options):
     width: int = Field(1600, ge=400, le=6000, description="pixels across")
 
 
-@register("figure", "sign_ambiguity")
+METRICS = {
+    "least": Metric("least distance over all signs"),
+    "next": Metric("second least distance over all signs"),
+}
+
+
+@register("figure", "sign_ambiguity", metrics=METRICS)
 def sign_ambiguity_figure(
     options: SignAmbiguity, *, source_surface: Surface, target_surface: Surface, distance: Distance
 ) -> Figure:

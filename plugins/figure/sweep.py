@@ -8,6 +8,7 @@ from pydantic import Field
 
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.metric import MetricName
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
@@ -17,7 +18,7 @@ LABEL = re.compile(r"(?P<line>.+) @ (?P<x>[-+.\deE]+)(?: #\w+)?")
 class Sweep(Options):
     """What is drawn against the numbers of an axis, and how it looks."""
 
-    metric: str = Field(description="metric of the solutions that is drawn")
+    metric: MetricName = Field(description="metric of the solutions that is drawn")
     x_label: str = Field(description="what the numbers after @ are")
     y_label: str = Field("", description="default: the metric")
     log: Literal["", "x", "y", "xy"] = Field("", description="logarithmic axes")

@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.variational.image import Image
 from surfexp.variational.initial_curves import angular_distance
 from surfexp.workflow.registry import Options, register
@@ -16,7 +17,12 @@ class CapDistance(Options):
     angle: float = Field(63.0, gt=0, lt=180, description="half opening of the cap, degrees")
 
 
-@register("image", "cap_distance")
+METRICS = {
+    "boundary_length": Metric("exact length of the boundary", "unit of length"),
+}
+
+
+@register("image", "cap_distance", metrics=METRICS)
 def cap_distance_image(options: CapDistance, *, surface: Surface) -> Image:
     """Angle from the border of a cap, positive inside: the signed distance on the unit sphere, for flows of curves."""
     angles = angular_distance(surface.mesh, np.array(options.direction))

@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.variational.image import Image
 from surfexp.workflow.registry import Options, register
 
@@ -19,7 +20,12 @@ class InpaintingDomain(Options):
     seed: int = Field(0, ge=0, description="seed of the lost places")
 
 
-@register("image", "inpainting_domain")
+METRICS = {
+    "lost_share": Metric("share of the area that is lost"),
+}
+
+
+@register("image", "inpainting_domain", metrics=METRICS)
 def inpainting_domain_image(options: InpaintingDomain, *, surface: Surface, original: Image) -> Image:
     """Another image with discs and single vertices lost; `known` says where it was kept."""
     random = np.random.default_rng(options.seed)

@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.variational.image import Image
 from surfexp.variational.initial_curves import angular_distance
 from surfexp.variational.painting import add_noise
@@ -20,7 +21,12 @@ class TwoPhase(Options):
     seed: int = Field(0, ge=0, description="seed of the noise")
 
 
-@register("image", "two_phase")
+METRICS = {
+    "boundary_length": Metric("exact length of the boundary", "unit of length"),
+}
+
+
+@register("image", "two_phase", metrics=METRICS)
 def two_phase_image(options: TwoPhase, *, surface: Surface) -> Image:
     """A bright cap, 255 on 0, cut by a cone about the centre of area; on a sphere its boundary is a circle."""
     angles = angular_distance(surface.mesh, np.array(options.direction))

@@ -3,6 +3,8 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
+from surfexp.variational.accuracy import SEGMENTATION_METRICS
 from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.initial_curves import disc_distance
 from surfexp.variational.model import Model
@@ -21,7 +23,25 @@ class ConvexChanVeseOptions(Options):
     seed: int = Field(0, ge=0, description="seed of the initial circles")
 
 
-@register("model", "convex_chan_vese")
+METRICS = {
+    "c1": Metric("mean of the brighter region", "unit of the image"),
+    "c2": Metric("mean of the darker region", "unit of the image"),
+    "updates": Metric("updates of the two means", better="lower"),
+    "threshold": Metric("level of the relaxed field that bounds the region"),
+    "threshold_energy": Metric("energy of the region at the threshold"),
+    "trivial_energy": Metric("energy of the best trivial labelling"),
+    "labelling_energy": Metric("energy of the labelling"),
+    "labelling_gap": Metric(
+        "energy of the labelling above the lower bound, over the scale of the model", better="lower"
+    ),
+    "solver_gap": Metric("relative gap of the solver's own field", better="lower"),
+    "brighter_share": Metric("share of the area in the brighter region"),
+    "perimeter": Metric("length of the boundary of the region", "unit of length"),
+    **SEGMENTATION_METRICS,
+}
+
+
+@register("model", "convex_chan_vese", metrics=METRICS)
 def convex_chan_vese_model(options: ConvexChanVeseOptions, *, surface: Surface) -> Model:
     """min over 0 <= phi <= 1 of TV(phi) + mu int phi r, with c1, c2 updated to the means of the two regions (2.19)."""
     mesh, start = surface.mesh, None

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.variational.accuracy import RESTORATION_METRICS
 from surfexp.variational.deblurring_model import Deblurring
 from surfexp.variational.model import Model
 from surfexp.workflow.registry import Options, register
@@ -15,7 +16,7 @@ class DeblurringOptions(Options):
     mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
 
 
-@register("model", "deblurring")
+@register("model", "deblurring", metrics=RESTORATION_METRICS)
 def deblurring_model(options: DeblurringOptions) -> Model:
     """min TV(phi) + mu/2 |K phi - I|^2, K a step of heat diffusion (2.7)."""
     return Deblurring(**dict(options))

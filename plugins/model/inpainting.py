@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.variational.accuracy import RESTORATION_METRICS
 from surfexp.variational.inpainting_model import Inpainting
 from surfexp.variational.model import Model
 from surfexp.workflow.registry import Options, register
@@ -14,7 +15,7 @@ class InpaintingOptions(Options):
     mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
 
 
-@register("model", "inpainting")
+@register("model", "inpainting", metrics=RESTORATION_METRICS)
 def inpainting_model(options: InpaintingOptions) -> Model:
     """min TV(phi) + mu/2 |phi - I|^2 over the known part of the image, values within its range (2.8)."""
     return Inpainting(w=options.w, mu=options.mu)

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.variational.model import Model
 from surfexp.variational.multiphase_model import MultiphaseSegmentation
 from surfexp.workflow.registry import Options, register
@@ -15,7 +16,17 @@ class Multiphase(Options):
     updates: int = Field(10, ge=1, le=1000, description="largest number of updates of the means")
 
 
-@register("model", "multiphase")
+METRICS = {
+    "c{region}": Metric("mean of a region, first channel", "unit of the image"),
+    "updates": Metric("updates of the means", better="lower"),
+    "trivial_energy": Metric("energy of the best labelling with one region"),
+    "labelling_energy": Metric("energy of the labelling"),
+    "least_dice": Metric("least overlap of a reference region with its best region", better="higher"),
+    "dice {reference}": Metric("overlap of a reference region with its best region, by area", better="higher"),
+}
+
+
+@register("model", "multiphase", metrics=METRICS)
 def multiphase_model(options: Multiphase) -> Model:
     """Convex relaxation of the segmentation into k regions, grey or coloured, with updated means."""
     return MultiphaseSegmentation(**dict(options))

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.variational.accuracy import RESTORATION_METRICS
 from surfexp.variational.model import Model
 from surfexp.variational.rof_model import ROF
 from surfexp.workflow.registry import Options, register
@@ -14,7 +15,7 @@ class RofOptions(Options):
     mu: float | None = Field(None, gt=0, description="the printed weight in place of w")
 
 
-@register("model", "rof")
+@register("model", "rof", metrics=RESTORATION_METRICS)
 def rof_model(options: RofOptions) -> Model:
     """min TV(phi) + mu/2 |phi - I|^2, the model of Rudin, Osher and Fatemi (2.6)."""
     return ROF(w=options.w, mu=options.mu)

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.variational.accuracy import RESTORATION_METRICS
 from surfexp.variational.model import Model
 from surfexp.variational.rof_model import ROF
 from surfexp.workflow.registry import Options, register
@@ -19,7 +20,7 @@ class VectorialRof(Options):
     )
 
 
-@register("model", "vectorial_rof")
+@register("model", "vectorial_rof", metrics=RESTORATION_METRICS)
 def vectorial_rof_model(options: VectorialRof) -> Model:
     """ROF with the rotation-invariant total variation of several channels; or channel by channel, as published."""
     return ROF(w=options.w, mu=options.mu, by_channel=options.scheme == "as_published")

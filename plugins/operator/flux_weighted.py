@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.boundary_distance import boundary_distance
@@ -22,7 +23,13 @@ class FluxWeighted(Options):
     method: Literal["fast_marching", "exact", "heat"] = Field("fast_marching", description="how D of (5.6) is found")
 
 
-@register("operator", "flux_weighted")
+METRICS = {
+    "smallest_weight": Metric("smallest weight of a triangle"),
+    "largest_weight": Metric("largest weight of a triangle"),
+}
+
+
+@register("operator", "flux_weighted", metrics=METRICS)
 def flux_weighted_operator(options: FluxWeighted, *, surface: Surface) -> SurfaceOperator:
     """The operator div(w grad) with the flux weights (5.10), larger near the skeleton; needs a patch with a boundary."""
     found = flux(surface.mesh, boundary_distance(surface.mesh, options.method))

@@ -1,6 +1,7 @@
 """Finite elements on the intrinsic Delaunay triangulation."""
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.workflow.registry import Options, register
@@ -10,7 +11,13 @@ class IntrinsicDelaunay(Options):
     """The intrinsic triangulation has no options."""
 
 
-@register("operator", "intrinsic_delaunay")
+METRICS = {
+    "flips": Metric("edges that were flipped"),
+    "mollification": Metric("length added to every edge", "unit of length"),
+}
+
+
+@register("operator", "intrinsic_delaunay", metrics=METRICS)
 def intrinsic_delaunay_operator(options: IntrinsicDelaunay, *, surface: Surface) -> SurfaceOperator:
     """Finite elements after intrinsic edge flips; survives slivers and mild non-manifoldness."""
     return intrinsic_delaunay(surface.mesh)

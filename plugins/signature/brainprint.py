@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.brainprint import brainprint
 from surfexp.spectrum.signature import Signature
 from surfexp.workflow.registry import Options, register
@@ -14,7 +15,13 @@ class BrainPrint(Options):
     count: int = Field(50, ge=1, le=2000, description="eigenvalues after 0")
 
 
-@register("signature", "brainprint")
+METRICS = {
+    "first": Metric("first entry"),
+    "last": Metric("last entry"),
+}
+
+
+@register("signature", "brainprint", metrics=METRICS)
 def brainprint_signature(options: BrainPrint, *, surface: Surface) -> Signature:
     """Shape DNA by LaPy, times the area and over the number of each value, as BrainPrint takes it."""
     return brainprint(surface.mesh, options.count)

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.shape_distributions import (
     embedding_distances,
@@ -23,7 +24,12 @@ class Distribution(Options):
     seed: int = Field(0, ge=0, description="seed of the points that gps draws")
 
 
-@register("signature", "distribution")
+METRICS = {
+    "length": Metric("entries"),
+}
+
+
+@register("signature", "distribution", metrics=METRICS)
 def distribution_signature(options: Distribution, *, surface: Surface, eigensolver: EigenSystem) -> Signature:
     """Heat trace, or the distribution over the surface of HKS, WKS or distances in the GPS embedding."""
     areas = surface.mesh.vertex_areas

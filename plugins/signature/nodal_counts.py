@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes
@@ -20,7 +21,15 @@ class NodalCounts(Options):
     seed: int = Field(0, ge=0, description="seed of the random bases that averaged takes")
 
 
-@register("signature", "nodal_counts")
+METRICS = {
+    "count_{mode}": Metric("nodal domains of a mode, the constant is mode 0"),
+    "total": Metric("sum of all counts"),
+    "courant_violations": Metric("modes with more domains than Courant's bound", better="lower"),
+    "trusted_modes": Metric("modes whose counts the mesh resolves"),
+}
+
+
+@register("signature", "nodal_counts", metrics=METRICS)
 def nodal_counts_signature(options: NodalCounts, *, operator: SurfaceOperator, eigensolver: EigenSystem) -> Signature:
     """Numbers of nodal domains of the modes after the constant one (definition 4.3.1)."""
     counts = counted_domains(eigensolver, graph_of(operator, eigensolver), options.counting, options.seed)

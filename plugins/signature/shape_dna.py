@@ -6,6 +6,7 @@ from pydantic import Field
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.signature import Signature
@@ -21,7 +22,14 @@ class ShapeDna(Options):
     reweighted: bool = Field(False, description="divide the n-th value by n")
 
 
-@register("signature", "shape_dna")
+METRICS = {
+    "first": Metric("first entry"),
+    "last": Metric("last entry"),
+    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+}
+
+
+@register("signature", "shape_dna", metrics=METRICS)
 def shape_dna_signature(options: ShapeDna, *, surface: Surface, eigensolver: EigenSystem) -> Signature:
     """Eigenvalues after the zero ones, raw or independent of size (shape DNA)."""
     volume = abs(enclosed_volume(surface.mesh)) if surface.mesh.is_closed else None

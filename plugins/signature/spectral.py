@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.spectrum.signature import Signature
@@ -23,7 +24,18 @@ class Spectral(Options):
     seed: int = Field(0, ge=0, description="seed of starting vectors and of drawn points")
 
 
-@register("signature", "spectral")
+METRICS = {
+    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "largest_residual": Metric("largest relative residual of the pairs", better="lower"),
+    "area": Metric("area", "unit of length squared"),
+    "edge_length": Metric("mean length of the edges", "unit of length"),
+    "courant_violations": Metric("modes with more domains than Courant's bound", better="lower"),
+    "trusted_modes": Metric("modes whose counts the mesh resolves"),
+    "mean_count_ratio": Metric("mean of count over number of the mode"),
+}
+
+
+@register("signature", "spectral", metrics=METRICS)
 def spectral(options: Spectral, *, surface: Surface) -> Signature:
     """Shape DNA, nodal counts, heat trace, HKS, WKS, GPS distances and area in one stage, each a part by name."""
     operator = TRIANGULATIONS[options.triangulation](surface.mesh)

@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
 from surfexp.skeleton.skeleton import Skeleton
@@ -15,7 +16,12 @@ class HamiltonJacobi(Options):
     threshold: float = Field(-0.35, lt=0, ge=-1, description="ends of curves with flux below this stay")
 
 
-@register("skeleton", "hamilton_jacobi")
+METRICS = {
+    "length": Metric("length of all arcs", "unit of length"),
+}
+
+
+@register("skeleton", "hamilton_jacobi", metrics=METRICS)
 def hamilton_jacobi_plugin(options: HamiltonJacobi, *, surface: Surface) -> Skeleton:
     """Hamilton-Jacobi skeleton (figures 5.1 and 5.5): flux-ordered thinning that keeps topology."""
     distance = boundary_distance(surface.mesh)

@@ -6,6 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.lengths import skeleton_lengths
 from surfexp.skeleton.levels import choose_levels
@@ -26,7 +27,20 @@ class ReebGraph(Options):
     persistence: float = Field(0.0, ge=0, le=0.5, description="branches below this share of the range are cut off")
 
 
-@register("skeleton", "reeb_graph")
+METRICS = {
+    "levels": Metric("number of levels"),
+    "contours": Metric("number of contours"),
+    "hidden_handles": Metric("handles without a level between their saddles", better="lower"),
+    "cut_branches": Metric("branches that the simplification cut off"),
+    "edge_length": Metric("mean length of the edges", "unit of length"),
+    "polyline_length": Metric("length of the line through the contours", "unit of length"),
+    "length_with_extrema": Metric("length of that line with the extremal vertices", "unit of length"),
+    "geodesic_length": Metric("geodesic distance of the extremal vertices", "unit of length"),
+    "mean_distance_length": Metric("sum of the mean distances between levels", "unit of length"),
+}
+
+
+@register("skeleton", "reeb_graph", metrics=METRICS)
 def reeb_graph_skeleton(options: ReebGraph, *, surface: Surface, feature: Feature) -> Skeleton:
     """Reeb graph of a feature at sampled levels (section 5.2), with caps and junctions, and lengths of its trunk."""
     levels = choose_levels(surface.mesh, feature.values, options.count, options.levels)

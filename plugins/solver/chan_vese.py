@@ -3,7 +3,9 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.accuracy import SEGMENTATION_METRICS
 from surfexp.variational.chan_vese_model import ChanVese
 from surfexp.variational.image import Image
 from surfexp.variational.initial_curves import disc_distance
@@ -28,7 +30,15 @@ class ChanVeseOptions(Options):
     iteration_limit: int = Field(10000, ge=1, description="most steps")
 
 
-@register("solver", "chan_vese")
+METRICS = {
+    "c1": Metric("mean inside", "unit of the image"),
+    "c2": Metric("mean outside", "unit of the image"),
+    "perimeter": Metric("length of the zero line", "unit of length"),
+    **SEGMENTATION_METRICS,
+}
+
+
+@register("solver", "chan_vese", metrics=METRICS)
 def chan_vese_solver(
     options: ChanVeseOptions, *, surface: Surface, image: Image, operator: SurfaceOperator
 ) -> Solution:

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from surfexp.baselines.closest_point import closest_point
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
@@ -23,7 +24,17 @@ class ClosestPointOptions(Options):
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
 
 
-@register("solver", "closest_point", accepts={"model": ("rof", "convex_chan_vese")})
+METRICS = {
+    "node_count": Metric("nodes of the band"),
+    "grid_points": Metric("points of the whole grid"),
+    "memory_bytes": Metric("memory of the band", "bytes", "lower"),
+    "band_energy": Metric("energy in the band"),
+    "band_gap": Metric("relative gap of the problem in the band", better="lower"),
+    "normal_variation": Metric("variation of the result along the normals", "unit of the image", "lower"),
+}
+
+
+@register("solver", "closest_point", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
 def closest_point_solver(
     options: ClosestPointOptions, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:

@@ -7,6 +7,7 @@ from pydantic import Field
 from surfexp.baselines.parameter_domain import Parametrized, conformal_domain
 from surfexp.baselines.sphere_grid import sphere_grid_domain
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
@@ -24,7 +25,23 @@ class Conformal(Options):
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
 
 
-@register("solver", "conformal", accepts={"model": ("rof", "convex_chan_vese")})
+METRICS = {
+    "domain_energy": Metric("energy on the parameter domain"),
+    "domain_gap": Metric("relative gap on the parameter domain", better="lower"),
+    "node_count": Metric("unknowns on the parameter domain"),
+    "memory_bytes": Metric("memory of the parameter domain", "bytes", "lower"),
+    "length_scale_spread": Metric("99th over 1st percentile of the length scale of the map", better="lower"),
+    "length_scale_ratio": Metric("largest over smallest length scale of the map", better="lower"),
+    "flipped_faces": Metric("faces whose orientation is turned", better="lower"),
+    "angle_error_mean": Metric("mean difference of corner angles", "degrees", "lower"),
+    "angle_error_max": Metric("largest difference of corner angles", "degrees", "lower"),
+    "quasi_conformal_mean": Metric("mean ratio of singular values, 1 for a conformal map", better="lower"),
+    "grid_separation": Metric("largest distance of neighbouring grid points on the surface", "unit of length"),
+    "area_ratio": Metric("area of the grid over that of the surface"),
+}
+
+
+@register("solver", "conformal", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
 def conformal_solver(
     options: Conformal, *, surface: Surface, spherical: Surface, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:

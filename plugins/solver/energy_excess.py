@@ -6,6 +6,7 @@ from functools import partial
 from pydantic import Field
 
 from surfexp.baselines.energy_excess import energy_excess
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
@@ -24,7 +25,12 @@ class EnergyExcess(Options):
     tolerance: float = Field(1e-6, gt=0, lt=1, description="relative gap of the intrinsic solve that gives the bound")
 
 
-@register("solver", "energy_excess", accepts={"model": ("rof", "convex_chan_vese")})
+METRICS = {
+    "energy_excess": Metric("energy above the least one found by any method, relative", better="lower"),
+}
+
+
+@register("solver", "energy_excess", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
 def energy_excess_solver(
     options: EnergyExcess, *, result: Solution, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:

@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.calculus import divergence, gradient
 from surfexp.operators.first_ring import ring_divergence, ring_gradient
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -25,7 +26,13 @@ class ExplicitDiffusion(Options):
     step: float = Field(0.01, gt=0, le=0.1, description="length of a step in squared edge lengths")
 
 
-@register("solver", "explicit_diffusion", accepts={"operator": ("vertex_averaged",)})
+METRICS = {
+    "mean": Metric("mean of the image", "unit of the image"),
+    "deviation": Metric("root mean square of the image", "unit of the image"),
+}
+
+
+@register("solver", "explicit_diffusion", metrics=METRICS, accepts={"operator": ("vertex_averaged",)})
 def explicit_diffusion_solver(
     options: ExplicitDiffusion, *, surface: Surface, image: Image, operator: SurfaceOperator
 ) -> Solution:

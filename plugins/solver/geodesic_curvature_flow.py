@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
@@ -22,7 +23,15 @@ class GeodesicCurvatureFlow(Options):
     smoothing: float = Field(0.05, gt=0, le=1, description="regularisation of |grad f| as a share of its mean")
 
 
-@register("solver", "geodesic_curvature_flow")
+METRICS = {
+    "time": Metric("end time", "unit of length squared"),
+    "length_before": Metric("length of the curve at the start", "unit of length"),
+    "perimeter": Metric("length of the curve at the end", "unit of length"),
+    "edge_length": Metric("mean length of the edges", "unit of length"),
+}
+
+
+@register("solver", "geodesic_curvature_flow", metrics=METRICS)
 def geodesic_curvature_flow_solver(
     options: GeodesicCurvatureFlow, *, image: Image, operator: SurfaceOperator
 ) -> Solution:

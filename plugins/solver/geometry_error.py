@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.variational.accuracy import restoration_metrics
 from surfexp.variational.image import Image
@@ -16,7 +17,17 @@ class GeometryError(Options):
     """The comparison of two surfaces has no options."""
 
 
-@register("solver", "geometry_error")
+METRICS = {
+    "vertex_error_before": Metric(
+        "root mean square distance of the noisy vertices to the clean ones", "unit of length"
+    ),
+    "vertex_error": Metric("root mean square distance of the vertices to the clean ones", "unit of length", "lower"),
+    "normal_error_before": Metric("mean angle between noisy and clean face normals", "degrees"),
+    "normal_error": Metric("mean angle between face normals and clean ones", "degrees", "lower"),
+}
+
+
+@register("solver", "geometry_error", metrics=METRICS)
 def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, clean: Surface) -> Solution:
     """Another solver's vertices as they are, with their distance and their normals measured against the clean surface."""
     truth = clean.mesh

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.accuracy import restoration_metrics
+from surfexp.variational.accuracy import RESTORATION_METRICS, restoration_metrics
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.variational.surface_flows import heat_flow
@@ -20,7 +21,15 @@ class HeatFlow(Options):
     steps: int = Field(10, ge=1, le=10000, description="implicit Euler steps")
 
 
-@register("solver", "heat_flow")
+METRICS = {
+    "time": Metric("end time", "unit of length squared"),
+    "total_variation": Metric("total variation of the result"),
+    "mean_drift": Metric("change of the mean", "unit of the image", "lower"),
+    **RESTORATION_METRICS,
+}
+
+
+@register("solver", "heat_flow", metrics=METRICS)
 def heat_flow_solver(options: HeatFlow, *, image: Image, operator: SurfaceOperator) -> Solution:
     """The image after diffusing for a time, by implicit Euler steps: the linear filter beside total variation."""
     time = 0.5 * (options.width * operator.edge_length) ** 2

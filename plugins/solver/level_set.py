@@ -8,6 +8,7 @@ from pydantic import Field
 
 from surfexp.baselines.level_set import level_set
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
@@ -27,7 +28,17 @@ class LevelSetOptions(Options):
     step_limit: int = Field(20000, ge=1, description="most steps of one convex problem")
 
 
-@register("solver", "level_set", accepts={"model": ("rof", "convex_chan_vese")})
+METRICS = {
+    "node_count": Metric("nodes of the band"),
+    "grid_points": Metric("points of the whole grid"),
+    "memory_bytes": Metric("memory of the band", "bytes", "lower"),
+    "band_energy": Metric("energy in the band"),
+    "band_gap": Metric("relative gap of the problem in the band", better="lower"),
+    "normal_variation": Metric("variation of the result along the normals", "unit of the image", "lower"),
+}
+
+
+@register("solver", "level_set", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
 def level_set_solver(
     options: LevelSetOptions, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
@@ -18,7 +19,14 @@ class PartitionEnergy(Options):
     mu: float = Field(1e-3, gt=0, description="the printed weight of the data term, as in the solver compared")
 
 
-@register("solver", "partition_energy")
+METRICS = {
+    "partition_energy": Metric("perimeter and data term of the region"),
+    "inside_share": Metric("share of the area inside"),
+    "perimeter": Metric("length of the boundary of the region", "unit of length"),
+}
+
+
+@register("solver", "partition_energy", metrics=METRICS)
 def partition_energy(
     options: PartitionEnergy, *, result: Solution, image: Image, operator: SurfaceOperator
 ) -> Solution:

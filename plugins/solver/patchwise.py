@@ -8,6 +8,7 @@ from pydantic import Field
 from surfexp.baselines.parameter_domain import Parametrized
 from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
@@ -25,7 +26,27 @@ class Patchwise(Options):
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
 
 
-@register("solver", "patchwise", accepts={"model": ("rof", "convex_chan_vese")})
+METRICS = {
+    "domain_energy": Metric("energy on the parameter domain"),
+    "domain_gap": Metric("relative gap on the parameter domain", better="lower"),
+    "node_count": Metric("unknowns on the parameter domain"),
+    "memory_bytes": Metric("memory of the parameter domain", "bytes", "lower"),
+    "length_scale_spread": Metric("99th over 1st percentile of the length scale of the map", better="lower"),
+    "length_scale_ratio": Metric("largest over smallest length scale of the map", better="lower"),
+    "flipped_faces": Metric("faces whose orientation is turned", better="lower"),
+    "angle_error_mean": Metric("mean difference of corner angles", "degrees", "lower"),
+    "angle_error_max": Metric("largest difference of corner angles", "degrees", "lower"),
+    "quasi_conformal_mean": Metric("mean ratio of singular values, 1 for a conformal map", better="lower"),
+    "patches": Metric("number of patches"),
+    "seam_vertices": Metric("vertices that belong to several patches"),
+    "seam_error": Metric("mean error on the seams", "unit of the image", "lower"),
+    "interior_error": Metric("mean error away from the seams", "unit of the image", "lower"),
+    "seam_error_share": Metric("part of the error that the seams and their neighbours carry"),
+    "seam_area_share": Metric("part of the area that the seams and their neighbours have"),
+}
+
+
+@register("solver", "patchwise", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
 def patchwise_solver(
     options: Patchwise, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:

@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.accuracy import segmentation_metrics
+from surfexp.variational.accuracy import SEGMENTATION_METRICS, segmentation_metrics
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
@@ -19,7 +20,14 @@ class Threshold(Options):
     rule: Literal["sign", "otsu"] = Field("sign", description="zero, or Otsu's threshold between two classes")
 
 
-@register("solver", "threshold")
+METRICS = {
+    "perimeter": Metric("length of the boundary of the region", "unit of length"),
+    "threshold": Metric("grey level that bounds the region", "unit of the image"),
+    **SEGMENTATION_METRICS,
+}
+
+
+@register("solver", "threshold", metrics=METRICS)
 def threshold_solver(options: Threshold, *, image: Image, operator: SurfaceOperator) -> Solution:
     """The region where the image exceeds zero, or Otsu's threshold; no energy, no certificate."""
     from skimage.filters import threshold_otsu

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.distance_matrix import DistanceMatrix
@@ -16,7 +17,16 @@ class ClassDistances(Options):
     second: str = Field("", description="the other class of the pair")
 
 
-@register("statistic", "class_distances")
+CLASS_DISTANCES_METRICS = {
+    "members": Metric("members of the collection"),
+    "nearest": Metric("mean distance of the closest pair of classes"),
+    "farthest": Metric("mean distance of the farthest pair of classes"),
+    "relatives": Metric("mean distance of the two related classes"),
+    "relatives_rank": Metric("rank of the related pair among all pairs, 1 is the closest"),
+}
+
+
+@register("statistic", "class_distances", metrics=CLASS_DISTANCES_METRICS)
 def class_distances_statistic(options: ClassDistances, *, distance_matrix: DistanceMatrix) -> Statistic:
     """Mean distances between all pairs of classes, and the rank of one pair."""
     return class_distances(distance_matrix, options.first, options.second)
@@ -31,7 +41,20 @@ class ClassReadings(Options):
     outlying: list[str] = Field(["centaur"], description="classes that are said to be far from all others")
 
 
-@register("statistic", "class_readings")
+CLASS_READINGS_METRICS = {
+    "members": Metric("members of the collection"),
+    "classes": Metric("classes of the collection"),
+    "readings": Metric("readings of the figure that could be judged"),
+    "nearest": Metric("mean distance of the closest pair of classes"),
+    "farthest": Metric("mean distance of the farthest pair of classes"),
+    "rank {first}, {second}": Metric("rank of a pair among all pairs of classes, 1 is the closest"),
+    "rank {first} to {second}": Metric("place of each in the other's list of neighbours, 1 is the nearest"),
+    "remoteness {name}": Metric("rank by mean distance to the other classes, 1 is the farthest"),
+    "nearest {name}": Metric("distance to the nearest class over the mean distance"),
+}
+
+
+@register("statistic", "class_readings", metrics=CLASS_READINGS_METRICS)
 def class_readings_statistic(options: ClassReadings, *, distance_matrix: DistanceMatrix) -> Statistic:
     """Statements about near and outlying classes as ranks of distances; those of absent classes are left out."""
     return class_readings(distance_matrix, options.near, options.outlying)

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.count_agreement import count_agreement, largest_change
 from surfexp.statistics.statistic import Statistic
@@ -14,13 +15,30 @@ class Agreement(Options):
     part: str = Field("", description="part of the signatures; empty: the signature itself")
 
 
-@register("statistic", "count_agreement")
+COUNT_AGREEMENT_METRICS = {
+    "first_20": Metric("mean share of equal counts among the first 20 modes", better="higher"),
+    "all": Metric("mean share of equal counts among all modes", better="higher"),
+    "trusted": Metric("mean of the first mode at which the share falls under 0.9", better="higher"),
+    "mean_error": Metric("mean difference of the counts", better="lower"),
+    "first 20 {label}": Metric("share of equal counts among the first 20 modes", better="higher"),
+    "all {label}": Metric("share of equal counts among all modes", better="higher"),
+    "trusted {label}": Metric("first mode at which the share falls under 0.9", better="higher"),
+}
+
+
+@register("statistic", "count_agreement", metrics=COUNT_AGREEMENT_METRICS)
 def agreement_statistic(options: Agreement, *, reference: Signature, others: dict[str, Signature]) -> Statistic:
     """Share of nodal counts that agree with a reference mesh, by the number of the mode."""
     return count_agreement(reference, others, options.part)
 
 
-@register("statistic", "signature_change")
+SIGNATURE_CHANGE_METRICS = {
+    "largest": Metric("largest relative change of an entry", better="lower"),
+    "mean": Metric("mean relative change of the entries", better="lower"),
+}
+
+
+@register("statistic", "signature_change", metrics=SIGNATURE_CHANGE_METRICS)
 def change_statistic(options: Agreement, *, reference: Signature, others: dict[str, Signature]) -> Statistic:
     """Largest and mean relative change of a signature against a reference."""
     return largest_change(reference, others, options.part)

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
 from surfexp.embedding.distance_growth import distance_brackets, logarithmic_slope, squared_norms
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
@@ -27,7 +28,16 @@ class DistanceGrowth(Options):
     )
 
 
-@register("statistic", "distance_growth")
+METRICS = {
+    "lower bound": Metric("proved lower bound of the distance at the largest n"),
+    "upper bound": Metric("upper bound of the distance at the largest n"),
+    "norm slope times 4 pi": Metric("growth of the mean squared norm over (1/4 pi) ln n"),
+    "growth of the norm, last doubling": Metric("relative growth of the mean squared norm"),
+    "growth of the upper bound, last doubling": Metric("relative growth of the upper bound"),
+}
+
+
+@register("statistic", "distance_growth", metrics=METRICS)
 def distance_growth_statistic(options: DistanceGrowth) -> Statistic:
     """Bounds of d_n and the mean squared norm of the embedding for growing n, and their growth with ln n."""
     sizes = sorted({round(options.largest / 2**k) for k in range(int(np.log2(options.largest / 4)) + 1)})

@@ -3,6 +3,7 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.spectrum.drum_values import drum_values
 from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
 from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
@@ -22,7 +23,16 @@ class Values(Options):
     grading: float = Field(4.0, ge=1, le=6, description="exponent that draws nodes to the corners")
 
 
-@register("statistic", "drum_values")
+METRICS = {
+    "error_to_published": Metric("largest relative error to the published values", better="lower"),
+    "error_to_exact": Metric("largest relative error to the values known exactly", better="lower"),
+    "largest_estimate": Metric("largest estimated error of the extrapolation", better="lower"),
+    "finest_mesh_error": Metric("largest relative error of the finest mesh", better="lower"),
+    "degrees_of_freedom": Metric("unknowns of the finest mesh"),
+}
+
+
+@register("statistic", "drum_values", metrics=METRICS)
 def drum_values_statistic(options: Values) -> Statistic:
     """First Dirichlet values of the Gordon-Webb-Wolpert drum by cubic elements on graded meshes, extrapolated."""
     tile = TILE_SHAPES["right_isosceles"]

@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
 from surfexp.skeleton.levels import choose_levels
@@ -27,7 +28,21 @@ class GenusCheck(Options):
     seed: int = Field(0, ge=0, description="seed of the directions")
 
 
-@register("statistic", "genus_check")
+METRICS = {
+    "handles": Metric("handles of the surface"),
+    "right": Metric("share of runs with as many loops as handles", better="higher"),
+    "right_or_said": Metric("share of runs right with the hidden handles that are reported", better="higher"),
+    "wrong": Metric("runs with another number of loops", better="lower"),
+    "hidden_extent": Metric("largest extent of a hidden handle, share of the range"),
+    "right_at_finest": Metric("share of runs right at most levels", better="higher"),
+    "exact_right": Metric("share right with critical levels", better="higher"),
+    "printed_right": Metric("share right by the published rule", better="higher"),
+    "too_many": Metric("runs with more loops than handles", better="lower"),
+    "runs": Metric("number of runs"),
+}
+
+
+@register("statistic", "genus_check", metrics=METRICS)
 def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic:
     """Loops of the Reeb graphs of heights in random directions, sampled and exact, against the genus of a closed surface."""
     mesh = surface.mesh

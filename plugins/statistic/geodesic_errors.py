@@ -7,6 +7,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
 from surfexp.embedding.labels import ORIGIN
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
@@ -20,7 +21,13 @@ class GeodesicErrors(Options):
     seed: int = Field(0, ge=0, description="seed of the draw")
 
 
-@register("statistic", "geodesic_errors")
+METRICS = {
+    "mean, {map}": Metric("mean geodesic error over the root of the area", better="lower"),
+    "within .05, {map}": Metric("share of the area with an error of at most .05", better="higher"),
+}
+
+
+@register("statistic", "geodesic_errors", metrics=METRICS)
 def geodesic_errors_statistic(
     options: GeodesicErrors, *, source_surface: Surface, target_surface: Surface, maps: dict[str, Distance]
 ) -> Statistic:

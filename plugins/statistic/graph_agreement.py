@@ -3,6 +3,7 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.skeleton.agreement import length_profile, same_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.statistics.statistic import Statistic
@@ -15,7 +16,15 @@ class GraphAgreement(Options):
     label: str = Field("eigenmap", description="feature whose graphs are compared, for the name")
 
 
-@register("statistic", "graph_agreement")
+METRICS = {
+    "isomorphic": Metric("share of graphs isomorphic to the first, level by level", better="higher"),
+    "width_change": Metric("largest change of a contour's length over their mean", better="lower"),
+    "chains": Metric("share of skeletons that are chains", better="higher"),
+    "members": Metric("number of skeletons"),
+}
+
+
+@register("statistic", "graph_agreement", metrics=METRICS)
 def graph_agreement_statistic(options: GraphAgreement, *, skeletons: dict[str, Skeleton]) -> Statistic:
     """Share of the graphs that are isomorphic to the first one, level by level, and the largest change of contour lengths."""
     first = next(iter(skeletons.values()))

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.group_power import group_power
 from surfexp.statistics.statistic import Statistic
@@ -26,7 +27,19 @@ class GroupPower(Options):
     seed: int = Field(0, ge=0, description="seed of draws and permutations")
 
 
-@register("statistic", "group_power")
+METRICS = {
+    "power {size}": Metric("share of draws in which groups of that size are told apart", better="higher"),
+    "false_alarms": Metric("share of draws of both groups from one class that are told apart"),
+    "false_alarms_low": Metric("lower end of its exact 95 % interval"),
+    "false_alarms_high": Metric("upper end of its exact 95 % interval"),
+    "level": Metric("level of the test"),
+    "draws": Metric("number of draws"),
+    "least_p": Metric("minimum attainable p", better="lower"),
+    "p_value": Metric("p of the two whole groups", better="lower"),
+}
+
+
+@register("statistic", "group_power", metrics=METRICS)
 def group_power_statistic(options: GroupPower, *, distance_matrix: DistanceMatrix) -> Statistic:
     """How often groups of each size are told apart by a permutation test of their energy distance."""
     return group_power(distance_matrix, **dict(options))

@@ -5,6 +5,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.spectrum.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
 from surfexp.spectrum.isospectral_graphs import compare_graphs
@@ -30,7 +31,19 @@ class IsospectralDrums(Options):
     boundary: Literal["dirichlet", "neumann"] = Field("dirichlet", description="condition on the boundary")
 
 
-@register("statistic", "isospectral_drums")
+ISOSPECTRAL_DRUMS_METRICS = {
+    "spectral_difference": Metric("largest relative difference of the two spectra", better="lower"),
+    "complete": Metric("1 where no eigenvalue is proved to be missing in either, else 0", better="higher"),
+    "transplanted": Metric("largest error of a transplanted eigenfunction", better="lower"),
+    "first_differing_mode": Metric("first mode with different nodal counts, 0 where there is none"),
+    "differing_modes": Metric("modes with different nodal counts"),
+    "congruent": Metric("1 where the two outlines are congruent, else 0"),
+    "degrees_of_freedom": Metric("unknowns of the discrete problem"),
+    "error_to_published": Metric("largest relative error to the published values", better="lower"),
+}
+
+
+@register("statistic", "isospectral_drums", metrics=ISOSPECTRAL_DRUMS_METRICS)
 def isospectral_drums(options: IsospectralDrums) -> Statistic:
     """Spectra and nodal counts of two drums of seven equal tiles that sound the same."""
     named = options.pair in NAMED
@@ -72,7 +85,16 @@ class IsospectralGraphs(Options):
     """No option."""
 
 
-@register("statistic", "isospectral_graphs")
+ISOSPECTRAL_GRAPHS_METRICS = {
+    "graphs": Metric("number of graphs"),
+    "vertices": Metric("vertices of the largest graph"),
+    "adjacency_difference": Metric("largest difference of adjacency spectra", better="lower"),
+    "laplacian_difference": Metric("largest difference of Laplacian spectra", better="lower"),
+    "isomorphic": Metric("pairs that are the same graph"),
+}
+
+
+@register("statistic", "isospectral_graphs", metrics=ISOSPECTRAL_GRAPHS_METRICS)
 def isospectral_graphs(options: IsospectralGraphs) -> Statistic:
     """Graphs glued as the drums are: equal spectra of adjacency and Laplacian, and whether they are the same graph."""
     found = [compare_graphs(pair) for pair in transplantation_pairs()]

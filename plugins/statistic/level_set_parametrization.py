@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.patch_grid import compare_on_grid, region_found
 from surfexp.skeleton.width_test import false_positive_share
 from surfexp.statistics.statistic import Statistic
@@ -25,7 +26,25 @@ class LevelSetParametrization(Options):
     seed: int = Field(0, ge=0, description="seed of the exchanges")
 
 
-@register("statistic", "level_set_parametrization")
+METRICS = {
+    "points": Metric("points of the grid"),
+    "points_found": Metric("points significant after correction"),
+    "share_found": Metric("share of points significant after correction"),
+    "points_uncorrected": Metric("points significant without correction"),
+    "smallest_corrected_p": Metric("smallest corrected p", better="lower"),
+    "centre_u": Metric("centre of the points found, along"),
+    "centre_v": Metric("centre of the points found, across"),
+    "from_u": Metric("first point found, along"),
+    "to_u": Metric("last point found, along"),
+    "from_v": Metric("first point found, across"),
+    "to_v": Metric("last point found, across"),
+    "false_positives": Metric("share of random halvings of one group in which something is found"),
+    "left_out": Metric("points of the grid left out"),
+    "members": Metric("members of both groups"),
+}
+
+
+@register("statistic", "level_set_parametrization", metrics=METRICS)
 def level_set_parametrization_statistic(
     options: LevelSetParametrization, *, first: dict[str, Surface], second: dict[str, Surface]
 ) -> Statistic:

@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.nodal_trend import nodal_trend
 from surfexp.statistics.statistic import Statistic
@@ -16,7 +17,19 @@ class Trend(Options):
     part: str = Field("", description="part of the signature; empty: the signature itself")
 
 
-@register("statistic", "nodal_trend")
+METRICS = {
+    "mean_ratio": Metric("mean of count over number, upper half of the modes"),
+    "largest_ratio": Metric("largest count over number, upper half of the modes"),
+    "exponent": Metric("exponent of the growth of the counts"),
+    "slope": Metric("factor of the growth of the counts"),
+    "over_rectangle": Metric("mean ratio over that of the rectangle, 4 / pi^2"),
+    "pleijel": Metric("Pleijel's bound of the upper limit"),
+    "smooth_ratio": Metric("mean ratio of a rectangle without fluctuations"),
+    "over_smooth": Metric("mean ratio over that of a rectangle without fluctuations"),
+}
+
+
+@register("statistic", "nodal_trend", metrics=METRICS)
 def nodal_trend_statistic(options: Trend, *, surface: Surface, signature: Signature) -> Statistic:
     """Mean of count over mode number, its exponent, and how far it is below the bounds of Courant and Pleijel."""
     mesh = surface.mesh

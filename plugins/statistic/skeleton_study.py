@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.study import compactness, group_skeletons, miss_metrics, topology_metrics
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
@@ -26,7 +27,28 @@ class SkeletonStudy(Options):
     seed: int = Field(0, ge=0, description="seed of the bootstrap")
 
 
-@register("statistic", "skeleton_study")
+METRICS = {
+    "chains": Metric("share of skeletons that are chains", better="higher"),
+    "topologies": Metric("number of different topologies", better="lower"),
+    "leaves": Metric("mean number of leaves"),
+    "branch_nodes": Metric("mean number of branch nodes"),
+    "loops": Metric("mean number of loops"),
+    "members": Metric("number of skeletons"),
+    "cut_branches": Metric("mean number of branches that the simplification cut off"),
+    "midline_miss": Metric("mean of the largest distance of the midline to the skeleton", "edge lengths", "lower"),
+    "midline_miss_worst": Metric("largest distance of a midline to its skeleton", "edge lengths", "lower"),
+    "skeleton_excess": Metric("mean of the largest distance of the skeleton to the midline", "edge lengths", "lower"),
+    "genu_miss": Metric("mean of the largest distance of the genu's midline to the skeleton", "edge lengths", "lower"),
+    "first_share": Metric("variance share of the first principal component", better="higher"),
+    "first_share_low": Metric("lower end of its 95 % bootstrap interval"),
+    "first_share_high": Metric("upper end of its 95 % bootstrap interval"),
+    "first_three_share": Metric("variance share of the first three principal components", better="higher"),
+    "total_variance": Metric("total variance", better="lower"),
+    "coverage": Metric("length of the skeleton's line over that between all levels", better="higher"),
+}
+
+
+@register("statistic", "skeleton_study", metrics=METRICS)
 def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surface]) -> Statistic:
     """Chains, principal components with bootstrap intervals, and distance from known midlines, of a group's skeletons."""
     skeletons = group_skeletons(

@@ -3,6 +3,7 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.skeleton.study import topology_metrics
@@ -16,7 +17,17 @@ class SkeletonTopology(Options):
     group: str = Field("", description="what the members are, for the name")
 
 
-@register("statistic", "skeleton_topology")
+METRICS = {
+    "chains": Metric("share of skeletons that are chains", better="higher"),
+    "topologies": Metric("number of different topologies", better="lower"),
+    "leaves": Metric("mean number of leaves"),
+    "branch_nodes": Metric("mean number of branch nodes"),
+    "loops": Metric("mean number of loops"),
+    "members": Metric("number of skeletons"),
+}
+
+
+@register("statistic", "skeleton_topology", metrics=METRICS)
 def skeleton_topology_statistic(options: SkeletonTopology, *, skeletons: dict[str, Skeleton]) -> Statistic:
     """Share of chains among the skeletons of a group, and how many different topologies there are."""
     found = np.array([topology(skeleton) for skeleton in skeletons.values()], dtype=float)

@@ -9,6 +9,7 @@ from surfexp.embedding.length_table import chosen, length_columns, table_of
 from surfexp.embedding.population_study import Table, measure_population
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
@@ -26,7 +27,13 @@ class SulcalPopulation(Options):
     seed: int = Field(0, ge=0, description="seed of the population")
 
 
-@register("statistic", "sulcal_population")
+SULCAL_POPULATION_METRICS = {
+    "subjects": Metric("number of subjects"),
+    "found, {estimator}": Metric("share of lengths that could be measured", better="higher"),
+}
+
+
+@register("statistic", "sulcal_population", metrics=SULCAL_POPULATION_METRICS)
 def sulcal_population_statistic(options: SulcalPopulation, *, template: Surface) -> Statistic:
     """Lengths of sulci by every estimator for each subject and side of a block of a synthetic population."""
     study, numbers = make_template(template, options.regions), range(options.first, options.first + options.subjects)
@@ -57,7 +64,20 @@ class SulcalAsymmetry(Estimators):
     seed: int = Field(0, ge=0, description="seed of exchanges and samples")
 
 
-@register("statistic", "sulcal_asymmetry")
+SULCAL_ASYMMETRY_METRICS = {
+    "difference, {estimator}": Metric("mean relative difference of the first sulcus between the sides"),
+    "effect, {estimator}": Metric("effect size of the first sulcus"),
+    "p, {estimator}": Metric("p of the first sulcus, paired t-test, corrected by Holm"),
+    "p Wilcoxon, {estimator}": Metric("p of the first sulcus, Wilcoxon's test, corrected by Holm"),
+    "least p elsewhere, {estimator}": Metric("least corrected p of the other sulci"),
+    "false positives, {estimator}": Metric("share of random exchanges of sides in which a difference is found"),
+    "length, {estimator}": Metric("mean length of the first sulcus", "mm"),
+    "pairs, {estimator}": Metric("complete pairs of the first sulcus"),
+    "printed share of line": Metric("length of the published line over that with its ends"),
+}
+
+
+@register("statistic", "sulcal_asymmetry", metrics=SULCAL_ASYMMETRY_METRICS)
 def sulcal_asymmetry_statistic(options: SulcalAsymmetry, *, lengths: dict[str, Statistic]) -> Statistic:
     """Paired tests of sulcal lengths left and right, by estimator and sulcus, corrected by Holm."""
     table, missing = measured(_chosen(options, lengths))
@@ -71,7 +91,14 @@ class SulcalPower(SulcalAsymmetry):
     sizes: list[int] = Field([5, 10, 15, 20, 30, 40], description="numbers of subjects")
 
 
-@register("statistic", "sulcal_power")
+SULCAL_POWER_METRICS = {
+    "{estimator}, {size}": Metric(
+        "share of samples of that many subjects in which the first sulcus differs", better="higher"
+    ),
+}
+
+
+@register("statistic", "sulcal_power", metrics=SULCAL_POWER_METRICS)
 def sulcal_power_statistic(options: SulcalPower, *, lengths: dict[str, Statistic]) -> Statistic:
     """Share of samples of so many subjects in which the planted difference is found, by estimator."""
     table, missing = measured(_chosen(options, lengths), 1)
@@ -86,7 +113,16 @@ class SulcalFalsePositives(Estimators):
     sizes: list[int] = Field([5, 10, 40], description="subjects of each population, none in two of one size")
 
 
-@register("statistic", "sulcal_false_positives")
+SULCAL_FALSE_POSITIVES_METRICS = {
+    "false positives, {estimator}, {size}": Metric("share of tests of fresh populations that find a difference"),
+    "tests, {estimator}, {size}": Metric("number of tests"),
+    "least p of all, {estimator}": Metric("least corrected p of all sulci over all subjects"),
+    "largest difference, {estimator}": Metric("largest mean relative difference of a sulcus"),
+    "all subjects, {estimator}": Metric("complete pairs over all subjects"),
+}
+
+
+@register("statistic", "sulcal_false_positives", metrics=SULCAL_FALSE_POSITIVES_METRICS)
 def sulcal_false_positives_statistic(options: SulcalFalsePositives, *, lengths: dict[str, Statistic]) -> Statistic:
     """Share of populations without a subject in common in which a t-test finds a difference at .05."""
     columns, metrics = fresh_study(_chosen(options, lengths), options.sizes)

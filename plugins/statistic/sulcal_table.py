@@ -9,6 +9,7 @@ from surfexp.embedding.population_study import SIDES
 from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.labels import classes_of, groups_of
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
@@ -23,7 +24,14 @@ class SulcalTable(Options):
     regions: int = Field(3, ge=1, le=100, description="sulcal regions that are measured, longest extent first")
 
 
-@register("statistic", "sulcal_table")
+METRICS = {
+    "subjects": Metric("number of subjects"),
+    "found, {estimator}": Metric("share of lengths that could be measured", better="higher"),
+    "difference, sulcus {number}, {estimator}": Metric("mean of left less right over their mean"),
+}
+
+
+@register("statistic", "sulcal_table", metrics=METRICS)
 def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces: dict[str, Surface]) -> Statistic:
     """Lengths of sulci by every estimator for each subject and side, surfaces labelled "left @ NAME" and "right @ NAME"."""
     labels = tuple(surfaces)

@@ -7,6 +7,7 @@ from surfexp.embedding.population import synthetic_subject
 from surfexp.embedding.population_study import name_regions
 from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
@@ -22,7 +23,18 @@ class SulciNames(Options):
     seed: int = Field(0, ge=0, description="seed of the population")
 
 
-@register("statistic", "sulci_names")
+METRICS = {
+    "regions": Metric("mean number of sulcal regions"),
+    "majority, n = {n}": Metric("share of sulcal area named right by majority vote", better="higher"),
+    "printed rule, n = {n}": Metric("share of sulcal area named right by the published rule", better="higher"),
+    "distance, n = {n}": Metric("mean spectral distance to the template"),
+    "majority, ZoomOut": Metric(
+        "share of sulcal area named right by majority vote of the refined map", better="higher"
+    ),
+}
+
+
+@register("statistic", "sulci_names", metrics=METRICS)
 def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statistic:
     """Share of sulcal area named right, by the printed rule, by majority vote, and by majority vote of ZoomOut."""
     study = make_template(template, 1)

@@ -9,6 +9,7 @@ from surfexp.embedding.population import synthetic_subject
 from surfexp.embedding.population_study import SIDES
 from surfexp.embedding.template_distances import template_distances
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
@@ -26,7 +27,15 @@ class TemplateDistances(Options):
     seed: int = Field(0, ge=0, description="seed of the population")
 
 
-@register("statistic", "template_distances")
+METRICS = {
+    "surfaces": Metric("number of surfaces"),
+    "mean distance": Metric("mean distance to the template"),
+    "largest distance": Metric("largest distance to the template"),
+    "doubtful": Metric("surfaces whose signs depend on the samples", better="lower"),
+}
+
+
+@register("statistic", "template_distances", metrics=METRICS)
 def template_distances_statistic(options: TemplateDistances, *, template: Surface) -> Statistic:
     """Spectral distance of each hemisphere of a block of a synthetic population to the template."""
     numbers = [(options.first + k, side) for k in range(options.subjects) for side in SIDES]

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.spectrum.torus_modes import torus_modes
 from surfexp.statistics.nodal_trend import nodal_trend
 from surfexp.statistics.statistic import Statistic
@@ -16,7 +17,19 @@ class TorusTrend(Options):
     minor_radius: float = Field(0.4, gt=0, description="radius of the tube, less than that of the centre line")
 
 
-@register("statistic", "torus_trend")
+METRICS = {
+    "mean_ratio": Metric("mean of count over number, upper half of the modes"),
+    "largest_ratio": Metric("largest count over number, upper half of the modes"),
+    "exponent": Metric("exponent of the growth of the counts"),
+    "slope": Metric("factor of the growth of the counts"),
+    "over_rectangle": Metric("mean ratio over that of the rectangle, 4 / pi^2"),
+    "pleijel": Metric("Pleijel's bound of the upper limit"),
+    "smooth_ratio": Metric("mean ratio of a rectangle without fluctuations"),
+    "over_smooth": Metric("mean ratio over that of a rectangle without fluctuations"),
+}
+
+
+@register("statistic", "torus_trend", metrics=METRICS)
 def torus_trend_statistic(options: TorusTrend) -> Statistic:
     """Trend of the exact nodal counts of the separated eigenfunctions of a torus of revolution."""
     counts = torus_modes(options.count + 1, options.major_radius, options.minor_radius)[1]

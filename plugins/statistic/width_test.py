@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.study import group_skeletons
 from surfexp.skeleton.width_test import false_positive_share, pointwise_test, widths_along
 from surfexp.statistics.statistic import Statistic
@@ -23,7 +24,18 @@ class WidthTest(Options):
     seed: int = Field(0, ge=0, description="seed of the exchanges")
 
 
-@register("statistic", "width_test")
+METRICS = {
+    "smallest_corrected_p": Metric("smallest corrected p", better="lower"),
+    "positions_found": Metric("positions significant after correction"),
+    "positions_uncorrected": Metric("positions significant without correction"),
+    "strongest_position": Metric("position of the largest statistic, share of the skeleton"),
+    "found_from": Metric("first position found, share of the skeleton"),
+    "found_to": Metric("last position found, share of the skeleton"),
+    "false_positives": Metric("share of random halvings of one group in which something is found"),
+}
+
+
+@register("statistic", "width_test", metrics=METRICS)
 def width_test_statistic(options: WidthTest, *, first: dict[str, Surface], second: dict[str, Surface]) -> Statistic:
     """Widths of two groups of patches compared position by position along the skeleton, corrected for multiplicity."""
     groups = [

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from surfexp.anatomy.articulated import articulated_body
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -20,7 +21,12 @@ class Articulated(Options):
     vertices: int = Field(2000, ge=400, le=200000, description="number of vertices")
 
 
-@register("surface", "articulated")
+METRICS = {
+    "area_change": Metric("area over that of the rest pose, less one"),
+}
+
+
+@register("surface", "articulated", metrics=METRICS)
 def articulated(options: Articulated) -> Surface:
     """A body with bones in one of many nearly isometric poses, closed, genus 0."""
     return articulated_body(**dict(options))

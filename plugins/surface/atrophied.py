@@ -4,6 +4,7 @@ from pydantic import Field
 
 from surfexp.anatomy.atrophy import with_atrophy
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -14,7 +15,12 @@ class Atrophied(Options):
     reach: float = Field(0.25, gt=0, le=2, description="reach of the dent, share of the longest axis")
 
 
-@register("surface", "atrophied")
+METRICS = {
+    "tissue_lost": Metric("planted loss of volume, share"),
+}
+
+
+@register("surface", "atrophied", metrics=METRICS)
 def atrophied_surface(options: Atrophied, *, original: Surface) -> Surface:
     """Another surface with a smooth, clearly synthetic dent at the front end of its longest axis."""
     return with_atrophy(original, options.depth, options.reach)

@@ -3,6 +3,7 @@
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.callosum import callosum
 from surfexp.workflow.registry import Options, register
 
@@ -23,7 +24,13 @@ class Callosum(Options):
     )
 
 
-@register("surface", "callosum")
+METRICS = {
+    "seed": Metric("seed of the shape"),
+    "thinning": Metric("planted thinning of the isthmus, share of its width"),
+}
+
+
+@register("surface", "callosum", metrics=METRICS)
 def callosum_surface(options: Callosum) -> Surface:
     """Synthetic corpus callosum, flat, with a known midline and the staircase edge of a manual mask."""
     return callosum(**dict(options))

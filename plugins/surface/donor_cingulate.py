@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.skeleton.donor_cingulate import donor_cingulate
 from surfexp.workflow.registry import Options, register
 
@@ -20,7 +21,14 @@ class DonorCingulate(Options):
     mirror: bool = Field(False, description="reflect in the midline, so that right gyri are as left ones")
 
 
-@register("surface", "donor_cingulate")
+METRICS = {
+    "pixels": Metric("pixels of the mask"),
+    "filled": Metric("pixels of filled holes"),
+    "cut": Metric("pixels off the largest piece that are left out"),
+}
+
+
+@register("surface", "donor_cingulate", metrics=METRICS)
 def donor_cingulate_surface(options: DonorCingulate) -> Surface:
     """Cingulate gyrus of one person, the face of its labels that the midline sees, an open patch with the voxels' edge."""
     return donor_cingulate(**dict(options))

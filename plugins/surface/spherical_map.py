@@ -10,6 +10,7 @@ from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import image_mesh
 from surfexp.baselines.spherical_map import spherical_map
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 
@@ -23,7 +24,17 @@ class SphericalMap(Options):
     step_limit: int = Field(100, ge=1, le=10000, description="most steps of the flow")
 
 
-@register("surface", "spherical_map")
+METRICS = {
+    "length_scale_spread": Metric("99th over 1st percentile of the length scale of the map", better="lower"),
+    "length_scale_ratio": Metric("largest over smallest length scale of the map", better="lower"),
+    "flipped_faces": Metric("faces whose orientation is turned", better="lower"),
+    "angle_error_mean": Metric("mean difference of corner angles", "degrees", "lower"),
+    "angle_error_max": Metric("largest difference of corner angles", "degrees", "lower"),
+    "quasi_conformal_mean": Metric("mean ratio of singular values, 1 for a conformal map", better="lower"),
+}
+
+
+@register("surface", "spherical_map", metrics=METRICS)
 def spherical_map_surface(options: SphericalMap, *, original: Surface) -> Surface:
     """Conformal map of a closed genus-0 surface to the sphere: the preprocessing of the parametrization method."""
     mesh = original.mesh

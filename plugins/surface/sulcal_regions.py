@@ -8,6 +8,7 @@ from pydantic import Field
 from surfexp.embedding.labels import LABEL
 from surfexp.embedding.sulcal_regions import sulcal_regions
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -18,7 +19,13 @@ class SulcalRegions(Options):
     smallest_share: float = Field(1.5e-3, ge=0, lt=1, description="smallest region as a share of the surface's area")
 
 
-@register("surface", "sulcal_regions")
+METRICS = {
+    "regions": Metric("number of sulcal regions"),
+    "sulcal share": Metric("share of the area in sulcal regions"),
+}
+
+
+@register("surface", "sulcal_regions", metrics=METRICS)
 def sulcal_regions_surface(options: SulcalRegions, *, original: Surface) -> Surface:
     """Another surface with the scalar map "label": its sulcal regions from 1, largest first, and 0 on gyri."""
     regions = sulcal_regions(original.mesh, options.length, options.smallest_share)

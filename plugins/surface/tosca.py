@@ -10,6 +10,7 @@ from surfexp.mesh.repair import repair
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.tosca import read_mat, shape_files
+from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 
 
@@ -29,7 +30,12 @@ class Tosca(Options):
         return {**given, "path": path, "faces": faces}
 
 
-@register("surface", "tosca")
+METRICS = {
+    "changes": Metric("repairs of the file"),
+}
+
+
+@register("surface", "tosca", metrics=METRICS)
 def tosca_surface(options: Tosca) -> Surface:
     """A shape of TOSCA or the like, repaired where it is defective, with a report of what was done."""
     vertices, faces = read_mat(options.path) if options.path.suffix == ".mat" else read_mesh(options.path)[:2]

@@ -7,8 +7,8 @@ import shutil
 import sys
 from pathlib import Path
 
+from surfexp.commands.execution import hold_results
 from surfexp.workflow.errors import UserError
-from surfexp.workflow.launch import hold_results
 from surfexp.workflow.plan import read_plan
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 import threading
 import traceback
@@ -11,6 +10,7 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 
+from surfexp.commands import processes
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -26,6 +26,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "export": ("export", "tables as CSV, sulci as label files: surfexp export EXPERIMENT [--to FOLDER]"),
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
     "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
+    "verify": ("verify", "hash every stored result again and name what is damaged: surfexp verify"),
     "new": ("new", "write a plugin file with its test: surfexp new KIND NAME"),
     "view": ("view", "turn a surface in a window (needs open3d): surfexp view FILE"),
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
@@ -61,7 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(usage())
         return 0
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C: Snakemake is not left behind
+        processes.end_on_signals()
     try:
         if given[0] not in COMMANDS:
             raise unknown("command", given[0], COMMANDS)
@@ -69,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command: Callable[[str, list[str]], int | None] = module.command
         return command(given[0], given[1:]) or 0
     except KeyboardInterrupt:
-        print("interrupted; finished stages are kept, run the same command to continue", file=sys.stderr)
+        print(processes.INTERRUPTED, file=sys.stderr)
         return 130
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

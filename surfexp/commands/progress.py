@@ -13,8 +13,8 @@ from rich.progress_bar import ProgressBar
 from rich.text import Text
 
 from surfexp.workflow import store
+from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Node
-from surfexp.workflow.stage import event_path
 
 console = Console(stderr=True)
 

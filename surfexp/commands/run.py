@@ -9,11 +9,12 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.commands.progress import follow
+from surfexp.commands.execution import run, unfinished
 from surfexp.commands.views import print_tables, wide_console
+from surfexp.report.declared import check_names
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.launch import launch, run, unfinished
+from surfexp.workflow.launch import launch
 from surfexp.workflow.plan import Plan
 
 
@@ -33,6 +34,7 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def _run(plan: Plan) -> None:
+    check_names(plan)
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
     console = wide_console()
@@ -40,7 +42,7 @@ def _run(plan: Plan) -> None:
     console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
     failure = None
     try:
-        run(plan, follow)
+        run(plan)
     except StageFailure as error:
         failure = error
     print_tables(plan, results, console)
@@ -52,8 +54,9 @@ def _run(plan: Plan) -> None:
 
 
 def _show(plan: Plan) -> None:
+    check_names(plan)
     results = Path(plan.settings.results)
-    missing = Counter(node.kind for node in unfinished(plan, results))
+    missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))
     unique = Counter(node.kind for node in plan.stored)
     table = Table(
         "stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left"

@@ -14,9 +14,9 @@ from rich.table import Table
 from surfexp.report.page import write_report
 from surfexp.report.reproduction import reproduction
 from surfexp.report.table import comparisons, format_number, rows_of, short_name
+from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
-from surfexp.workflow.tracking import tracking_uri
 
 
 def command(name: str, arguments: list[str]) -> int:

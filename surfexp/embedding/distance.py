@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +50,16 @@ class Distance:
     method: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "distance": Metric("the distance found"),
+        "lower_bound": Metric("proved lower bound of the least distance", better="higher"),
+        "gap": Metric("distance above its lower bound", better="lower"),
+        "optimal": Metric("1 where the distance is proved least, else 0", better="higher"),
+        "evaluations": Metric("evaluations of the distance or a bound", better="lower"),
+        "label accuracy": Metric("share of the target's area that gets its own label", better="higher"),
+        "label accuracy, vertices": Metric("share of the target's vertices that get their own label", better="higher"),
+        "origin error": Metric("mean distance to the true vertex, over the root of the area", better="lower"),
+    }
 
     def __post_init__(self) -> None:
         """Count value, bound and proof among the metrics, and refuse a map or a basis that does not fit."""

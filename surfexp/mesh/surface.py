@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +39,15 @@ class Surface:
     coordinates: Floats | None = None
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "vertices": Metric("number of vertices"),
+        "faces": Metric("number of faces"),
+        "genus": Metric("number of handles"),
+        "boundary_loops": Metric("number of boundary loops"),
+        "area": Metric("area", "unit of length squared"),
+        "edge_length": Metric("mean length of the edges", "unit of length"),
+        "minimum_angle": Metric("smallest angle of all triangles", "degrees", "higher"),
+    }
 
     def __post_init__(self) -> None:
         n = len(self.mesh.vertices)

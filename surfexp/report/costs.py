@@ -1,4 +1,4 @@
-"""The figure that only a report can draw, since clocks are in the records of stages: gap against seconds."""
+"""The figure that only a report can draw, since clocks are in the events of stages: gap against seconds."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def cost_figure(group: Comparison) -> Figure | None:
     found: dict[str, dict[str, list[tuple[float, float]]]] = {}
     for row in group.rows:
         gap = row.metrics.get(GAP, 0.0)
-        if gap > 0.0 and row.seconds > 0.0 and not row.failure and TOLERANCE in row.parameters:
+        if gap > 0.0 and row.seconds and not row.failure and TOLERANCE in row.parameters:
             places = found.setdefault(str(row.parameters["solver.name"]).replace("_", " "), {})
             places.setdefault(str(row.parameters[TOLERANCE]), []).append((gap, row.seconds))
     if len(found) < 2 or sum(len(places) > 1 for places in found.values()) < 2:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from surfexp.report.costs import cost_figure
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.verdict import judge
 from surfexp.workflow import store
+from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.plan import Plan
 
 
@@ -55,7 +57,11 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
         for key in leaf.figures:
             if key in wanted or not store.is_done(results, "figure", key):
                 continue
-            figure = store.load(results, "figure", key)
+            try:
+                figure = store.load(results, "figure", key)
+            except DamagedResult as error:
+                print(f"surfexp: {error}; the next run computes it again", file=sys.stderr)
+                continue
             name = f"{plan.nodes[key].plugin}-{key[:8]}.png"
             if not (folder / name).exists():
                 _write(figure, folder / name)

@@ -8,18 +8,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Leaf, Plan
-from surfexp.workflow.stage import read_event
 
 
 @dataclass
 class Row:
-    """One leaf: its parameters, metrics, notes and whether its certificate was reached."""
+    """One leaf: its parameters, metrics, notes and whether its certificate was reached.
+
+    `seconds` is measured, not a part of the result: None where the event of the stage was lost.
+    """
 
     leaf: Leaf
     parameters: dict[str, Any]
     metrics: dict[str, float]
-    seconds: float
+    seconds: float | None
     notes: list[str] = field(default_factory=list)
     failure: str = ""
 
@@ -73,15 +76,12 @@ class Comparison:
 
 
 def rows_of(plan: Plan, results: Path) -> list[Row]:
-    """Read the event record of every leaf."""
+    """Read what is known of every leaf: numbers from its result, seconds and failure from its event."""
     rows = []
     for leaf in plan.leaves:
-        node = plan.nodes[leaf.key]
-        event = read_event(results, node.kind, leaf.key)
-        failure = event.get("failure", "") if event else "not computed"
+        found = outcome(results, plan.nodes[leaf.key])
         parameters = {key: value for key, value in leaf.parameters.items() if value is not None}
-        notes = list(event.get("notes", []))
-        rows.append(Row(leaf, parameters, event.get("metrics", {}), event.get("seconds", 0.0), notes, failure))
+        rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure))
     return rows
 
 
@@ -108,7 +108,8 @@ def to_csv(rows: list[Row]) -> str:
         values = [row.parameters.get(name, "") for name in parameters]
         numbers = [repr(row.metrics[name]) if name in row.metrics else "" for name in metrics]
         comparison = row.leaf.settings["comparison"]
-        writer.writerow([comparison, row.leaf.key, *values, *numbers, f"{row.seconds:.3f}", row.failure])
+        seconds = "" if row.seconds is None else f"{row.seconds:.3f}"
+        writer.writerow([comparison, row.leaf.key, *values, *numbers, seconds, row.failure])
     return sink.getvalue()
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.metric import Metric
 
 if TYPE_CHECKING:
     import networkx
@@ -61,6 +62,14 @@ class Skeleton:
     method: str = "reeb graph"
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "nodes": Metric("nodes of the graph"),
+        "components": Metric("connected components"),
+        "b1": Metric("independent loops"),
+        "leaves": Metric("nodes of degree one"),
+        "branch_nodes": Metric("nodes of degree three or more"),
+        "chain": Metric("1 where the graph is a chain, else 0"),
+    }
 
     @property
     def degrees(self) -> Integers:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -10,6 +11,7 @@ from scipy.sparse import csr_array
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
 from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.metric import Metric
 
 SMALLEST_GAP = 1e-6
 COLUMNS_AT_ONCE = 64
@@ -60,6 +62,18 @@ class EigenSystem:
     boundary: str = "neumann"
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "degrees_of_freedom": Metric("unknowns of the discrete problem"),
+        "edge_length": Metric("mean length of the edges", "unit of length"),
+        "largest_residual": Metric("largest relative residual of the pairs", better="lower"),
+        "orthogonality": Metric("largest entry of V^T M V - I", better="lower"),
+        "complete": Metric("1 where no eigenvalue below the last is proved to be missing, else 0", better="higher"),
+        "zero_modes": Metric("eigenvalues that are 0 up to rounding"),
+        "first_value": Metric("first eigenvalue above the constant mode"),
+        "last_value": Metric("last eigenvalue"),
+        "clusters": Metric("groups of nearly equal eigenvalues"),
+        "area": Metric("area", "unit of length squared"),
+    }
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from surfexp.mesh.triangle_mesh import Integers
+from surfexp.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,3 +43,17 @@ class Classification:
     name: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "accuracy": Metric("share of members classified right, their own group left out", better="higher"),
+        "accuracy_low": Metric("lower end of the 95 % bootstrap interval of the accuracy"),
+        "accuracy_high": Metric("upper end of the 95 % bootstrap interval of the accuracy"),
+        "balanced_accuracy": Metric("mean over classes of the share classified right", better="higher"),
+        "silhouette": Metric("mean silhouette of the classes", better="higher"),
+        "between_within": Metric("mean distance between classes over that inside them", better="higher"),
+        "chance": Metric("mean accuracy under permuted classes"),
+        "p_value": Metric("permutation test of the accuracy", better="lower"),
+        "nearest_neighbour": Metric("share of queries whose nearest answer is of their class", better="higher"),
+        "first_tier": Metric("share of the c others of a class among the first c answers", better="higher"),
+        "second_tier": Metric("share of the c others of a class among the first 2 c answers", better="higher"),
+        "mean_average_precision": Metric("mean over queries of the average precision", better="higher"),
+    }

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.metric import Metric
 from surfexp.statistics.labels import classes_of, groups_of
 
 
@@ -45,6 +47,12 @@ class DistanceMatrix:
     name: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "members": Metric("members of the collection"),
+        "length": Metric("entries of a signature that are compared"),
+        "between_within": Metric("mean distance between classes over that inside them", better="higher"),
+        "silhouette": Metric("mean silhouette of the classes", better="higher"),
+    }
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "classes", self.classes or classes_of(self.labels))

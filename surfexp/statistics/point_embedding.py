@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,3 +35,6 @@ class PointEmbedding:
     name: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "stress": Metric("root of the squared misfit of the distances over their squares", better="lower"),
+    }

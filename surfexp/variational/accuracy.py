@@ -6,8 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
+
+RESTORATION_METRICS = {
+    "rmse": Metric("root mean square error against the clean image, by area", "unit of the image", "lower"),
+    "psnr": Metric("range of the clean image over the error", "dB", "higher"),
+}
+SEGMENTATION_METRICS = {
+    "dice {reference}": Metric("overlap with a reference region, by area", better="higher"),
+    "accuracy {reference}": Metric("share of the area labelled as in a reference", better="higher"),
+}
 
 
 def restoration_metrics(image: Image, operator: SurfaceOperator, values: Floats) -> dict[str, float]:

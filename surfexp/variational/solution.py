@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +57,14 @@ class Solution:
     segmentation: Floats | None = None
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    METRICS: ClassVar[dict[str, Metric]] = {
+        "energy": Metric("energy under the consistent discretisation"),
+        "lower_bound": Metric("proved lower bound of the energy", better="higher"),
+        "relative_gap": Metric("energy above its proved lower bound, over the scale of the model", better="lower"),
+        "error_bound": Metric("largest possible distance to the exact minimiser, mass norm", better="lower"),
+        "iterations": Metric("iterations, of all outer updates together", better="lower"),
+        "converged": Metric("1 where the tolerance was reached, else 0", better="higher"),
+    }
 
     def __post_init__(self) -> None:
         """Count `converged` among the metrics: 1 or 0."""

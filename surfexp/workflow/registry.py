@@ -14,6 +14,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict
 
+from surfexp.metric import Metric
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.kinds import KINDS, kind_of
@@ -44,6 +45,7 @@ class Plugin:
     inputs: Mapping[str, Input]
     file: Path
     accepts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    metrics: Mapping[str, Metric] = field(default_factory=dict)
 
     @property
     def summary(self) -> str:
@@ -57,13 +59,18 @@ _loaded: set[str] = set()
 
 
 def register(
-    kind: str, name: str, *, accepts: Mapping[str, Iterable[str]] | None = None
+    kind: str,
+    name: str,
+    *,
+    accepts: Mapping[str, Iterable[str]] | None = None,
+    metrics: Mapping[str, Metric] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register a function as plugin `name` of stage `kind`.
 
     Its first argument is annotated with a pydantic model of options; each keyword-only argument is an input, named by
     its role and annotated with the result type of a kind (or a list, or a dict by label, of it). `accepts` restricts,
-    for a kind, which plugins may feed this one; it is checked before anything runs.
+    for a kind, which plugins may feed this one; it is checked before anything runs. `metrics` declares what the results
+    measure, beside what every result of the kind does (`METRICS` of its class).
     """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -73,7 +80,8 @@ def register(
             raise UserError(f"plugin {kind}/{name} is defined twice: {known.file} and {file}")
         if known is None:
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
-            PLUGINS[kind, name] = Plugin(kind, name, function, *_signature(kind, name, function), file, restrictions)
+            options, inputs = _signature(kind, name, function)
+            PLUGINS[kind, name] = Plugin(kind, name, function, options, inputs, file, restrictions, metrics or {})
         return function
 
     return decorate

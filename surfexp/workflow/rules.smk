@@ -42,4 +42,4 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
         params:
             command=shlex.join([sys.executable, "-m", "surfexp.workflow.stage", str(plan_path)]),
         shell:
-            "{params.command} {wildcards.key} > {log} 2>&1"
+            "exec {params.command} {wildcards.key} > {log} 2>&1"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import resource
+import signal
 import sys
 import time
 import traceback
@@ -15,9 +17,12 @@ from typing import Any
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
+from surfexp.result_contract import check_result  # noqa: E402
 from surfexp.workflow import registry, store  # noqa: E402
-from surfexp.workflow.fingerprint import code_digest, edited_since  # noqa: E402
+from surfexp.workflow.errors import DamagedResult  # noqa: E402
+from surfexp.workflow.fingerprint import code_digest, edited_since, file_digest  # noqa: E402
 from surfexp.workflow.kinds import KINDS  # noqa: E402
+from surfexp.workflow.outcome import event_path  # noqa: E402
 from surfexp.workflow.plan import Keys, Node, read_plan  # noqa: E402
 
 _progress: dict[str, Any] = {}
@@ -31,17 +36,6 @@ def report_progress(iteration: int, gap: float) -> None:
         store.write_text(_progress["path"], f"iteration {iteration:,}, gap {gap:.1e}")
 
 
-def event_path(results: Path, kind: str, key: str) -> Path:
-    """Where the event record of a stage lies."""
-    return results / "events" / kind / f"{key}.json"
-
-
-def read_event(results: Path, kind: str, key: str) -> dict[str, Any]:
-    """Event record of a stage, empty before it ran."""
-    path = event_path(results, kind, key)
-    return json.loads(path.read_text()) if path.exists() else {}
-
-
 def run_stage(plan_path: Path, key: str) -> int:
     """Make one result; return 0, or 1 after recording the failure."""
     plan = read_plan(plan_path)
@@ -50,7 +44,6 @@ def run_stage(plan_path: Path, key: str) -> int:
     os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / node.cache)
     _progress.update(path=results / "events" / node.kind / f"{key}.progress", last=0.0, seconds=0.0)
     failure = ""
-    said: dict[str, Any] = {"metrics": {}, "notes": (), "history": {}}
     store.write_text(_progress["path"], "started")
     try:
         if edited_since(plan_path.stat().st_mtime, Path(node.file)) and code_digest(Path(node.file)) != node.code:
@@ -58,7 +51,6 @@ def run_stage(plan_path: Path, key: str) -> int:
         for _ in range(1 + plan.settings.timing):  # where clocks matter, the first call compiles and warms the caches
             result = make(plan.nodes, key, results)
         store.save(results, node.kind, key, result)
-        said = {name: getattr(result, name, empty) for name, empty in said.items()}
     except Exception as error:
         failure = f"{node.kind}/{node.plugin}: {' '.join(str(error).split()) or type(error).__name__}"
         if os.environ.get("SURFEXP_DEBUG"):
@@ -66,13 +58,9 @@ def run_stage(plan_path: Path, key: str) -> int:
         print(failure, file=sys.stderr)
     finally:
         _progress["path"].unlink(missing_ok=True)
-    event = {"kind": node.kind, "plugin": node.plugin, "seconds": _progress["seconds"], "failure": failure}
-    event |= {
-        "peak_memory_mb": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
-        "metrics": {name: float(value) for name, value in said["metrics"].items()},
-        "notes": said["notes"],
-        "history": {name: [float(x) for x in values] for name, values in said["history"].items()},
-    }
+    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    event: dict[str, Any] = {"kind": node.kind, "plugin": node.plugin, "failure": failure}
+    event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory}
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0
 
@@ -86,7 +74,14 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
     def one(child: str) -> Any:
         kind = nodes[child].kind
         registry.load_file(Path(nodes[child].file))
-        return store.load(results, kind, child) if KINDS[kind].stored else make(nodes, child, results)
+        if not KINDS[kind].stored:
+            return make(nodes, child, results)
+        try:
+            return store.load(results, kind, child)
+        except DamagedResult as error:
+            store.discard(results, kind, child)  # whoever runs the plan sees that it is missing and computes it again
+            store.write_text(event_path(results, kind, child), json.dumps({"damage": str(error)}))
+            raise
 
     def some(value: Keys) -> Any:
         if isinstance(value, str):
@@ -94,17 +89,33 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
         return [one(child) for child in value] if isinstance(value, list) else {k: one(v) for k, v in value.items()}
 
     options, inputs = method.options(**node.options), {role: some(value) for role, value in node.inputs.items()}
+    _check_files(node)
     started = time.process_time()
     result = method.function(options, **inputs)
     _progress["seconds"] = time.process_time() - started
-    expected = KINDS[node.kind].result
-    if not isinstance(result, expected):
-        raise TypeError(f"returned {type(result).__name__}, a {node.kind} plugin returns {expected.__name__}")
+    _check_files(node)
+    check_result(result, KINDS[node.kind].result)
     return result
+
+
+def _check_files(node: Node) -> None:
+    """Refuse input files that are not those of the plan; called before a plugin reads them and when it has."""
+    for option, planned in node.files.items():
+        path = Path(node.options[option])
+        file_digest.cache_clear()
+        if not path.exists() or file_digest(path.resolve()) != planned:
+            raise RuntimeError(f"{option} {path} was changed after this run was planned; run the same command again")
+
+
+def die_with_parent() -> None:
+    """Ask the kernel to kill this process when the one that started it has died (Linux; elsewhere nothing is done)."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 if __name__ == "__main__":
     # `python -m` runs this file as __main__; plugins import it by name and must find the same callback state.
     from surfexp.workflow import stage
 
+    stage.die_with_parent()
     sys.exit(stage.run_stage(Path(sys.argv[1]), sys.argv[2]))

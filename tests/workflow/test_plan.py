@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.workflow import registry, stage, store
+from surfexp.workflow import outcome, registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import make_plan, read_plan, stored_inputs
@@ -155,7 +155,7 @@ def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None
     assert codes == [0, 1]
     key = plan.leaves[0].key
     assert not store.is_done(tmp_path, "pairing", key)
-    assert stage.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")
+    assert outcome.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")
 
 
 def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,5 +173,5 @@ def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeyp
 
         monkeypatch.setitem(registry.PLUGINS, ("surface", "toy_triangle"), replace(method, function=slow_at_first))
         plan, _ = run({**configuration, "timing": timing}, tmp_path / str(timing))
-        event = stage.read_event(tmp_path / str(timing), "surface", plan.leaves[0].key)
+        event = outcome.read_event(tmp_path / str(timing), "surface", plan.leaves[0].key)
         assert len(calls) == expected and (event["seconds"] < 0.2) == timing

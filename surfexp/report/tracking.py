@@ -1,17 +1,20 @@
-"""MLflow: one idempotent function turns a plan's event records into runs. Only the driver calls it."""
+"""MLflow: one idempotent function turns the outcomes of a plan's stages into runs. Only the driver calls it."""
 
 from __future__ import annotations
 
 import logging
 import os
 import subprocess
+from collections.abc import Mapping
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from surfexp.workflow import store
 from surfexp.workflow.fingerprint import digest
+from surfexp.workflow.outcome import NOT_COMPUTED, Outcome, outcome
 from surfexp.workflow.plan import Leaf, Plan
-from surfexp.workflow.stage import read_event
 
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
@@ -40,12 +43,12 @@ def record(plan: Plan, results: Path, views: Path) -> None:
     runs = client.search_runs([identity], max_results=50000)
     by_leaf = {run.data.tags.get("leaf"): run for run in runs}
     parent = by_leaf.get("plan") or client.create_run(identity, run_name=name, tags={"leaf": "plan"})
-    events = {key: read_event(results, node.kind, node.key) for key, node in plan.nodes.items()}
+    outcomes = {node.key: outcome(results, node) for node in plan.stored}
     failed = False
     for leaf in plan.leaves:
-        upstream = [events[key] for key in _upstream(plan, leaf.key) if events[key]]
-        state = digest([upstream, leaf.parameters])
-        failed |= any(event["failure"] for event in upstream)
+        upstream = {key: outcomes[key] for key in _upstream(plan, leaf.key) if key in outcomes}
+        state = digest([[asdict(item) for item in upstream.values()], leaf.parameters])
+        failed |= bool(outcomes[leaf.key].failure)
         same = [run for run in runs if run.data.tags.get("configuration") == leaf.configuration]
         run = by_leaf.get(leaf.key) or next((run for run in same if run.info.status == "FAILED"), None)
         if run is not None and run.data.tags.get("state") == state:
@@ -53,7 +56,9 @@ def record(plan: Plan, results: Path, views: Path) -> None:
         tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true"}
         tags["mlflow.parentRunId"] = parent.info.run_id
         run = run or client.create_run(identity, run_name=_label(leaf), tags=tags)
-        _fill(client, run.info.run_id, leaf, upstream, events[leaf.key], {**tags, **_versions(), "state": state})
+        kinds = {key: plan.nodes[key].kind for key in upstream}
+        history = {} if outcomes[leaf.key].failure else store.load(results, kinds[leaf.key], leaf.key, "history") or {}
+        _fill(client, run.info.run_id, leaf, upstream, kinds, history, {**tags, **_versions(), "state": state})
         for old in same:
             if old.info.run_id != run.info.run_id:
                 client.set_tag(old.info.run_id, "current", "false")
@@ -65,31 +70,39 @@ def record(plan: Plan, results: Path, views: Path) -> None:
         client.set_terminated(parent.info.run_id, "FAILED" if failed else "FINISHED")
 
 
-def _fill(client: Any, run_id: str, leaf: Leaf, upstream: list[Any], event: Any, tags: dict[str, str]) -> None:
+def _fill(
+    client: Any,
+    run_id: str,
+    leaf: Leaf,
+    upstream: Mapping[str, Outcome],
+    kinds: Mapping[str, str],
+    history: Mapping[str, Any],
+    tags: dict[str, str],
+) -> None:
     from mlflow.entities import Metric, Param, RunTag
 
     known = client.get_run(run_id).data.params
     parameters = [Param(key, str(value)[:6000]) for key, value in leaf.parameters.items() if key not in known]
-    metrics = {**(event or {}).get("metrics", {})}
-    for item in upstream:
-        metrics[f"seconds.{item['kind']}"] = metrics.get(f"seconds.{item['kind']}", 0.0) + item["seconds"]
-        metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item["peak_memory_mb"])
+    metrics = dict(upstream[leaf.key].metrics)
+    for key, item in upstream.items():
+        name = f"seconds.{kinds[key]}"
+        metrics[name] = metrics.get(name, 0.0) + (item.seconds or 0.0)
+        metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item.peak_memory_mb or 0.0)
     series = [Metric(_safe(key), value, 0, 0) for key, value in metrics.items()]
-    history = (event or {}).get("history", {})
     steps = history.get("iteration", [])
     series += [
-        Metric(f"history.{_safe(key)}", value, 0, int(step))
+        Metric(f"history.{_safe(key)}", float(value), 0, int(step))
         for key, values in history.items()
         if key != "iteration"
         for step, value in zip(steps, values, strict=False)
     ]
-    failures = [item["failure"] for item in upstream if item["failure"]]
+    failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
     for part in range(max(len(series) // 900, len(parameters) // 100) + 1):  # MLflow's limits of one batch
         client.log_batch(run_id, series[900 * part : 900 * (part + 1)], parameters[100 * part : 100 * (part + 1)], [])
     client.log_batch(
         run_id, [], [], [RunTag(key, value) for key, value in {**tags, "failure": "; ".join(failures)}.items()]
     )
-    client.set_terminated(run_id, "FAILED" if failures or not event else "FINISHED")
+    client.set_terminated(run_id, "FAILED" if upstream[leaf.key].failure else "FINISHED")
 
 
 def _upstream(plan: Plan, key: str) -> list[str]:

@@ -1,0 +1,121 @@
+"""A plan carried out: what is missing or damaged is computed by Snakemake, recorded, and shown in a report."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+from surfexp.commands.processes import drive
+from surfexp.report.page import write_report
+from surfexp.workflow import launch, registry, store
+from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.outcome import event_path, read_event
+from surfexp.workflow.plan import Node, Plan, read_plan
+
+HELD = "SURFEXP_HOLDS_RESULTS"
+SECONDS_TO_CANCEL = 15.0
+LINES_OF_DAMAGE = 10
+_locks: list[int] = []
+
+
+def run(plan: Plan) -> None:
+    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed."""
+    results = Path(plan.settings.results).resolve()
+    hold_results(results, wait=True)
+    path = plan.write(results)
+    forced = plan.settings.timing
+    tried = {leaf.key for leaf in plan.leaves} if forced else set[str]()
+    # A stage that finds an input damaged removes it: that result is missing then, and the next round computes it.
+    while ((missing := unfinished(plan, results)) and not tried.issuperset(missing)) or forced:
+        clear(plan, results, missing)
+        tried |= missing.keys()
+        _snakemake(plan, path, results, [plan.nodes[key] for key in missing], forced)
+        forced = False
+    finish(path)
+    if missing:
+        failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
+        said = "\n".join(filter(None, dict.fromkeys(failures)))
+        raise StageFailure(said or f"{len(missing)} stages did not run; see {results / 'logs'}")
+
+
+def unfinished(plan: Plan, results: Path) -> dict[str, str]:
+    """Stages of a plan without a sound result, by key: "" where there is none, else what is wrong with it."""
+    return store.faults(results, [(node.kind, node.key) for node in plan.stored])
+
+
+def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
+    """Remove what is left of unfinished stages: damaged results, which are named, and the traces of earlier runs."""
+    lines = []
+    for key, fault in missing.items():
+        kind = plan.nodes[key].kind
+        lines += [fault] if fault else [read_event(results, kind, key).get("damage", "")]
+        store.discard(results, kind, key)
+        for suffix in (".json", ".progress"):
+            event_path(results, kind, key).with_suffix(suffix).unlink(missing_ok=True)
+    lines = [line for line in lines if line]
+    for line in lines[:LINES_OF_DAMAGE]:
+        print(f"surfexp: {line}; it is removed and computed again", file=sys.stderr)
+    if len(lines) > LINES_OF_DAMAGE:
+        print(f"surfexp: and {len(lines) - LINES_OF_DAMAGE} results more", file=sys.stderr)
+
+
+def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: bool) -> None:
+    rules = Path(launch.__file__).with_name("rules.smk")
+    profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
+    cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command += ["--cores", str(cores), "--config", f"plan={path}"]
+    if forced:
+        command += ["--forcerun", plan.settings.target]
+    log = results / "logs" / f"{path.stem}.snakemake.log"
+    environment = {**os.environ, HELD: "1"}
+    grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
+    code = drive(command, log, missing or plan.stored, results, grace, env=environment, pass_fds=_locks)
+    if code and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
+        tail = [line for line in log.read_text().splitlines() if line.strip()]
+        reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"
+        if code < 0:
+            reason = f"Snakemake was killed by signal {-code}; the same command continues"
+        if shutil.disk_usage(results).free < 2**20:
+            reason = f"the disk of {results} is full; free some space, then the same command continues"
+        raise StageFailure(reason)
+
+
+def before_snakemake(plan: Plan, results: Path) -> None:
+    """What plain Snakemake does before it looks for results: damaged ones are removed, so that it makes them again."""
+    clear(plan, results, {key: fault for key, fault in unfinished(plan, results).items() if fault})
+
+
+def hold_results(results: Path, wait: bool = False) -> None:
+    """Take the results folder for this process; a second run waits for it, or is refused when `wait` is false."""
+    if os.environ.get(HELD) or _locks:
+        return
+    results.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        if not wait:
+            raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
+        print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+    _locks.append(descriptor)
+
+
+def after_snakemake(path: Path) -> None:
+    """What plain Snakemake does at its end; nothing when `surfexp run` drives it and does so itself."""
+    if not os.environ.get(HELD):
+        finish(path)
+
+
+def finish(path: Path) -> None:
+    """Record a plan's events in MLflow and write its views: report, table, figures."""
+    from surfexp.report.tracking import record
+
+    plan, results = read_plan(path), path.parent.parent
+    folder = write_report(plan, results)
+    record(plan, results, folder)

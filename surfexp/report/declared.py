@@ -1,0 +1,92 @@
+"""What the metrics of a stage mean, and the check, before anything runs, that whatever names one names a declared one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic.fields import FieldInfo
+
+from surfexp.metric import NAMES_METRIC, Metric, find_metric
+from surfexp.report.claim import read_claims
+from surfexp.report.table import Row
+from surfexp.report.verdict import equal, selected
+from surfexp.workflow.errors import unknown
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.plan import Leaf, Node, Plan
+from surfexp.workflow.registry import PLUGINS, plugin
+
+SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
+
+
+def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
+    """The metrics that a stage declares: those of its kind, its plugin, and of inputs whose metrics it hands on.
+
+    Handed on are those of inputs of its own kind (a surface made from a surface), and of inputs that live inside its
+    job (the model of a solver).
+    """
+    node = nodes[key]
+    metrics = {**getattr(KINDS[node.kind].result, "METRICS", {}), **plugin(node.kind, node.plugin).metrics}
+    for child in node.children:
+        if nodes[child].kind == node.kind or not KINDS[nodes[child].kind].stored:
+            metrics |= declared(nodes, child)
+    return metrics
+
+
+def check_names(plan: Plan) -> None:
+    """Refuse claims, columns, figures and objectives that name what no row has; UserError with the nearest name."""
+    metrics = {leaf.key: {**declared(plan.nodes, leaf.key), **SECONDS} for leaf in plan.leaves}
+    rows = [Row(leaf, leaf.parameters, {}, 0.0) for leaf in plan.leaves]
+    for claim in read_claims(plan.settings.claims):
+        where = f"claim ({claim.claim[:60]})"
+        for wanted in [claim.rows] if claim.over is None else [claim.rows, claim.over]:
+            _check_parameters(where, wanted, rows)
+            for row in selected(wanted, rows):
+                _check_metric(where, claim.metric, metrics[row.leaf.key])
+    _check_columns(plan.leaves, metrics)
+    for leaf in plan.leaves:
+        if leaf.settings["objective"] is not None:
+            _check_metric("objective", leaf.settings["objective"], metrics[leaf.key])
+    for node in plan.nodes.values():
+        _check_options(plan, node)
+
+
+def _check_metric(where: str, name: str, metrics: Mapping[str, Metric]) -> None:
+    if find_metric(name, metrics) is None:
+        raise unknown(f"metric in {where}", name, metrics)
+
+
+def _check_parameters(where: str, wanted: Mapping[str, Any], rows: Sequence[Row]) -> None:
+    for name, value in wanted.items():
+        values = [row.parameters[name] for row in rows if row.parameters.get(name) is not None]
+        if not values:
+            raise unknown(f"parameter in {where}", name, {known for row in rows for known in row.parameters})
+        whole = not isinstance(value, list) or any(equal(value, other) for other in values)
+        for one in [value] if whole else value:
+            # another plugin of the name may be what the claim waits for, as data that has to be fetched first
+            elsewhere = name.endswith(".name") and any(known == one for _, known in PLUGINS)
+            if not elsewhere and not any(equal(one, other) for other in values):
+                raise unknown(f"value of {name} in {where}", str(one), {str(other) for other in values})
+
+
+def _check_columns(leaves: Sequence[Leaf], metrics: Mapping[str, Mapping[str, Metric]]) -> None:
+    """Tables may share their columns: each is one that some row of the experiment declares."""
+    anywhere = {name: metric for known in metrics.values() for name, metric in known.items()}
+    for leaf in leaves:
+        for name in leaf.settings["columns"]:
+            _check_metric("columns", name, anywhere)
+
+
+def _check_options(plan: Plan, node: Node) -> None:
+    """Options that name metrics name those of an input."""
+    metrics = {name: metric for child in node.children for name, metric in declared(plan.nodes, child).items()}
+    for option, field in plugin(node.kind, node.plugin).options.model_fields.items():
+        value = node.options[option]
+        if value is not None and names_metric(field):
+            for name in [value] if isinstance(value, str) else value.values() if isinstance(value, dict) else value:
+                _check_metric(f"{node.kind}/{node.plugin}.{option}", name, metrics | SECONDS)
+
+
+def names_metric(field: FieldInfo) -> bool:
+    """Whether an option is declared as the name of a metric, or as several."""
+    return NAMES_METRIC in field.metadata or NAMES_METRIC in str(field.annotation)

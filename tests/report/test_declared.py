@@ -1,0 +1,96 @@
+"""Whatever names a metric, a parameter or a value names one that exists, or is refused before anything runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from surfexp.metric import Metric, find_metric
+from surfexp.report.declared import check_names, declared
+from surfexp.workflow import registry
+from surfexp.workflow.configuration import expand
+from surfexp.workflow.errors import UserError
+from surfexp.workflow.plan import Plan, make_plan
+
+registry.load_all(Path("/nonexistent"))
+CLAIM: dict[str, Any] = {
+    "claim": "small",
+    "quantity": "all",
+    "metric": "rmse",
+    "rows": {"solver.name": "primal_dual"},
+    "between": [None, 20],
+    "because": "half of the noise",
+}
+EXPERIMENT: dict[str, Any] = {
+    "surface": {"name": "icosphere", "levels": 3},
+    "image": {"name": "picture", "noise": 40.0},
+    "operator": "fem",
+    "model": "rof",
+    "grid": {"solver": ["primal_dual", "split_bregman"], "image.seed": [0, 1]},
+}
+
+
+def plan_of(**changes: Any) -> Plan:
+    return make_plan(expand(EXPERIMENT | changes))
+
+
+def refusal(**changes: Any) -> str:
+    with pytest.raises(UserError) as error:
+        check_names(plan_of(**changes))
+    return str(error.value)
+
+
+def test_placeholders_stand_for_what_only_an_experiment_knows() -> None:
+    metrics = {"dice {reference}": Metric("overlap"), "dice": Metric("all"), "p (a) {x}": Metric("brackets")}
+    assert find_metric("dice sulc", metrics) == Metric("overlap")
+    assert find_metric("dice", metrics) == Metric("all")
+    assert find_metric("p (a) b", metrics) == Metric("brackets")
+    assert find_metric("dice ", metrics) is find_metric("a dice sulc", metrics) is None
+
+
+def test_a_solver_declares_its_own_metrics_and_those_of_its_model() -> None:
+    plan = plan_of()
+    metrics = declared(plan.nodes, plan.leaves[0].key)
+    assert metrics["relative_gap"].better == metrics["rmse"].better == "lower" and metrics["psnr"].unit == "dB"
+    assert "c1" not in metrics and "area" not in metrics
+
+
+@pytest.mark.parametrize(
+    "claim",
+    [
+        {},
+        {"metric": "seconds"},
+        {"rows": {"image.seed": [0, 1]}},
+        {"rows": {"solver.name": "newton"}},  # exists, though this experiment does not take it
+        {"quantity": "ratio", "over": {"solver.name": "split_bregman"}},
+    ],
+)
+def test_names_that_exist_are_allowed(claim: dict[str, Any]) -> None:
+    check_names(plan_of(claims=[CLAIM | claim], columns=["rmse", "seconds"], objective="relative_gap"))
+
+
+@pytest.mark.parametrize(
+    ("claim", "message"),
+    [
+        ({"metric": "rsme"}, "unknown metric in claim (small) 'rsme'; did you mean 'rmse'?"),
+        ({"metric": "c1"}, "unknown metric in claim (small) 'c1'"),
+        ({"rows": {"solver.nme": "x"}}, "unknown parameter in claim (small) 'solver.nme'; did you mean 'solver.name'?"),
+        ({"rows": {"solver.name": "primal_dul"}}, "'primal_dul'; did you mean 'primal_dual'?"),
+        ({"rows": {"image.seed": 3}}, "unknown value of image.seed in claim (small) '3'"),
+        ({"rows": {"image.seed": [0, 3]}}, "unknown value of image.seed in claim (small) '3'"),
+        ({"quantity": "ratio", "over": {"solver.name": "split_bergman"}}, "did you mean 'split_bregman'?"),
+        ({"holds": [1, 2]}, "'holds' is called 'between' now"),
+    ],
+)
+def test_a_misspelt_name_in_a_claim_is_refused(claim: dict[str, Any], message: str) -> None:
+    assert message in refusal(claims=[CLAIM | claim])
+
+
+def test_misspelt_columns_objectives_and_options_are_refused() -> None:
+    assert "unknown metric in columns 'rsme'; did you mean 'rmse'?" in refusal(columns=["rsme"])
+    assert "unknown metric in objective 'rsme'; did you mean 'rmse'?" in refusal(objective="rsme")
+    sweep = {"name": "sweep", "metric": "rsme", "x_label": "seed", "inputs": {"solvers": {"over": "seeds"}}}
+    axes = {"seeds": {"a @ 0": {"image": {"seed": 0}}, "a @ 1": {"image": {"seed": 1}}}}
+    assert "unknown metric in figure/sweep.metric 'rsme'; did you mean 'rmse'?" in refusal(axes=axes, figures=[sweep])

@@ -1,0 +1,166 @@
+"""A plan carried out in one process: what is damaged or lost is named and made again, numbers come from results."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from surfexp.commands import execution
+from surfexp.report.claims import judge
+from surfexp.report.table import rows_of
+from surfexp.workflow import registry, stage, store
+from surfexp.workflow.errors import StageFailure
+from surfexp.workflow.outcome import event_path
+from surfexp.workflow.plan import Plan, make_plan
+
+CONFIGURATION = {
+    "experiment": "toy",
+    "target": "pairing",
+    "surface": "toy_triangle",
+    "scalar": "toy_boundary",
+    "pairing": {
+        "name": "toy_distance",
+        "inputs": {
+            "source": {"scalar": "toy_eigenfunction", "weighted": {"name": "toy_flux", "inputs": {}}},
+            "target": {"scalar": {"name": "toy_boundary", "shift": 1.0}},
+        },
+    },
+}
+CONFIGURATION["pairing"]["inputs"]["source"]["weighted"]["inputs"] = {"weight": {"scalar": "toy_boundary"}}
+
+Run = Callable[[], list[str]]
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Plan:
+    registry.load_file(Path(__file__).with_name("toy_plugins.py"))
+    return make_plan([{**CONFIGURATION, "results": str(tmp_path / "results")}])
+
+
+@pytest.fixture
+def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run the plan with its stages in this process; return the names of those that were started."""
+    started: list[str] = []
+
+    def drive(command: list[str], log: Path, nodes: Any, results: Path, *rest: Any, **options: Any) -> int:
+        path = Path(command[-1].removeprefix("plan="))
+        wanted = {node.key for node in nodes}
+        started.extend(node.plugin for node in plan.stored if node.key in wanted)
+        return max(stage.run_stage(path, key) for key in plan.nodes if key in wanted)
+
+    def once() -> list[str]:
+        started.clear()
+        execution.run(plan)
+        return list(started)
+
+    monkeypatch.setenv(execution.HELD, "1")
+    monkeypatch.setattr(execution, "drive", drive)
+    monkeypatch.setattr(execution, "finish", lambda path: None)
+    return once
+
+
+def store_bytes(results: Path) -> dict[str, bytes]:
+    return {str(file.relative_to(results)): file.read_bytes() for file in (results / "store").rglob("*.*")}
+
+
+def node_of(plan: Plan, plugin: str) -> Any:
+    return next(node for node in plan.stored if node.plugin == plugin)
+
+
+def flip(file: Path) -> None:
+    data = bytearray(file.read_bytes())
+    data[len(data) // 2] ^= 1
+    file.write_bytes(data)
+
+
+@pytest.mark.parametrize("name", ["record.json", "arrays.npz"])
+@pytest.mark.parametrize("change", ["flip", "empty", "remove"])
+def test_damage_is_named_and_only_the_damaged_result_is_made_again(
+    run: Run, plan: Plan, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, change: str
+) -> None:
+    results = tmp_path / "results"
+    assert len(run()) == 6 and run() == []
+    undisturbed = store_bytes(results)
+    for plugin in ("toy_flux", "toy_distance"):  # in the middle and at the end
+        node = node_of(plan, plugin)
+        file = store.result_folder(results, node.kind, node.key) / name
+        {"flip": flip, "empty": lambda file: file.write_bytes(b""), "remove": Path.unlink}[change](file)
+        capsys.readouterr()
+        assert run() == [plugin]
+        said = capsys.readouterr().err
+        assert (name, change) == ("record.json", "remove") or (f"{node.kind}/{node.key}" in said and name in said)
+        assert len(said.splitlines()) <= 1 and store_bytes(results) == undisturbed
+
+
+def test_damage_that_only_the_reader_notices_is_made_again_in_the_same_run(
+    run: Run, plan: Plan, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    results = tmp_path / "results"
+    run()
+    undisturbed = store_bytes(results)
+    flux, reader = node_of(plan, "toy_flux"), node_of(plan, "toy_eigenfunction")
+    flip(store.result_folder(results, flux.kind, flux.key) / "arrays.npz")
+    store.discard(results, reader.kind, reader.key)
+    # as if nothing about the file had changed since it was hashed: bits that went bad on the disk
+    faults, first = store.faults, [True]
+
+    def blind(results: Path, stages: Any, anew: bool = False) -> dict[str, str]:
+        found = faults(results, stages, anew)
+        return {reader.key: ""} if first and first.pop() else found
+
+    monkeypatch.setattr(store, "faults", blind)
+    assert run() == ["toy_eigenfunction", "toy_flux", "toy_eigenfunction"]
+    assert f"{flux.kind}/{flux.key} is damaged: arrays.npz" in capsys.readouterr().err.splitlines()[-1]
+    assert store_bytes(results) == undisturbed
+
+
+def test_a_lost_event_takes_the_clock_and_no_number(run: Run, plan: Plan, tmp_path: Path) -> None:
+    results, leaf = tmp_path / "results", plan.nodes[plan.leaves[0].key]
+    run()
+    (before,) = rows_of(plan, results)
+    assert before.metrics == {"distance": 1.0} and before.seconds is not None and not before.failure
+    for content in (None, "", "[1", '{"seconds": "fast"}', "\x00"):
+        file = event_path(results, leaf.kind, leaf.key)
+        file.unlink(missing_ok=True) if content is None else file.write_text(content)
+        (row,) = rows_of(plan, results)
+        assert row.metrics == before.metrics and row.seconds is None and not row.failure
+        assert run() == []
+
+
+def test_what_is_written_into_an_event_changes_no_number_and_no_verdict(run: Run, plan: Plan, tmp_path: Path) -> None:
+    results, leaf = tmp_path / "results", plan.nodes[plan.leaves[0].key]
+    run()
+    claims = [
+        {"claim": "small", "metric": "distance", "holds": [None, 0.5]},
+        {"claim": "adjoint", "metric": "adjointness_defect", "holds": [None, 1e-12]},
+    ]
+    verdicts = [item.verdict for item in judge(claims, rows_of(plan, results))]
+    file = event_path(results, leaf.kind, leaf.key)
+    invented = {"metrics": {"distance": 0.1, "adjointness_defect": 1e-20}, "notes": ["fine"], "failure": "never ran"}
+    file.write_text(json.dumps(json.loads(file.read_text()) | invented))
+    (row,) = rows_of(plan, results)
+    assert row.metrics == {"distance": 1.0} and row.notes == [] and not row.failure
+    assert [item.verdict for item in judge(claims, [row])] == verdicts and verdicts[1] == "not computed"
+
+
+def test_a_store_without_digests_is_made_again_with_a_line_for_each(
+    run: Run, plan: Plan, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    results = tmp_path / "results"
+    run()
+    undisturbed = store_bytes(results)
+    for file in results.glob("store/*/*/record.json"):
+        file.write_text(json.dumps(json.loads(file.read_text())["result"], indent=1, sort_keys=True) + "\n")
+    assert len(run()) == 6 and capsys.readouterr().err.count("of an earlier version, which stored no digests") == 6
+    assert store_bytes(results) == undisturbed
+
+
+def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(np, "abs", lambda values: 1 / 0)
+    with pytest.raises(StageFailure, match="pairing/toy_distance: division by zero"):
+        run()
