@@ -23,6 +23,7 @@ METRICS = {
     "skeleton_points": Metric("points of the skeleton"),
     "smallest_weight": Metric("smallest weight"),
     "largest_weight": Metric("largest weight"),
+    "weight_on_skeleton": Metric("mean weight far from the boundary over the mean of all"),
 }
 
 

@@ -24,6 +24,7 @@ METRICS = {
     "vertex_error": Metric("root mean square distance of the vertices to the clean ones", "unit of length", "lower"),
     "normal_error_before": Metric("mean angle between noisy and clean face normals", "degrees"),
     "normal_error": Metric("mean angle between face normals and clean ones", "degrees", "lower"),
+    "normal_error_share": Metric("angle between normals after over before", better="lower"),
 }
 
 

@@ -5,6 +5,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.metric import Metric
 from surfexp.spectrum.eigenfunction_error import eigenfunction_errors, midpoint_gain, values_below
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
@@ -18,7 +19,18 @@ class EigenfunctionError(Options):
     count: int = Field(40, ge=4, le=400, description="eigenfunctions after the constant")
 
 
-@register("statistic", "eigenfunction_error")
+ERROR_METRICS = {
+    "order_in_h": Metric("mean order of the errors in the edge length"),
+    "least_order": Metric("least order"),
+    "largest_order": Metric("largest order"),
+    "constant": Metric("largest error over h^2 lambda", better="lower"),
+    "constant_growth": Metric("constant of the upper half of the modes over that of the lower"),
+    "exponent_of_value": Metric("exponent of the eigenvalue in a fit of the errors"),
+    "edge_length": Metric("mean edge length", "unit of length"),
+}
+
+
+@register("statistic", "eigenfunction_error", metrics=ERROR_METRICS)
 def eigenfunction_error_statistic(options: EigenfunctionError) -> Statistic:
     """Order in h and constant of the bound C h^2 lambda (3.24) on two meshes of a sphere or a rectangle."""
     coarse, fine = (eigenfunction_errors(options.shape, options.level - k, options.count) for k in (1, 0))
@@ -48,7 +60,14 @@ class MidpointGain(Options):
     project: bool = Field(False, description="midpoints carried to the smooth surface; else left on the facets")
 
 
-@register("statistic", "midpoint_gain")
+GAIN_METRICS = {
+    "mean_gain": Metric("mean factor by which errors fall", better="higher"),
+    "least_gain": Metric("least factor", better="higher"),
+    "largest_gain": Metric("largest factor", better="higher"),
+}
+
+
+@register("statistic", "midpoint_gain", metrics=GAIN_METRICS)
 def midpoint_gain_statistic(options: MidpointGain) -> Statistic:
     """Factor by which the errors of eigenvalues fall when every triangle is cut into four at its midpoints."""
     gains = midpoint_gain(**dict(options))
@@ -66,7 +85,12 @@ class ValuesBelow(Options):
     circumscribed: bool = Field(False, description="facets outside of the sphere; else inside")
 
 
-@register("statistic", "values_below")
+BELOW_METRICS = {
+    "below_exact": Metric("eigenvalues below the exact ones"),
+}
+
+
+@register("statistic", "values_below", metrics=BELOW_METRICS)
 def values_below_statistic(options: ValuesBelow) -> Statistic:
     """Number of eigenvalues of linear elements that lie under those of the sphere, which (3.25) excludes."""
     where = "outside" if options.circumscribed else "inside"

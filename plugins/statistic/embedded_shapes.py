@@ -8,6 +8,7 @@ from surfexp.embedding.region_separation import region_separation
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
@@ -17,7 +18,13 @@ class EmbeddedRoundness(Options):
     """The number of functions is that of figure 6.1, three."""
 
 
-@register("statistic", "embedded_roundness")
+ROUNDNESS_METRICS = {
+    "mean_radius": Metric("mean distance from the origin"),
+    "radius_spread": Metric("standard deviation of the distance over its mean"),
+}
+
+
+@register("statistic", "embedded_roundness", metrics=ROUNDNESS_METRICS)
 def embedded_roundness_statistic(
     options: EmbeddedRoundness, *, surface: Surface, eigensolver: EigenSystem
 ) -> Statistic:
@@ -35,7 +42,19 @@ class RegionSeparation(Options):
     sizes: list[int] = Field([1, 2, 3, 4, 6, 10], description="numbers n of eigenfunctions")
 
 
-@register("statistic", "region_separation")
+SEPARATION_METRICS = {
+    "found, in space": Metric("share of regions nearest to their own on the other side, in space"),
+    "found, n = {n}": Metric("share of regions nearest to their own on the other side", better="higher"),
+    "between over distance, n = {n}": Metric(
+        "distance between regions over the distance of the surfaces", better="higher"
+    ),
+    "between over within, n = {n}": Metric(
+        "distance between regions over that of one region on both sides", better="higher"
+    ),
+}
+
+
+@register("statistic", "region_separation", metrics=SEPARATION_METRICS)
 def region_separation_statistic(
     options: RegionSeparation,
     *,

@@ -5,6 +5,7 @@ from pydantic import Field
 
 from surfexp.baselines.level_set import level_set
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
@@ -15,7 +16,14 @@ class NarrowBandOptions(Options):
     points: int = Field(162, ge=16, le=2048, description="grid points along the longest side of the surface")
 
 
-@register("statistic", "narrow_band")
+METRICS = {
+    "band_nodes": Metric("nodes of the narrow band"),
+    "nodes_per_vertex": Metric("nodes for each vertex"),
+    "memory_bytes": Metric("memory of the band and what extends data to it", "bytes"),
+}
+
+
+@register("statistic", "narrow_band", metrics=METRICS)
 def narrow_band_statistic(options: NarrowBandOptions, *, surface: Surface) -> Statistic:
     """Nodes of the narrow band of a grid around a surface with what extends data to it: the level set method's set-up."""
     spacing = float(np.ptp(surface.mesh.vertices, axis=0).max()) / options.points

@@ -70,7 +70,7 @@ SULCAL_ASYMMETRY_METRICS = {
     "p, {estimator}": Metric("p of the first sulcus, paired t-test, corrected by Holm"),
     "p Wilcoxon, {estimator}": Metric("p of the first sulcus, Wilcoxon's test, corrected by Holm"),
     "least p elsewhere, {estimator}": Metric("least corrected p of the other sulci"),
-    "false positives, {estimator}": Metric("share of random exchanges of sides in which a difference is found"),
+    "found in halves, {estimator}": Metric("share of random halves of the subjects with a difference"),
     "length, {estimator}": Metric("mean length of the first sulcus", "mm"),
     "pairs, {estimator}": Metric("complete pairs of the first sulcus"),
     "printed share of line": Metric("length of the published line over that with its ends"),

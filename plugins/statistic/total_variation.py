@@ -4,6 +4,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.statistic import Statistic
@@ -24,7 +25,18 @@ class Coarea(Options):
     seed: int = Field(0, ge=0, description="seed of the function constant on faces")
 
 
-@register("statistic", "coarea", accepts={"surface": ("icosphere",), "operator": ("fem",)})
+METRICS = {
+    "level_line_over_length": Metric("length of the level line over the exact one"),
+    "indicator_over_length": Metric("total variation of the indicator at the vertices over the exact length"),
+    "coarea_defect_smooth": Metric(
+        "relative difference of the two sides of the co-area formula, linear on faces", better="lower"
+    ),
+    "coarea_defect_jumps": Metric("the same for a function constant on faces", better="lower"),
+    "edge_length": Metric("mean edge length", "unit of length"),
+}
+
+
+@register("statistic", "coarea", accepts={"surface": ("icosphere",), "operator": ("fem",)}, metrics=METRICS)
 def coarea_statistic(options: Coarea, *, surface: Surface, operator: SurfaceOperator) -> Statistic:
     """Perimeter of a cap by total variation and by its level line, and both sides of the co-area formula."""
     mesh = surface.mesh

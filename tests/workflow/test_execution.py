@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from surfexp.report.claims import judge
 
 from surfexp.commands import execution
-from surfexp.report.claims import judge
 from surfexp.report.table import rows_of
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.errors import StageFailure
