@@ -8,11 +8,12 @@ from typing import Literal
 import numpy as np
 
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.functional_map import refine_with_field, spectral_icp, zoomout
+from surfexp.embedding.functional_map import spectral_icp
 from surfexp.embedding.labels import map_metrics
 from surfexp.embedding.nearest import mutual_distances, nearest
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
