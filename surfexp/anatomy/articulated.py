@@ -107,6 +107,32 @@ def articulated_body(body: str = "biped", pose: int = 0, bending: float = 1.0, v
 
 def posed_bones(body: str, pose: int, bending: float = 1.0) -> Floats:
     """(k, 9) round cones of a pose, as `round_cones` takes them."""
+    return _posed(body, pose, bending)[0]
+
+
+def carried_body(body: str = "biped", pose: int = 1, bending: float = 1.0, vertices: int = 2000) -> Surface:
+    """Carry the skin of the pose at rest along by the bones of another: vertex i is vertex i of the body at rest.
+
+    Each vertex moves with the bones that it is near to, blended over `BLEND` (linear blend skinning), so that the map
+    between the two surfaces is known and is an isometry but for the skin near joints.
+    """
+    rest = articulated_body(body, 0, vertices=vertices)
+    bones, _ = _posed(body, 0, 0.0)
+    cones, rotations = _posed(body, pose, bending)
+    points = rest.mesh.vertices
+    depths = np.stack([round_cones(points, bone[None]) for bone in bones], axis=1)
+    shares = np.exp((depths.min(axis=1, keepdims=True) - depths) / (0.5 * BLEND))
+    shares /= shares.sum(axis=1, keepdims=True)
+    carried = np.stack(
+        [cone[:3] + (points - bone[:3]) @ turn.T for bone, cone, turn in zip(bones, cones, rotations, strict=True)]
+    )
+    moved = np.einsum("vk,kvd->vd", shares, carried)
+    name = f"{body.replace('_', ' ')}, carried to pose {pose}"
+    return with_metrics(Surface(TriangleMesh(moved, rest.mesh.faces), name))
+
+
+def _posed(body: str, pose: int, bending: float) -> tuple[Floats, Floats]:
+    """Round cones (k, 9) of a pose, and the rotations (k, 3, 3) of its bones from the pose at rest."""
     from scipy.spatial.transform import Rotation
 
     rng = np.random.default_rng([pose, *body.encode()])
@@ -123,7 +149,7 @@ def posed_bones(body: str, pose: int, bending: float = 1.0) -> Floats:
         start = np.zeros(3) if before is None else before[:3] + along * (before[3:6] - before[:3])
         cones.append(np.concatenate([start, start + length * direction, [thick, thin, BLEND]]))
         frames.append(frame)
-    return np.array(cones)
+    return np.array(cones), np.array([frame.as_matrix() for frame in frames])
 
 
 def _skin(cones: Floats, vertices: int) -> TriangleMesh:

@@ -6,8 +6,8 @@ import numpy as np
 
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import Blocks
-from surfexp.embedding.functional_map import nearest_orthogonal
-from surfexp.embedding.nearest import mutual_distances, nearest
+from surfexp.embedding.functional_map import orthogonal_map, vertex_map
+from surfexp.embedding.nearest import mutual_distances
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -60,7 +60,7 @@ def block_distance(
         basis=basis,
         source_points=source.points,
         target_points=moved,
-        correspondence=nearest(moved, source.points)[0],
+        correspondence=vertex_map(basis, source.points, target.points),
         method="mean Hausdorff over blocks",
         metrics={"blocks": float(len(blocks)), "largest_block": float(max(stop - start for start, stop in blocks))},
     )
@@ -73,7 +73,7 @@ def _staged(source: SpectralEmbedding, target: SpectralEmbedding, blocks: Blocks
         if number == 0:
             basis[start:stop, start:stop] = np.linalg.qr(rng.normal(size=(stop - start, stop - start)))[0]
         else:
-            rows = nearest(target.points[:, :start] @ basis[:start, :start], source.points[:, :start])[0]
+            rows = vertex_map(basis[:start, :start], source.points[:, :start], target.points[:, :start])
             _align(basis, source, target, rows, ((start, stop),))
         last = number == len(blocks) - 1
         basis = _iterate(
@@ -87,7 +87,7 @@ def _iterate(
 ) -> Floats:
     basis, before = basis.copy(), None
     for _ in range(count):
-        rows = nearest(target.points[:, :known] @ basis[:known, :known], source.points[:, :known])[0]
+        rows = vertex_map(basis[:known, :known], source.points[:, :known], target.points[:, :known])
         if before is not None and (rows == before).all():
             break
         before = rows
@@ -100,8 +100,8 @@ def _align(
 ) -> None:
     """Set blocks of `basis`, in place, to the best orthogonal matrices for a map."""
     for start, stop in blocks:
-        product = (target.points[:, start:stop] * target.weights[:, None]).T @ source.points[rows, start:stop]
-        basis[start:stop, start:stop] = nearest_orthogonal(product)
+        block = source.points[:, start:stop], target.points[:, start:stop]
+        basis[start:stop, start:stop] = orthogonal_map(*block, target.weights, rows)
 
 
 def _value(source: SpectralEmbedding, target: SpectralEmbedding, basis: Floats) -> float:

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.embedding.functional_map import refine_with_field, zoomout
-from surfexp.embedding.nearest import nearest
+from surfexp.embedding.functional_map import vertex_map
 from surfexp.embedding.spectral_distance import sampled_signs
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.sulcal_lengths import region_ends
 from surfexp.embedding.sulcal_regions import bounded_curvature, sulcal_regions
+from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
@@ -62,7 +62,8 @@ def template_map(template: Template, system: EigenSystem, mesh: TriangleMesh) ->
     """Return the template vertex of each vertex of a surface: ZoomOut, then one round with the mean curvature."""
     template_areas, areas = template.surface.mesh.vertex_areas, mesh.vertex_areas
     source, target = spectral_embedding(template.system, template_areas, 10), spectral_embedding(system, areas, 10)
-    start = nearest(target.points * sampled_signs(source, target, samples=800)[0], source.points)[0]
+    signs = np.diag(sampled_signs(source, target, samples=800)[0].astype(np.float64))
+    start = vertex_map(signs, source.points, target.points)
     rows = zoomout(template.system, system, (template_areas, areas), start, 10, LARGEST_MAP, samples=2000)
     fields = bounded_curvature(template.surface.mesh), bounded_curvature(mesh)
     return refine_with_field(

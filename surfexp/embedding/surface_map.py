@@ -8,11 +8,13 @@ from typing import Literal
 import numpy as np
 
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.functional_map import refine_with_field, spectral_icp, zoomout
+from surfexp.embedding.functional_map import spectral_icp, vertex_map
 from surfexp.embedding.labels import map_metrics
 from surfexp.embedding.nearest import mutual_distances, nearest
+from surfexp.embedding.rival_maps import INDISTINCT_SHARE, map_contest
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -83,7 +85,7 @@ def zoomout_map(
     field_modes: int = 60,
 ) -> Distance:
     """ZoomOut from the embedding of optimal signs; `field` names a scalar map that both have, for a last refinement."""
-    distance = pair.optimal(n, min(samples, 1500), seed)
+    distance = contested(pair, pair.optimal(n, min(samples, 1500), seed), n, seed)
     rows = zoomout(
         pair.source, pair.target, pair.areas, distance.correspondence, min(n, last), last, step, samples, seed
     )
@@ -96,6 +98,41 @@ def zoomout_map(
     fields = pair.source_surface.scalars[field], pair.target_surface.scalars[field]
     rows = refine_with_field(pair.source, pair.target, pair.areas, rows, fields, field_modes)
     return pair.scored(distance, rows, f"ZoomOut with {field}")
+
+
+def contested(pair: Pair, distance: Distance, n: int, seed: int = 0) -> Distance:
+    """The distance with the energies of its map and of the best other one, and a note where they hardly differ.
+
+    Where other signs lead to a map of clearly less energy, the distance and the map are those of these signs.
+    """
+    first, second = pair.areas
+    embeddings = spectral_embedding(pair.source, first, n), spectral_embedding(pair.target, second, n)
+    contest = map_contest(
+        (pair.source, pair.target), pair.areas, embeddings, np.diag(distance.basis).astype(np.int8), seed
+    )
+    found, rival, notes = contest.found, contest.rival, distance.notes
+    if rival is None:
+        return replace(distance, metrics={**distance.metrics, "map_energy": found.energy, "ambiguous": 0.0})
+    if contest.rival_wins:
+        notes += (
+            f"The signs of least distance lead to a map of energy {found.energy:.3g}, others to {rival.energy:.3g}: "
+            "the map is that of the others.",
+        )
+        found, rival = rival, found
+        basis = np.diag(found.signs.astype(np.float64))
+        distance = pair.scored(distance, vertex_map(basis, *(e.points for e in embeddings)), distance.method, basis)
+    if contest.indistinct:
+        notes += (
+            f"Ambiguous: another map has the energy {rival.energy:.3g}, this one {found.energy:.3g}, less than "
+            f"{100 * INDISTINCT_SHARE:.0f} % apart; "
+            "what an isometry keeps cannot tell which is right, as with left and right of a body.",
+        )
+    energies = {
+        "map_energy": found.energy,
+        "rival_energy": rival.energy,
+        "ambiguous": float(contest.indistinct),
+    }
+    return replace(distance, metrics={**distance.metrics, **energies}, notes=notes)
 
 
 def signature_map(

@@ -6,6 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from scipy.spatial.distance import cdist
 
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
 from surfexp.embedding.counterexamples import clover, named_revolution
@@ -110,6 +111,34 @@ def test_the_sup_inf_of_simple_spectra_is_the_least_over_signs(revolutions) -> N
     simple = ((0, 1),)
     expected = spectral_distance(first, second, summary="largest").value
     assert sup_inf_distance(first, second, simple, simple) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("summary", ["largest", "mean"])
+def test_the_sup_inf_leaves_out_only_bases_that_cannot_matter(summary: str) -> None:
+    rng = np.random.default_rng(2)
+    spread = np.array([1.0, 0.3])
+    first, second = (
+        SpectralEmbedding(rng.normal(size=(count, 2)) * spread, np.full(count, 1.0 / count), np.array([8.0, 8.1]))
+        for count in (15, 18)
+    )
+    plane, lines = ((0, 2),), ((0, 1), (1, 2))
+    for blocks in ((plane, lines), (lines, plane), (plane, plane), (lines, lines)):
+        groups = [block_group(own, angles=8) for own in blocks]
+        tables = {
+            (i, j): cdist(first.points @ a, second.points @ b)
+            for i, a in enumerate(groups[0])
+            for j, b in enumerate(groups[1])
+        }
+        there = np.empty((len(groups[0]), len(groups[1])))
+        back = np.empty_like(there)
+        for place, table in tables.items():
+            nearest = table.min(axis=1), table.min(axis=0)
+            if summary == "largest":
+                there[place] = back[place] = max(nearest[0].max(), nearest[1].max())
+            else:
+                there[place], back[place] = nearest[0].mean(), nearest[1].mean()
+        expected = max(there.min(axis=1).max(), back.min(axis=0).max())
+        assert sup_inf_distance(first, second, *blocks, summary, angles=8) == pytest.approx(expected, rel=1e-9)
 
 
 def test_analytic_embeddings_agree_with_each_other_and_with_elements() -> None:

@@ -124,6 +124,35 @@ def test_names_by_hand() -> None:
     assert naming_accuracy(np.array([0, 1]), np.array([0, -1]), regions, areas) == 1.0
 
 
+def test_names_by_distance_look_both_ways() -> None:
+    """A region inside one template region, and one around it, both belong to the neighbour of their own extent."""
+    small, wide = np.array([[0.0]]), np.array([[0.0], [10.0]])
+    for points, template_points, template in (
+        (small, np.array([[0.0], [10.0], [1.0]]), np.array([0, 0, 1])),
+        (wide, np.array([[0.0], [1.0], [9.0]]), np.array([0, 1, 1])),
+    ):
+        count = len(points)
+        found = names_by_distance(
+            np.zeros(count, np.int64), np.ones(count), points, template, np.ones(3), template_points
+        )
+        assert found.tolist() == [1]
+    # an end of little area hardly counts, in either direction
+    rare = np.array([1.0, 1e-3])
+    found = names_by_distance(
+        np.zeros(2, np.int64), rare, wide, np.array([0, 1, 1]), np.ones(3), np.array([[0.0], [1.0], [9.0]])
+    )
+    assert found.tolist() == [0]
+    found = names_by_distance(
+        np.zeros(1, np.int64),
+        np.ones(1),
+        small,
+        np.array([0, 0, 1]),
+        np.append(rare, 1.0),
+        np.array([[0.0], [10.0], [1.0]]),
+    )
+    assert found.tolist() == [0]
+
+
 def test_a_strip_has_its_length() -> None:
     mesh = icosphere(5).mesh
     longitude = np.arctan2(mesh.vertices[:, 1], mesh.vertices[:, 0])

@@ -1,0 +1,97 @@
+"""The direction of functional maps: the published one, which differs from its adjoint, and what follows from it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.linalg import lstsq
+from scipy.spatial.distance import cdist
+
+from surfexp.embedding.functional_map import functional_map, orthogonal_map, vertex_map
+from surfexp.embedding.zoomout import refine_with_field, zoomout
+from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.spectrum.eigensystem import EigenSystem
+
+
+def system(count: int, modes: int, seed: int) -> EigenSystem:
+    """Functions on points that are nobody's eigenfunctions, so that functional maps of them are far from orthogonal."""
+    vectors = np.random.default_rng(seed).normal(size=(count, modes))
+    vectors[:, 0] = 1.0
+    return EigenSystem(np.arange(modes, dtype=float), vectors / np.sqrt(count), np.zeros(modes), 0.0, True)
+
+
+def published(source: Floats, target: Floats, areas: Floats, rows: Integers, sizes: range, adjoint: bool) -> Integers:
+    """ZoomOut written out: C = target^+ source[rows], then for each target point the nearest C source point."""
+    for size in sizes:
+        phi, psi, root = source[:, :size], target[:, :size], np.sqrt(areas)[:, None]
+        matrix = lstsq(root * psi, root * phi[rows])[0]
+        table = cdist(psi @ matrix, phi) if adjoint else cdist(psi, (matrix @ phi.T).T)
+        rows = table.argmin(axis=1)
+    return rows
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_zoomout_is_the_published_one_and_not_its_adjoint(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    source, target = system(90, 12, seed), system(70, 12, seed + 50)
+    areas = rng.uniform(0.5, 2.0, 90), rng.uniform(0.5, 2.0, 70)
+    start = rng.integers(0, 90, 70)
+    scaled = source.vectors * np.sqrt(areas[0].sum()), target.vectors * np.sqrt(areas[1].sum())
+    sizes = range(4, 13, 2)
+    rows = zoomout(source, target, areas, start, 4, 12, 2)
+    assert (rows == published(*scaled, areas[1], start, sizes, adjoint=False)).all()
+    assert (rows != published(*scaled, areas[1], start, sizes, adjoint=True)).mean() > 0.2
+
+
+def test_a_map_that_loses_modes_is_undone_in_one_direction_only() -> None:
+    rng = np.random.default_rng(3)
+    source = rng.normal(size=(200, 6))
+    truth = rng.integers(0, 200, 150)
+    # not orthogonal: three of the six modes come through weakly
+    matrix = np.linalg.qr(rng.normal(size=(6, 6)))[0] * [1.0, 1.0, 1.0, 0.1, 0.1, 0.1]
+    target = source[truth] @ matrix.T
+    weights = rng.uniform(0.5, 2.0, 150)
+    assert functional_map(source, target @ np.linalg.inv(matrix).T, weights, truth) == pytest.approx(np.eye(6))
+    assert (vertex_map(matrix, source, target) == truth).all()
+    adjoint = cdist(target @ matrix, source).argmin(axis=1)
+    assert (adjoint == truth).mean() < 0.5
+
+
+def test_functional_maps_need_not_be_square() -> None:
+    rng = np.random.default_rng(4)
+    source, target, truth = rng.normal(size=(40, 3)), rng.normal(size=(30, 5)), rng.integers(0, 40, 30)
+    matrix = functional_map(source, target, np.ones(30), truth)
+    assert matrix.shape == (5, 3)
+    assert (vertex_map(matrix, source, target) == cdist(target, source @ matrix.T).argmin(axis=1)).all()
+
+
+def test_the_orthogonal_map_takes_source_to_target() -> None:
+    rng = np.random.default_rng(5)
+    turn = np.linalg.qr(rng.normal(size=(5, 5)))[0]
+    source, truth = rng.normal(size=(60, 5)), rng.permutation(60)
+    target = source[truth] @ turn.T
+    assert orthogonal_map(source, target, rng.uniform(1.0, 2.0, 60), truth) == pytest.approx(turn, abs=1e-12)
+    assert (vertex_map(turn, source, target) == truth).all()
+
+
+def test_refinement_with_a_field_is_one_round_of_the_same_formula() -> None:
+    rng = np.random.default_rng(6)
+    source, target = system(80, 8, 1), system(60, 8, 2)
+    areas = np.ones(80), np.ones(60)
+    fields = rng.normal(size=80), rng.normal(size=60)
+    start = rng.integers(0, 80, 60)
+    found = refine_with_field(source, target, areas, start, fields, 8, 0.3, 1)
+    phi, psi = source.vectors * np.sqrt(80.0), target.vectors * np.sqrt(60.0)
+    weights = 1.0 / np.sqrt(np.concatenate([[1.0], target.values[1:] * 60.0]))
+    scale = 0.3 * np.sqrt(((psi * weights) ** 2).sum(axis=1).mean())
+    moved = (phi @ lstsq(psi, phi[start])[0].T) * weights
+    heights = [scale * (field - field.mean()) / field.std() for field in fields]
+    table = cdist(np.column_stack([psi * weights, heights[1]]), np.column_stack([moved, heights[0]]))
+    assert (found == table.argmin(axis=1)).all()
+
+
+def test_too_few_samples_for_the_largest_map_are_refused() -> None:
+    source = system(90, 12, 0)
+    areas = np.ones(90), np.ones(90)
+    with pytest.raises(ValueError, match="8 samples for a functional map of size 12: take samples >= 12"):
+        zoomout(source, source, areas, np.arange(90), 4, 12, 2, samples=8)
