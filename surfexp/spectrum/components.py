@@ -165,9 +165,7 @@ def _counted_shift(pencil: ShiftedPencil, labels: Integers, k: int) -> CountedSh
             low = max(low, counted.shift)
         elif best is None or counted.shift < best.shift:
             best = counted
-        if best is not None and (
-            best.total <= allowed or best.shift < NARROWEST_BRACKET * low or attempt >= FEW_STEPS
-        ):
+        if best is not None and (best.total <= allowed or best.shift < NARROWEST_BRACKET * low or attempt >= FEW_STEPS):
             return best
     raise EigensolverError(
         f"only {counted.total} eigenvalues lie below {counted.shift:.1e}, k = {k} are wanted: the mass or the stiffness "
@@ -202,14 +200,18 @@ def _lowest_of_each(
             for i, member in enumerate(chunk):
                 rows, owed = order[starts[member] : starts[member + 1]], int(counted.counts[member])
                 above = float(values[i, owed]) if owed < size else np.inf
-                parts.append(ComponentPairs(int(member), rows, values[i, :owed], vectors[i, :, :owed], above, True, "dense"))
+                parts.append(
+                    ComponentPairs(int(member), rows, values[i, :owed], vectors[i, :, :owed], above, True, "dense")
+                )
     for member in np.flatnonzero(owing & ~small):
         rows, owed = order[starts[member] : starts[member + 1]], int(counted.counts[member])
         try:
             system = solve(csr_array(stiffness[rows][:, rows]), csr_array(mass[rows][:, rows]), owed)
         except EigensolverError as cause:
             raise EigensolverError(f"component {member} of {len(sizes)} ({len(rows)} rows): {cause}") from cause
-        parts.append(ComponentPairs(int(member), rows, system.values, system.vectors, np.inf, system.complete, system.method))
+        parts.append(
+            ComponentPairs(int(member), rows, system.values, system.vectors, np.inf, system.complete, system.method)
+        )
     return parts
 
 

@@ -68,7 +68,9 @@ def eigenpairs(
     check_request(n, k, tolerance)
     check_pencil(stiffness, mass)
     if (method == "dense" and n > LARGEST_DENSE_SIZE) or (4 * k > n > LARGEST_DENSE_SIZE):
-        raise EigensolverError(f"k = {k} of n = {n}: dense matrices end at n = {LARGEST_DENSE_SIZE}, take k <= {n // 4}")
+        raise EigensolverError(
+            f"k = {k} of n = {n}: dense matrices end at n = {LARGEST_DENSE_SIZE}, take k <= {n // 4}"
+        )
     if method not in ("auto", "dense") and 4 * k > n:
         raise EigensolverError(f"k = {k} is over a quarter of n = {n}: take k <= {n // 4} or method dense")
     if method == "lobpcg":

@@ -131,11 +131,12 @@ def measure(
             block[:, :width] = vectors[:, some]
             multiply_lanes(mass, block, mass_block)
             multiply_lanes(stiffness, block, error)
-            values[some] = (gram(block, error).diagonal() / gram(block, mass_block).diagonal())[:width]
+            energies, squared_norms = gram(block, error).diagonal(), gram(block, mass_block).diagonal()
+            values[some] = energies[:width] / squared_norms[:width]
             quotients = np.zeros(LANES)
             quotients[:width] = values[some]
             sizes = residual_norms(error, mass_block, quotients)
-            errors[some] = (sizes[0] / sizes[1])[:width]
+            errors[some] = sizes[0][:width] / sizes[1][:width]
             masses[:, first - start : first - start + width] = mass_block[:, :width]
         products = masses[:, : stop - start].T @ vectors[:, start:]
         products[np.arange(stop - start), np.arange(stop - start)] -= 1.0

@@ -69,7 +69,7 @@ def certified(system: EigenSystem, k: int, tolerance: float) -> EigenSystem:
     EigensolverError
     """
     lowest, spacing = float(system.values.min(initial=np.inf)), system.spacing
-    if lowest < -MOST_NEGATIVE * spacing:
+    if system.inertia and lowest < -MOST_NEGATIVE * spacing:
         raise EigensolverError(
             f"the stiffness has an eigenvalue {lowest:.3g}, {-lowest / spacing:.1e} mean spacings below 0, at most "
             f"{MOST_NEGATIVE:g} is rounding: assemble it from a positive semidefinite energy"

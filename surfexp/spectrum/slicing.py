@@ -173,9 +173,7 @@ def _notes(total: int, k: int, slices: list[SpectrumSlice]) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def polish(
-    pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: float = 0.0
-) -> tuple[Measurement, int]:
+def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: float = 0.0) -> tuple[Measurement, int]:
     """Improve, in place, the lowest pairs while some miss the tolerance; return the measurement and how often.
 
     They are the farthest from the shift and, relative to their own size, the least accurate: one block inverse iteration
@@ -193,7 +191,11 @@ def polish(
         improved = inverse_iteration(pencil, factors, vectors[:, :count])
         projected = improved.T @ (pencil.stiffness @ np.ascontiguousarray(improved))
         gram = improved.T @ pencil.multiply_mass(improved)
-        rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
+        try:
+            rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
+        except np.linalg.LinAlgError:
+            # dependent vectors, which no rotation repairs: the residuals that stay behind refuse them
+            return measurement, done
         vectors[:, :count] = improved @ rotation
         improved_part = measure(pencil.stiffness, pencil.mass, vectors, count, measurement.spacing)
         measurement = improved_part.followed_by(measurement)
