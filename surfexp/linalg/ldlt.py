@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array, sparray
 
 from surfexp.linalg.lanes import LANES
@@ -32,12 +33,14 @@ class LDLT:
     matrix, symbolic
         As given.
     replaced_pivots : int
-        Pivots under 1e-14 of the largest diagonal entry, replaced by that bound.
+        Pivots under 1e-14 of the least diagonal entry that is not 0 (in modulus), replaced by that bound.
     residual : float
         |A x - b| / |b| of a first solve with fixed right-hand sides.
     perturbation : float
         |A x - b| / |x| of that solve. As x is mostly made of the eigenvectors nearest to zero, this is about how far the
         eigenvalues nearest to zero have moved: the inertia is exact when all are farther from zero than that.
+    row_errors, row_sizes : (n,) float64
+        What that ratio is made of, row by row in elimination order: the parts of a block diagonal matrix are judged apart.
 
     Raises
     ------
@@ -59,7 +62,9 @@ class LDLT:
             raise ValueError(f"matrix has {int((~np.isfinite(matrix.data)).sum())} entries that are not finite")
         self.matrix = matrix
         s = self.symbolic
-        scale = float(np.abs(matrix.diagonal()).max()) or 1.0
+        diagonal = np.abs(matrix.diagonal())
+        scale = float(diagonal.min(initial=np.inf, where=diagonal > 0))
+        scale = scale if np.isfinite(scale) else 1.0
         self.replaced_pivots = int(
             eliminate(
                 *(matrix.indptr, matrix.indices, matrix.data),
@@ -70,14 +75,21 @@ class LDLT:
         probe = np.cos(np.outer(np.arange(s.size), np.arange(1.0, LANES + 1)))
         solution = probe.copy()
         self.solve_in_order(solution)
-        error = float(np.linalg.norm(matrix @ solution - probe))
+        defect = matrix @ solution - probe
+        self.row_errors, self.row_sizes = np.linalg.norm(defect, axis=1), np.linalg.norm(solution, axis=1)
+        error = float(np.linalg.norm(self.row_errors))
         self.residual = error / float(np.linalg.norm(probe))
-        self.perturbation = error / float(np.linalg.norm(solution))
+        self.perturbation = error / float(np.linalg.norm(self.row_sizes))
+
+    @property
+    def negative(self) -> NDArray[np.bool_]:
+        """(n,) which pivots are negative, in elimination order."""
+        return np.asarray(self._pivots < 0)
 
     @property
     def inertia(self) -> tuple[int, int]:
         """Numbers of negative and of positive eigenvalues."""
-        negative = int((self._pivots < 0).sum())
+        negative = int(self.negative.sum())
         return negative, self.symbolic.size - negative
 
     def solve_in_order(self, right_hand_sides: Floats) -> None:

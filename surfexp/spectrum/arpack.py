@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.linalg import LinearOperator, eigsh
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from surfexp.mesh.triangle_mesh import Floats
-from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measure, measured
+from surfexp.spectrum.dense import gap_above
+from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensystem import EigenSystem, clusters, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
+
+MORE = (1, 12, 60)
 
 
 def arpack(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8, seed: int = 0) -> EigenSystem:
     """Find the k lowest pairs by implicitly restarted Lanczos (Lehoucq, Sorensen and Yang 1998), then count by inertia.
 
-    One value more than k is asked for, so that the count can be taken between the last two.
+    A few values more than k are asked for, so that the count can be taken in a gap above the cluster of the k-th.
 
     Raises
     ------
-    ValueError
+    EigensolverError
         If it does not converge.
     """
     pencil = ShiftedPencil(stiffness, mass)
@@ -34,20 +38,29 @@ def arpack(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-
 
     inverse = LinearOperator((n, n), matvec=solve, dtype=np.float64)
     start = np.random.default_rng(seed).normal(size=n)
-    values, vectors = eigsh(
-        pencil.stiffness, k + 1, pencil.mass, sigma=shift, OPinv=inverse, v0=start, tol=1e-4 * tolerance
-    )
-    order = np.argsort(values)
-    values, vectors = values[order], vectors[:, order]
+    stop = k
+    for more in MORE:
+        asked = min(k + more, n - 1)
+        try:
+            values, vectors = eigsh(
+                pencil.stiffness, asked, pencil.mass, sigma=shift, OPinv=inverse, v0=start, tol=1e-4 * tolerance
+            )
+        except (ArpackError, np.linalg.LinAlgError) as cause:
+            raise EigensolverError(f"ARPACK does not converge ({cause}): take method slicing") from cause
+        order = np.argsort(values)
+        values, vectors = values[order], vectors[:, order]
+        stop = next((stop for start, stop in clusters(values) if start < k <= stop), k)
+        if stop < asked:
+            break
     notes: tuple[str, ...] = ()
-    if values[k] - values[k - 1] <= SMALLEST_GAP * abs(values[k]):
-        notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues",)
-    edge = pencil.factor(0.5 * float(values[k - 1] + values[k]))[0]
+    if stop > k:
+        notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {stop} contains all of it",)
+    edge = pencil.factor(gap_above(values, stop))[0]
     unpermuted = np.empty((n, k), order="F")
     unpermuted[pencil.order] = vectors[:, :k]
     return measured(
-        *(measure(stiffness, mass, unpermuted), unpermuted, "arpack"),
+        *(measure(stiffness, mass, unpermuted, spacing=max(edge, 0.0) / stop), unpermuted, "arpack"),
         inertia=((edge, pencil.counts[edge]),),
-        complete=pencil.counts[edge] == k and not notes,
+        complete=pencil.counts[edge] == stop and bool(edge - values[stop - 1] > pencil.doubts[edge]),
         notes=notes,
     )

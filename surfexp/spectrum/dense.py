@@ -1,26 +1,129 @@
-"""All eigenpairs of a small pencil, by dense algebra."""
+"""All eigenpairs of small pencils by dense algebra, one or a stack of them, counted apart by a sparse factorisation."""
 
 from __future__ import annotations
 
-from scipy.linalg import eigh
+import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measure, measured
+from surfexp.mesh.triangle_mesh import Floats
+from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensystem import EigenSystem, clusters, mean_spacing, measure, measured
+from surfexp.spectrum.shifted_pencil import ShiftedPencil
+
+LARGEST_DENSE_SIZE = 6000
 
 
-def dense(stiffness: csr_array, mass: csr_array, k: int) -> EigenSystem:
-    """Find the k lowest pairs with LAPACK, complete because all n values are found."""
-    values, vectors = eigh(stiffness.toarray(), mass.toarray())
-    n = len(values)
-    edge = 0.5 * float(values[k - 1] + values[k]) if k < n else float(values[-1]) + 1.0
+def dense(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8) -> EigenSystem:
+    """Find the k lowest pairs of a pencil with LAPACK.
+
+    They are complete where the sparse LDL^T of A - s B, which knows nothing of them, counts as many below a gap.
+    """
+    weyl = 4.0 * np.pi / float(mass.sum())
+    stacks = dense_pairs(stiffness.toarray()[None], mass.toarray()[None], tolerance, weyl)
+    values, vectors = stacks[0][0], stacks[1][0]
+    stop = next((stop for start, stop in clusters(values) if start < k <= stop), k)
+    pencil = ShiftedPencil(stiffness, mass)
+    edge = pencil.factor(gap_above(values, stop))[0]
     notes: tuple[str, ...] = ()
-    if k < n and values[k] - values[k - 1] <= SMALLEST_GAP * abs(values[k]):
-        notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues",)
-    below = int((values < edge).sum())
+    if stop > k:
+        notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {stop} contains all of it",)
     lowest = vectors[:, :k].copy(order="F")
+    doubt = pencil.doubts[edge]
+    clear = values[stop - 1] < edge - doubt and (stop == len(values) or values[stop] > edge + doubt)
     return measured(
-        *(measure(stiffness, mass, lowest), lowest, "dense"),
-        inertia=((edge, below),),
-        complete=True,
+        *(measure(stiffness, mass, lowest, spacing=max(edge, 0.0) / stop), lowest, "dense"),
+        inertia=((edge, pencil.counts[edge]),),
+        complete=bool(clear) and pencil.counts[edge] == stop,
         notes=notes,
     )
+
+
+def gap_above(values: Floats, count: int) -> float:
+    """Return the middle of the gap above the first `count` of the sorted values; above all of them, one spacing more."""
+    if count < len(values):
+        return 0.5 * float(values[count - 1] + values[count])
+    return float(values[-1]) + max(mean_spacing(values), 1e-3 * abs(float(values[-1])))
+
+
+def dense_pairs(stiffness: Floats, mass: Floats, tolerance: float, spacing: float) -> tuple[Floats, Floats]:
+    """Find all pairs of a stack of pencils.
+
+    The pencil (B, A) keeps the digits of large eigenvalues; with slivers, whose eigenvalues exceed the first ones 1e10
+    times and more, it loses those of small ones. The inverted pencil, (B, A + s B) with s about the first positive
+    eigenvalue, keeps them. Where the first alone misses the tolerance, each pair is taken from the better of the two.
+
+    Parameters
+    ----------
+    stiffness, mass : (m, c, c) float64
+    tolerance : float
+        Largest relative residual.
+    spacing : float
+        Mean distance of eigenvalues, the scale of residuals near 0.
+
+    Returns
+    -------
+    values : (m, c) float64
+        Increasing.
+    vectors : (m, c, c) float64
+        B-orthonormal columns.
+
+    Raises
+    ------
+    EigensolverError
+        If a mass is not positive definite.
+    """
+    values, vectors = _reduced(stiffness, mass)
+    late = np.flatnonzero((_residuals(stiffness, mass, values, vectors, spacing) > 0.1 * tolerance).any(axis=1))
+    for i in late:
+        low_values, low_vectors = _inverted(stiffness[i], mass[i], values[i])
+        one, two = (
+            _residuals(stiffness[i : i + 1], mass[i : i + 1], v[None], x[None], spacing)[0]
+            for v, x in ((low_values, low_vectors), (values[i], vectors[i]))
+        )
+        worst = np.maximum(np.append(0.0, np.maximum.accumulate(one)), np.append(_largest_from(two), 0.0))
+        seam = int(worst.argmin())
+        values[i, :seam], vectors[i, :, :seam] = low_values[:seam], low_vectors[:, :seam]
+    return values, vectors
+
+
+def _reduced(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+    """Solve left x = theta right x for stacks, the right sides scaled to unit diagonals; x^T right x = 1."""
+    scale = 1.0 / np.sqrt(np.einsum("mii->mi", right))
+    scaled = right * scale[:, :, None] * scale[:, None, :]
+    try:
+        lower = np.linalg.cholesky(scaled)
+    except np.linalg.LinAlgError as cause:
+        least = float(np.linalg.eigvalsh(scaled).min())
+        raise EigensolverError(
+            f"the mass matrix is not positive definite, its least eigenvalue at unit diagonal is {least:.1e}: "
+            "repair faces of no area or give another mass"
+        ) from cause
+    half = np.linalg.solve(lower, left * scale[:, :, None] * scale[:, None, :])
+    whole = np.linalg.solve(lower, half.transpose(0, 2, 1))
+    values, rotated = np.linalg.eigh(0.5 * (whole + whole.transpose(0, 2, 1)))
+    return values, np.linalg.solve(lower.transpose(0, 2, 1), rotated) * scale[:, :, None]
+
+
+def _inverted(stiffness: Floats, mass: Floats, guess: Floats) -> tuple[Floats, Floats]:
+    """Solve B x = theta (A + s B) x: the largest theta, the lowest lambda = 1 / theta - s, are the accurate ones."""
+    shift = float(np.median(np.abs(guess))) or 1.0
+    shift = min(shift, max(4.0 * np.pi / float(mass.sum()), 1e-12 * float(np.abs(guess).max())))
+    try:
+        theta, vectors = (stack[0, ..., ::-1] for stack in _reduced(mass[None], (stiffness + shift * mass)[None]))
+    except EigensolverError:
+        return guess, np.full_like(mass, np.nan)
+    theta = np.maximum(theta, np.finfo(float).tiny)
+    return 1.0 / theta - shift, vectors / np.sqrt(theta)
+
+
+def _residuals(stiffness: Floats, mass: Floats, values: Floats, vectors: Floats, spacing: float) -> Floats:
+    """(m, c) relative residuals; what is not a number counts as infinite."""
+    masses = mass @ vectors
+    errors = np.linalg.norm(stiffness @ vectors - masses * values[:, None, :], axis=1)
+    with np.errstate(invalid="ignore"):
+        residuals = errors / np.linalg.norm(masses, axis=1) / np.maximum(np.abs(values), spacing)
+    return np.where(np.isfinite(residuals), residuals, np.inf)
+
+
+def _largest_from(residuals: Floats) -> Floats:
+    return np.maximum.accumulate(residuals[::-1])[::-1]

@@ -1,19 +1,23 @@
-"""The first k eigenpairs of a surface: one entrance, four methods, one kind of result."""
+"""The first k eigenpairs of a surface: one entry point, four methods, one kind of result."""
 
 from __future__ import annotations
+
+from functools import partial
 
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
 from surfexp.spectrum.arpack import arpack
-from surfexp.spectrum.dense import dense
+from surfexp.spectrum.components import component_labels, solve_components
+from surfexp.spectrum.dense import LARGEST_DENSE_SIZE, dense
+from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.lobpcg import lobpcg
+from surfexp.spectrum.pencil_checks import certified, check_pencil, check_request
 from surfexp.spectrum.slicing import Progress, slicing
 
 METHODS = ("auto", "slicing", "arpack", "lobpcg", "dense")
 DENSE_SIZE = 400
-LARGEST_DENSE_SIZE = 6000
 
 
 def eigenpairs(
@@ -43,49 +47,56 @@ def eigenpairs(
     progress : callable, optional
         Receives the number of pairs found and the fraction that is still missing.
 
+    Returns
+    -------
+    EigenSystem
+        Complete, unless by lobpcg, and with residuals up to the tolerance.
+
     Raises
     ------
-    ValueError
-        If k, the method, the tolerance or a matrix is unfit.
+    EigensolverError
+        If the request or a matrix is unfit, or no certified pairs can be given; the message names cause and way out.
     """
     stiffness, mass = csr_array(stiffness, dtype=np.float64), csr_array(mass, dtype=np.float64)
-    _check(stiffness, mass, k, method, tolerance)
+    if method not in METHODS:
+        raise EigensolverError(f"method {method!r} is unknown, choose one of {', '.join(METHODS)}")
+    if stiffness.shape != mass.shape or stiffness.shape[0] != stiffness.shape[1]:
+        raise EigensolverError(
+            f"stiffness is {stiffness.shape} and mass {mass.shape}, both must be square and of one size"
+        )
     n = stiffness.shape[0]
-    if method == "auto":
-        method = "dense" if n <= DENSE_SIZE or 4 * k > n else "slicing"
-    if method == "dense" and n > LARGEST_DENSE_SIZE:
-        raise ValueError(f"k = {k} of n = {n}: dense matrices end at n = {LARGEST_DENSE_SIZE}, take k <= {n // 4}")
-    if method == "dense":
-        return dense(stiffness, mass, k)
-    if 4 * k > n:
-        raise ValueError(f"k = {k} is over a quarter of n = {n}: take k <= {n // 4} or method dense")
-    if method == "arpack":
-        return arpack(stiffness, mass, k, tolerance, seed)
+    check_request(n, k, tolerance)
+    check_pencil(stiffness, mass)
+    if (method == "dense" and n > LARGEST_DENSE_SIZE) or (4 * k > n > LARGEST_DENSE_SIZE):
+        raise EigensolverError(
+            f"k = {k} of n = {n}: dense matrices end at n = {LARGEST_DENSE_SIZE}, take k <= {n // 4}"
+        )
+    if method not in ("auto", "dense") and 4 * k > n:
+        raise EigensolverError(f"k = {k} is over a quarter of n = {n}: take k <= {n // 4} or method dense")
     if method == "lobpcg":
         return lobpcg(stiffness, mass, k, tolerance, seed)
-    return slicing(stiffness, mass, k, tolerance, seed, progress)
+    count, labels = component_labels(stiffness, mass)
+    solve = partial(_connected, method=method, tolerance=tolerance, seed=seed, progress=progress)
+    if count == 1:
+        system = solve(stiffness, mass, k)
+    else:
+        size = LARGEST_DENSE_SIZE if method == "dense" else DENSE_SIZE
+        system = solve_components(stiffness, mass, labels, k, solve, size, tolerance)
+    return certified(system, k, tolerance)
 
 
-def _check(stiffness: csr_array, mass: csr_array, k: int, method: str, tolerance: float) -> None:
-    if method not in METHODS:
-        raise ValueError(f"method {method!r} is unknown, choose one of {', '.join(METHODS)}")
-    if stiffness.shape != mass.shape or stiffness.shape[0] != stiffness.shape[1]:
-        raise ValueError(f"stiffness is {stiffness.shape} and mass {mass.shape}, both must be square and of one size")
+def _connected(
+    stiffness: csr_array, mass: csr_array, k: int, method: str, tolerance: float, seed: int, progress: Progress | None
+) -> EigenSystem:
+    """Solve a pencil that is connected; "auto" turns to dense algebra where slicing proves nothing."""
     n = stiffness.shape[0]
-    if n < 3:
-        raise ValueError(f"the surface has {n} degrees of freedom, an eigenproblem needs at least 3")
-    if not 1 <= k <= n:
-        raise ValueError(f"k = {k} eigenpairs of {n} degrees of freedom: take 1 <= k <= {n}")
-    if not 1e-12 <= tolerance <= 1e-2:
-        raise ValueError(f"tolerance = {tolerance:g}, take one between 1e-12 and 1e-2")
-    for name, matrix in (("stiffness", stiffness), ("mass", mass)):
-        bad = int((~np.isfinite(matrix.data)).sum())
-        if bad:
-            raise ValueError(f"the {name} matrix has {bad} entries that are not finite: repair the mesh")
-        skew = float(np.abs((matrix - matrix.T).data).max(initial=0.0))
-        if skew > 1e-10 * float(np.abs(matrix.data).max(initial=1.0)):
-            raise ValueError(f"the {name} matrix is not symmetric, by {skew:.1e}")
-    diagonal = mass.diagonal()
-    if diagonal.min() <= 0:
-        at = int(diagonal.argmin())
-        raise ValueError(f"the mass of degree of freedom {at} is {diagonal[at]:g}, must be positive: repair the mesh")
+    if method == "dense" or (method == "auto" and n <= LARGEST_DENSE_SIZE and (n <= DENSE_SIZE or 4 * k > n)):
+        return dense(stiffness, mass, k, tolerance)
+    if method == "arpack":
+        return arpack(stiffness, mass, k, tolerance, seed)
+    try:
+        return certified(slicing(stiffness, mass, k, tolerance, seed, progress), k, tolerance)
+    except EigensolverError:
+        if method == "slicing" or n > LARGEST_DENSE_SIZE:
+            raise
+        return dense(stiffness, mass, k, tolerance)

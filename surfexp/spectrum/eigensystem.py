@@ -28,7 +28,7 @@ class EigenSystem:
     vectors : (n, k) float64
         B-orthonormal columns; the entry of largest modulus of each is positive (the first of them, to rounding).
     residuals : (k,) float64
-        |A x - lambda B x| / (max(lambda, mean spacing) |B x|), the mean spacing being lambda_{k-1} / k.
+        |A x - lambda B x| / (max(|lambda|, spacing) |B x|).
     orthogonality : float
         Largest entry of |X^T B X - I|, X with the pairs beyond k that a cluster needed (see `notes`).
     complete : bool
@@ -39,6 +39,9 @@ class EigenSystem:
     clusters : tuple of (int, int)
         Ranges start..stop-1 of nearly equal values (relative gap under 1e-6), in which single vectors are arbitrary.
     method : str
+    spacing : float
+        Mean distance of eigenvalues, the scale of residuals near 0: s / N(s) at the last certified shift s with N(s)
+        eigenvalues below it, and lambda_{k-1} / k where none was certified. Positive also for k = 1.
     area : float
         Area of the surface by the quadrature of its elements, 0 where the pencil belongs to no surface.
     order : int
@@ -57,6 +60,7 @@ class EigenSystem:
     inertia: tuple[tuple[float, int], ...] = ()
     clusters: tuple[tuple[int, int], ...] = ()
     method: str = ""
+    spacing: float = 0.0
     area: float = 0.0
     order: int = 1
     boundary: str = "neumann"
@@ -88,16 +92,19 @@ class Measurement:
         |A x - lambda B x| / |B x| (2-norms).
     overlaps : (k,) float64
         Largest entry of |X^T B X - I| that a vector takes part in, those with vectors far before it left to these.
+    spacing : float
+        Mean distance of eigenvalues.
     """
 
     values: Floats
     errors: Floats
     overlaps: Floats
+    spacing: float
 
     @property
     def residuals(self) -> Floats:
-        """Errors over the values, or over the mean spacing where that is larger."""
-        return self.errors / np.maximum(np.abs(self.values), mean_spacing(self.values))
+        """Errors over the values, or over the spacing where that is larger."""
+        return self.errors / np.maximum(np.abs(self.values), self.spacing)
 
     @property
     def orthogonality(self) -> float:
@@ -106,7 +113,7 @@ class Measurement:
 
     def of(self, chosen: Integers) -> Measurement:
         """Return the part of some vectors; their overlaps with the others are still in it."""
-        return Measurement(self.values[chosen], self.errors[chosen], self.overlaps[chosen])
+        return Measurement(self.values[chosen], self.errors[chosen], self.overlaps[chosen], self.spacing)
 
     def followed_by(self, before: Measurement) -> Measurement:
         """Return this measurement of the first vectors, that of the rest being the one from before."""
@@ -115,11 +122,17 @@ class Measurement:
             np.concatenate([self.values, before.values[rest:]]),
             np.concatenate([self.errors, before.errors[rest:]]),
             np.concatenate([self.overlaps, before.overlaps[rest:]]),
+            before.spacing,
         )
 
 
-def measure(stiffness: csr_array, mass: csr_array, vectors: Floats, count: int | None = None) -> Measurement:
-    """Measure B-normalised vectors, or the first `count` of them, some columns at a time."""
+def measure(
+    stiffness: csr_array, mass: csr_array, vectors: Floats, count: int | None = None, spacing: float = 0.0
+) -> Measurement:
+    """Measure B-normalised vectors, or the first `count` of them, some columns at a time.
+
+    Without a spacing it is that of the Rayleigh quotients.
+    """
     count = vectors.shape[1] if count is None else count
     values, errors, overlaps = np.empty((3, count))
     block, mass_block, error = (np.zeros((len(vectors), LANES)) for _ in range(3))
@@ -132,16 +145,17 @@ def measure(stiffness: csr_array, mass: csr_array, vectors: Floats, count: int |
             block[:, :width] = vectors[:, some]
             multiply_lanes(mass, block, mass_block)
             multiply_lanes(stiffness, block, error)
-            values[some] = (gram(block, error).diagonal() / gram(block, mass_block).diagonal())[:width]
+            energies, squared_norms = gram(block, error).diagonal(), gram(block, mass_block).diagonal()
+            values[some] = energies[:width] / squared_norms[:width]
             quotients = np.zeros(LANES)
             quotients[:width] = values[some]
             sizes = residual_norms(error, mass_block, quotients)
-            errors[some] = (sizes[0] / sizes[1])[:width]
+            errors[some] = sizes[0][:width] / sizes[1][:width]
             masses[:, first - start : first - start + width] = mass_block[:, :width]
         products = masses[:, : stop - start].T @ vectors[:, start:]
         products[np.arange(stop - start), np.arange(stop - start)] -= 1.0
         overlaps[start:stop] = np.abs(products).max(axis=1)
-    return Measurement(values, errors, overlaps)
+    return Measurement(values, errors, overlaps, spacing or mean_spacing(values))
 
 
 def mean_spacing(values: Floats) -> float:
@@ -188,6 +202,7 @@ def measured(
         inertia=inertia,
         clusters=clusters(values),
         method=method,
+        spacing=measurement.spacing,
         metrics=metrics or {},
         notes=notes,
     )

@@ -135,8 +135,10 @@ def _assemble(
     values = np.concatenate([part.values for part in slices])
     vectors = np.concatenate([part.vectors for part in slices], axis=1) if len(slices) > 1 else slices[0].vectors
     total = len(values)
+    edges = [part.edge for part in slices if part.edge < np.inf]
+    spacing = max(edges[-1], 0.0) / max(pencil.counts[edges[-1]], 1) if edges else 0.0
     # before a cluster is cut: its parts alone would not span what inverse iteration keeps
-    measurement, polishes = polish(pencil, vectors, tolerance)
+    measurement, polishes = polish(pencil, vectors, tolerance, spacing)
     if total > k:
         lowest = np.argsort(measurement.values, kind="stable")[:k]
         in_order = bool((lowest == np.arange(k)).all())
@@ -146,7 +148,6 @@ def _assemble(
     for column in vectors.T:
         column[pencil.order] = column.copy()
     complete = all(part.complete for part in slices) and total >= k
-    edges = [part.edge for part in slices if part.edge < np.inf]
     return measured(
         *(measurement, vectors, "slicing"),
         inertia=tuple((edge, pencil.counts[edge]) for edge in edges),
@@ -172,27 +173,32 @@ def _notes(total: int, k: int, slices: list[SpectrumSlice]) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float) -> tuple[Measurement, int]:
+def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: float = 0.0) -> tuple[Measurement, int]:
     """Improve, in place, the lowest pairs while some miss the tolerance; return the measurement and how often.
 
     They are the farthest from the shift and, relative to their own size, the least accurate: one block inverse iteration
     just below 0 and a Rayleigh-Ritz step mend them.
     """
-    measurement = measure(pencil.stiffness, pencil.mass, vectors)
+    measurement = measure(pencil.stiffness, pencil.mass, vectors, spacing=spacing)
     factors = None
     for done in range(POLISHES):
         bad = np.flatnonzero(measurement.residuals > tolerance)
         if not len(bad):
             return measurement, done
         if factors is None:
-            factors = pencil.factor(-0.5 * mean_spacing(measurement.values))[1]
+            factors = pencil.factor(-0.5 * measurement.spacing)[1]
         count = _before_a_gap(measurement.values, (int(bad[-1]) // BLOCK + 2) * BLOCK)
         improved = inverse_iteration(pencil, factors, vectors[:, :count])
         projected = improved.T @ (pencil.stiffness @ np.ascontiguousarray(improved))
         gram = improved.T @ pencil.multiply_mass(improved)
-        rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
+        try:
+            rotation = eigh(0.5 * (projected + projected.T), 0.5 * (gram + gram.T))[1]
+        except np.linalg.LinAlgError:
+            # dependent vectors, which no rotation repairs: the residuals that stay behind refuse them
+            return measurement, done
         vectors[:, :count] = improved @ rotation
-        measurement = measure(pencil.stiffness, pencil.mass, vectors, count).followed_by(measurement)
+        improved_part = measure(pencil.stiffness, pencil.mass, vectors, count, measurement.spacing)
+        measurement = improved_part.followed_by(measurement)
     return measurement, POLISHES
 
 

@@ -73,13 +73,17 @@ def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: Sli
     for attempt in range(RESTARTS):
         if attempt:
             factors = pencil.factor(shift)[1]
-        capacity = min(int(4.5 * (expected - len(values))) + 20 * BLOCK, pencil.size - len(values))
+        # more pairs than expected may have come where no gap has been found for the edge yet
+        missing = max(expected - len(values), 0)
+        capacity = min(int(4.5 * missing) + 20 * BLOCK, pencil.size - len(values)) // BLOCK * BLOCK
+        if not capacity:
+            break
         lanczos = BlockLanczos(
             *(
                 factors.solve_in_order,
                 pencil.multiply_mass,
                 pencil.size,
-                capacity // BLOCK * BLOCK,
+                capacity,
                 vectors,
                 seed + attempt,
             )

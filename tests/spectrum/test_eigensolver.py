@@ -36,7 +36,7 @@ def assert_pairs(system, a, b, k: int, tolerance: float = 1e-8) -> None:
     largest = np.abs(gram - np.eye(k)).max()
     assert largest <= system.orthogonality + 1e-12 and (cut or largest >= system.orthogonality - 1e-12)
     assert system.orthogonality <= 1e-8
-    scale = np.maximum(system.values, system.values[-1] / k)
+    scale = np.maximum(np.abs(system.values), system.spacing)
     error = a @ system.vectors - (b @ system.vectors) * system.values
     assert np.allclose(
         system.residuals, np.linalg.norm(error, axis=0) / np.linalg.norm(b @ system.vectors, axis=0) / scale, atol=1e-13

@@ -1,0 +1,235 @@
+"""Copies, slivers, clusters that k cuts, one pair, unfit matrices: k certified pairs, or one refusal that names the cause."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_pencils import Pencil, dense_values, pencil_of, pencils_and_counts, with_sliver
+from hypothesis import HealthCheck, given, settings
+from scipy.sparse import csr_array, diags_array
+
+from surfexp.mesh.disk import disk
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.spectrum import components, dense, eigensolver
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensystem import EigenSystem
+
+BALL = icosphere(2).mesh
+
+
+def scaled(mesh: TriangleMesh, factor: float) -> TriangleMesh:
+    return TriangleMesh(factor * mesh.vertices, mesh.faces)
+
+
+def copies(count: int, spread: float, mesh: TriangleMesh = BALL) -> tuple[csr_array, csr_array]:
+    rng = np.random.default_rng(0)
+    return pencil_of([scaled(mesh, factor) for factor in 1.0 + spread * rng.normal(size=count)])
+
+
+def assert_certified(system: EigenSystem, a: csr_array, b: csr_array, k: int, tolerance: float = 1e-8) -> None:
+    assert system.complete and system.values.shape == (k,) and system.vectors.shape == (a.shape[0], k)
+    errors = np.linalg.norm(a @ system.vectors - (b @ system.vectors) * system.values, axis=0)
+    relative = errors / np.linalg.norm(b @ system.vectors, axis=0) / np.maximum(system.values, system.spacing)
+    assert system.spacing > 0 and relative.max() <= 1.01 * tolerance
+    assert np.abs(system.vectors.T @ (b @ system.vectors) - np.eye(k)).max() <= 1e-8
+
+
+def assert_equal(values: np.ndarray, pencil: Pencil, spacing: float) -> None:
+    exact = pencil.values[: len(values)]
+    assert (np.abs(values - exact) <= 1e-7 * np.maximum(exact, spacing)).all()
+
+
+@pytest.mark.parametrize(("count", "spread"), [(12, 1e-6), (12, 1e-9), (21, 0.0)])
+def test_equal_and_nearly_equal_spheres_at_every_cut(count: int, spread: float) -> None:
+    a, b = copies(count, spread)
+    one = dense_values(*pencil_of([BALL]))
+    for k in (1, 10, count - 1, count, count + 1, 20, 4 * count - 1, 4 * count, 70):
+        system = eigenpairs(a, b, k, "slicing")
+        assert_certified(system, a, b, k)
+        exact = np.repeat(one, count)[:k]
+        assert np.abs(system.values - exact).max() < 10.0 * (spread + 1e-9) * exact[-1] + 1e-8
+
+
+@pytest.mark.parametrize("method", ["auto", "slicing", "dense", "arpack"])
+def test_one_pair_of_a_closed_surface(method: str) -> None:
+    a, b = pencil_of([icosphere(3).mesh])
+    system = eigenpairs(a, b, 1, method)
+    assert_certified(system, a, b, 1)
+    assert abs(system.values[0]) < 1e-9 and 0.1 < system.spacing < 2.1
+
+
+def test_no_refusal_depends_on_k() -> None:
+    body = with_sliver(icosphere(4).mesh, 0.37)
+    sizes = 10.0 ** np.random.default_rng(1).uniform(-2.5, -0.5, 43)
+    a, b = pencil_of([body, *(scaled(icosphere(1).mesh, size) for size in sizes)])
+    reference = eigenpairs(a, b, 100).values
+    for k in (1, 43, 44, 45, 46, 50, 55, 60):
+        system = eigenpairs(a, b, k)
+        assert_certified(system, a, b, k)
+        assert np.abs(system.values - reference[:k]).max() < 1e-7
+
+
+@pytest.mark.parametrize("degrees", [1e-1, 1e-3, 1e-5])
+@pytest.mark.parametrize("method", ["auto", "slicing"])
+def test_slivers_are_solved_or_refused_with_the_way_out(degrees: float, method: str) -> None:
+    a, b = pencil_of([with_sliver(icosphere(3).mesh, degrees)])
+    exact = dense_values(a, b)
+    for k in (1, 4, 30):
+        system = eigenpairs(a, b, k, method)
+        assert_certified(system, a, b, k)
+        assert np.abs(system.values - exact[:k]).max() <= 1e-7 * max(exact[k], system.spacing)
+
+
+def test_hundreds_of_tiny_components_beside_a_large_one() -> None:
+    tiny = [scaled(icosphere(0).mesh, 0.01 * (1 + i % 7)) for i in range(300)]
+    a, b = pencil_of([icosphere(3).mesh, *tiny])
+    system = eigenpairs(a, b, 310)
+    assert_certified(system, a, b, 310)
+    assert (np.abs(system.values) < 1e-6).sum() == 301
+    assert system.values[301:304] == pytest.approx(eigenpairs(*pencil_of([icosphere(3).mesh]), 4).values[1:], rel=1e-8)
+    assert all((np.abs(vector) > 0).sum() in (12, 642) for vector in system.vectors.T)
+
+
+def broken(kind: str) -> tuple[csr_array, csr_array]:
+    a, b = pencil_of([icosphere(3).mesh])
+    a, b = a.tolil(), b.tolil()
+    match kind:
+        case "nan":
+            a[3, 3] = np.nan
+        case "zero mass":
+            b[5, 5] = 0.0
+        case "indefinite mass":
+            b[5, 6] = b[6, 5] = 10.0 * b[5, 5]
+            b[5, 6] = b[6, 5] = 10.0 * b[5, 5]
+        case "opposite sign":
+            a = -a
+        case "indefinite stiffness":
+            a[7, 7] -= 1.2 * a[7, 7]
+            a[7, 7] += 1.0 * a[6, 6]
+        case "singular":
+            a[9, :] = a[:, 9] = b[9, :] = b[:, 9] = 0.0
+        case "not symmetric":
+            a[0, 1] += 1.0
+    return csr_array(a), csr_array(b)
+
+
+@pytest.mark.parametrize("method", ["auto", "slicing", "dense", "arpack"])
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("nan", "stiffness matrix has 1 entries that are not finite: repair"),
+        ("zero mass", "mass of degree of freedom 5 is 0, must be positive: repair"),
+        ("indefinite mass", "mass matrix is not positive definite"),
+        ("opposite sign", "take -A"),
+        ("singular", "mass of degree of freedom 9 is 0"),
+        ("not symmetric", "not symmetric, by 1"),
+    ],
+)
+def test_unfit_matrices_have_one_refusal(kind: str, words: str, method: str) -> None:
+    a, b = broken(kind)
+    for k in (1, 10):
+        with pytest.raises(EigensolverError, match=words):
+            eigenpairs(a, b, k, method)
+
+
+@pytest.mark.parametrize("method", ["auto", "slicing", "dense", "arpack"])
+@pytest.mark.parametrize("k", [1, 10, 40])
+def test_an_indefinite_stiffness_is_named(method: str, k: int) -> None:
+    a, b = pencil_of([icosphere(3).mesh])
+    with pytest.raises(EigensolverError, match="positive semidefinite"):
+        eigenpairs(csr_array(a - 30.0 * b), b, k, method)
+
+
+def test_indefinite_matrices_of_several_components_are_named() -> None:
+    a, b = copies(5, 0.0)
+    with pytest.raises(EigensolverError, match="positive semidefinite"):
+        eigenpairs(csr_array(a - 30.0 * b), b, 10)
+    heavy = b.tolil()
+    heavy[5, 6] = heavy[6, 5] = 10.0 * b[5, 5]
+    with pytest.raises(EigensolverError, match="mass matrix is not positive definite"):
+        eigenpairs(a, csr_array(heavy), 10)
+
+
+def test_an_isolated_row_with_a_mass_is_a_component_of_its_own() -> None:
+    a, b = pencil_of([disk(6).mesh])
+    a = csr_array(np.pad(a.toarray(), (0, 1)))
+    b = csr_array(np.pad(b.toarray(), (0, 1)) + np.diag(np.append(np.zeros(b.shape[0]), 0.1)))
+    system = eigenpairs(a, b, 3)
+    assert_certified(system, a, b, 3)
+    assert (np.abs(system.values[:2]) < 1e-12).all() and np.abs(system.vectors[-1]).max() == pytest.approx(0.1**-0.5)
+
+
+def test_dense_algebra_that_loses_a_pair_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    a, b = pencil_of([disk(8).mesh])
+    whole = dense.dense_pairs
+
+    def without_the_fifth(*arguments):
+        values, vectors = whole(*arguments)
+        return np.delete(values, 5, axis=1), np.delete(vectors, 5, axis=2)
+
+    monkeypatch.setattr(dense, "dense_pairs", without_the_fifth)
+    assert eigenpairs(a, b, 4, "dense").complete
+    with pytest.raises(EigensolverError, match="does not prove them the lowest"):
+        eigenpairs(a, b, 12, "dense")
+
+
+@pytest.mark.parametrize("change", ["missing", "repeated"])
+def test_a_component_that_loses_a_pair_is_refused(change: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    a, b = copies(3, 0.0)
+    whole = components.dense_pairs
+
+    def damaged(*arguments):
+        values, vectors = whole(*arguments)
+        if change == "repeated":
+            vectors[1, :, 2], values[1, 2] = vectors[1, :, 1], values[1, 1]
+            return values, vectors
+        return np.delete(values, 2, axis=1), np.delete(vectors, 2, axis=2)
+
+    monkeypatch.setattr(components, "dense_pairs", damaged)
+    with pytest.raises(EigensolverError, match=r"does not prove|proves them different"):
+        eigenpairs(a, b, 12)
+
+
+def test_a_slice_that_loses_a_pair_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    a, b = pencil_of([disk(14).mesh])
+    whole = eigensolver.slicing
+
+    def without_the_last(*arguments) -> EigenSystem:
+        system = whole(*arguments)
+        return replace(system, values=system.values[:-1], vectors=system.vectors[:, :-1])
+
+    monkeypatch.setattr(eigensolver, "slicing", without_the_last)
+    with pytest.raises(EigensolverError, match="29 of k = 30"):
+        eigenpairs(a, b, 30, "slicing")
+
+
+def check_drawn(pencil: Pencil, k: int) -> None:
+    system = eigenpairs(pencil.stiffness, pencil.mass, k)
+    assert_certified(system, pencil.stiffness, pencil.mass, k)
+    assert_equal(system.values, pencil, system.spacing)
+    for shift, count in system.inertia:
+        apart = np.abs(pencil.values - shift).min() > 1e-7 * max(shift, system.spacing)
+        assert not apart or count == (pencil.values < shift).sum()
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@given(pencils_and_counts())
+def test_drawn_pencils_equal_dense_algebra(drawn: tuple[Pencil, int]) -> None:
+    check_drawn(*drawn)
+
+
+@pytest.mark.slow
+@settings(max_examples=500, deadline=None, suppress_health_check=list(HealthCheck))
+@given(pencils_and_counts())
+def test_five_hundred_drawn_pencils_equal_dense_algebra(drawn: tuple[Pencil, int]) -> None:
+    check_drawn(*drawn)
+
+
+def test_a_diagonal_mass_needs_no_factorisation() -> None:
+    a, b = pencil_of([icosphere(3).mesh])
+    lumped = csr_array(diags_array(b.sum(axis=1)))
+    assert_certified(eigenpairs(a, lumped, 20), a, lumped, 20)
