@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.spectrum_error import convergence_orders, spectrum_error
@@ -31,6 +32,6 @@ class Orders(Options):
 
 
 @register("statistic", "convergence_orders")
-def orders_statistic(options: Orders, *, errors: dict[str, Statistic]) -> Statistic:
+def orders_statistic(options: Orders, *, errors: dict[Member, Statistic]) -> Statistic:
     """Orders of convergence in the edge length, fitted for each method of an axis "method @ level"."""
     return convergence_orders(errors, options.metric)

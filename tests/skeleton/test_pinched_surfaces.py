@@ -50,9 +50,7 @@ def brute_force_arcs(faces: np.ndarray, values: np.ndarray) -> Counter:
     for position in range(2 * count - 1):
         for face in faces:
             low, middle, high = sorted(face)
-            crossed = [
-                (a, b) for a, b in ((low, middle), (middle, high), (low, high)) if 2 * a < position < 2 * b
-            ]
+            crossed = [(a, b) for a, b in ((low, middle), (middle, high), (low, high)) if 2 * a < position < 2 * b]
             points = crossed + [(v, v) for v in face if 2 * v == position]
             for point in points:
                 pieces.join((position, points[0]), (position, point))
@@ -67,7 +65,9 @@ def brute_force_arcs(faces: np.ndarray, values: np.ndarray) -> Counter:
                         upper = pieces.root((position + 1, (b, b) if 2 * b == position + 1 else (a, b)))
                         above.setdefault(lower, set()).add(upper)
                         below.setdefault(upper, set()).add(lower)
-    nodes = {p for p in {pieces.root(p) for p in pieces.parent} if len(above.get(p, ())) != 1 or len(below.get(p, ())) != 1}
+    nodes = {
+        p for p in {pieces.root(p) for p in pieces.parent} if len(above.get(p, ())) != 1 or len(below.get(p, ())) != 1
+    }
     order = np.argsort(rank)
     arcs: Counter = Counter()
     for node in nodes:
