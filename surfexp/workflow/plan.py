@@ -167,13 +167,12 @@ class _Resolver:
 
     def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
         self.visits += KINDS[method.kind].stored
-        code = code_digest(method.file)
+        code, cache, where = code_digest(method.file), compiled_state(method.file), str(method.file)
         content = {name: _content(value, method.options.model_fields[name]) for name, value in options.items()}
         asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
         members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
         inputs = wired | {role: {member.label: key for member, key in keys.items()} for role, keys in asked.items()}
         key = digest([method.kind, method.name, content, inputs, members, code])
-        where, cache = str(method.file), compiled_state(method.file)
         self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs, members)
         return key
 
