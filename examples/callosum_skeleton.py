@@ -1,6 +1,6 @@
 """The skeleton of a corpus callosum whose midline is known, by uniform levels and by levels at equal distances."""
 
-from surfexp.skeleton.callosum import callosum, true_midline
+from surfexp.skeleton.callosum import callosum
 from surfexp.skeleton.midline import midline_errors
 from surfexp.skeleton.polyline import trunk_contours
 from surfexp.skeleton.study import eigenmap_skeleton
@@ -8,5 +8,5 @@ from surfexp.skeleton.study import eigenmap_skeleton
 patch = callosum(seed=0)
 for levels in ("uniform", "arc_length"):
     skeleton, _ = eigenmap_skeleton(patch.mesh, levels=levels)
-    miss = midline_errors(true_midline(patch), trunk_contours(skeleton))[0] / patch.mesh.edge_length
+    miss = midline_errors(patch.truth.midline, trunk_contours(skeleton))[0] / patch.mesh.edge_length
     print(f"{levels}: chain {skeleton.is_chain}, the midline is missed by {miss:.2f} edge lengths")

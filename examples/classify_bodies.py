@@ -1,6 +1,7 @@
 """Which kind of body is it? Spectra of poses against nodal counts, each pose judged by the other poses."""
 
 from surfexp.anatomy.articulated import articulated_body
+from surfexp.member import Member
 from surfexp.operators.fem import fem
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.statistics.classifiers import classify
@@ -10,7 +11,7 @@ signatures = {}
 for body in ("biped", "quadruped", "worm"):
     for pose in (1, 2, 3):
         surface = articulated_body(body, pose, vertices=800)
-        signatures[f"{body} @ {pose}"] = spectral_signature(surface, fem(surface.mesh), 30)
+        signatures[Member(f"{body} {pose}", body, str(pose))] = spectral_signature(surface, fem(surface.mesh), 30)
 for part in ("shape_dna", "nodal_counts"):
     found = classify(signature_distances(signatures, part), permutations=99)
     print(f"{part}: {found.metrics['accuracy']:.2f} right, p = {found.metrics['p_value']:.2f}")

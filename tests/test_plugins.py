@@ -227,7 +227,11 @@ CONTEXT = {
     "axes": {
         "blocks": {"from 2": {"statistic": {"first": 2}}},
         "sides": {
-            f"{side} @ anna": {"surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side}}
+            f"{side} anna": {
+                "class": side,
+                "group": "anna",
+                "surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side},
+            }
             for side in ("left", "right")
         },
         "maps": {"near": {"distance": {"name": "embedding_map", "n": 3}}},
@@ -244,8 +248,15 @@ CONTEXT = {
         },
         "strips": {f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)},
         "alphas": {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}},
-        "levels": {f"rof @ {level}": {"surface": {"name": "icosphere", "levels": level}} for level in (2, 3)},
-        "members": {f"{name} @ {i}": {"surface": MEMBERS[name] | {"n_u": 20 + i}} for name in MEMBERS for i in (1, 2)},
+        "levels": {
+            f"rof {level}": {"class": "rof", "level": level, "surface": {"name": "icosphere", "levels": level}}
+            for level in (2, 3)
+        },
+        "members": {
+            f"{name} {i}": {"class": name, "group": i, "surface": MEMBERS[name] | {"n_u": 20 + i}}
+            for name in MEMBERS
+            for i in (1, 2)
+        },
     },
 }
 NEEDS = {

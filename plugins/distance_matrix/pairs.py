@@ -7,6 +7,7 @@ from pydantic import Field
 
 from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -48,14 +49,16 @@ METRICS = {
 
 
 @register("distance_matrix", "pairs", metrics=METRICS)
-def pairs_matrix(options: Pairs, *, surfaces: dict[str, Surface], systems: dict[str, EigenSystem]) -> DistanceMatrix:
+def pairs_matrix(
+    options: Pairs, *, surfaces: dict[Member, Surface], systems: dict[Member, EigenSystem]
+) -> DistanceMatrix:
     """Spectral distance of every pair, the worst triangle, and the share of pairs proved least."""
     chosen = dict(options)
     parts = {name: chosen.pop(name) for name in ("n", "weighting", "time")}
     pairing = Pairing(**chosen)
     embeddings = {
-        label: spectral_embedding(systems[label], surface.mesh.vertex_areas, **parts)
-        for label, surface in surfaces.items()
+        member.label: spectral_embedding(systems[member], surface.mesh.vertex_areas, **parts)
+        for member, surface in surfaces.items()
     }
     values, bounds = pairwise_distances(embeddings, pairing)
     count, labels = len(values), tuple(embeddings)
@@ -64,5 +67,11 @@ def pairs_matrix(options: Pairs, *, surfaces: dict[str, Surface], systems: dict[
     searched = options.method in ("mean_hausdorff", "hausdorff", "wasserstein")
     notes = unproved_pairs(labels, values, bounds) if searched else ()
     return DistanceMatrix(
-        labels, values, name=f"{options.method} distance, n = {options.n}", metrics=metrics, notes=notes
+        labels,
+        values,
+        classes=tuple(member.class_name for member in surfaces),
+        groups=tuple(member.group for member in surfaces),
+        name=f"{options.method} distance, n = {options.n}",
+        metrics=metrics,
+        notes=notes,
     )

@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.member import Member
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.signature_distances import signature_distances
@@ -17,6 +18,6 @@ class Signatures(Options):
 
 
 @register("distance_matrix", "signatures")
-def signatures_matrix(options: Signatures, *, signatures: dict[str, Signature]) -> DistanceMatrix:
-    """Weighted l2 distance (4.3) between all members of a collection, labelled "class @ owner"."""
+def signatures_matrix(options: Signatures, *, signatures: dict[Member, Signature]) -> DistanceMatrix:
+    """Weighted l2 distance (4.3) between all members of a collection."""
     return signature_distances(signatures, options.part, options.alpha, options.length)

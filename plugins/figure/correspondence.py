@@ -13,8 +13,6 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.workflow.registry import Options, register
 
-LABEL = "label"
-
 
 class Correspondence(Options):
     """Views and size."""
@@ -29,9 +27,9 @@ def correspondence_figure(
     options: Correspondence, *, source_surface: Surface, target_surface: Surface, distance: Distance
 ) -> Figure:
     """The labels of the source, or its positions as colours, carried to the target; errors of labels in black."""
-    if LABEL in source_surface.scalars:
-        palette = _palette(int(source_surface.scalars[LABEL].max()) + 1)
-        colors = palette[source_surface.scalars[LABEL].astype(int)]
+    source_labels, target_labels = source_surface.truth.labels, target_surface.truth.labels
+    if source_labels is not None:
+        colors = _palette(int(source_labels.max()) + 1)[source_labels]
     else:
         vertices = source_surface.mesh.vertices
         colors = 0.15 + 0.8 * (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0)
@@ -39,9 +37,8 @@ def correspondence_figure(
     views = [SurfaceView(source_surface.mesh, colors, view, title="source") for view in options.source_views]
     views += [SurfaceView(target_surface.mesh, carried, view, title="carried") for view in options.target_views]
     accuracy = distance.metrics.get("label accuracy")
-    if accuracy is not None:
-        labels = source_surface.scalars[LABEL][distance.correspondence]
-        wrong = labels != target_surface.scalars[LABEL]
+    if accuracy is not None and source_labels is not None and target_labels is not None:
+        wrong = source_labels[distance.correspondence] != target_labels
         shown = np.where(wrong[:, None], 0.12, carried)
         views += [
             SurfaceView(target_surface.mesh, shown, view, title="wrong ones black") for view in options.target_views

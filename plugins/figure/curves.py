@@ -8,8 +8,8 @@ from pydantic import Field
 from surfexp.figures.figure import Figure
 from surfexp.figures.order_plot import order_plot
 from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.member import Member
 from surfexp.spectrum.signature import Signature
-from surfexp.statistics.labels import classes_of
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 
@@ -53,20 +53,19 @@ class SignatureCurves(Options):
 
 
 @register("figure", "signatures")
-def signatures_figure(options: SignatureCurves, *, signatures: dict[str, Signature]) -> Figure:
+def signatures_figure(options: SignatureCurves, *, signatures: dict[Member, Signature]) -> Figure:
     """Signatures against the number of the mode, by shape or by class (figures 4.2 and 4.6, top)."""
-    rows = {label: signature.part(options.part) for label, signature in signatures.items()}
+    rows = {member: signature.part(options.part) for member, signature in signatures.items()}
     length = min(len(row) for row in rows.values())
     numbers = np.arange(1.0, length + 1.0)
-    rows = {label: row[:length] / (numbers if options.ratio else 1.0) for label, row in rows.items()}
+    rows = {member: row[:length] / (numbers if options.ratio else 1.0) for member, row in rows.items()}
     if options.by_class:
-        classes = classes_of(rows)
         lines = {}
-        for name in dict.fromkeys(classes):
-            members = np.stack([row for row, of in zip(rows.values(), classes, strict=True) if of == name])
+        for name in dict.fromkeys(member.class_name for member in rows):
+            members = np.stack([row for member, row in rows.items() if member.class_name == name])
             lines[name] = np.stack([members.mean(axis=0), members.min(axis=0), members.max(axis=0)], axis=1)
     else:
-        lines = rows
+        lines = {member.label: row for member, row in rows.items()}
     name = options.part or next(iter(signatures.values())).name
     y_label = options.y_label or name.replace("_", " ") + (" / n" if options.ratio else "")
     return sweep_plot(

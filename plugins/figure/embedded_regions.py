@@ -15,7 +15,6 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.workflow.registry import Options, register
 
-LABEL = "label"
 # widest extent of each cortex and of the larger embedding in the figure
 EXTENTS = (1.0, 0.9)
 
@@ -35,10 +34,10 @@ def embedded_regions_figure(
 ) -> Figure:
     """Regions of two surfaces, in space where poses differ, and in the embedding where like regions meet (6.5)."""
     surfaces = source_surface, target_surface
-    missing = [surface.name for surface in surfaces if LABEL not in surface.scalars]
-    if missing:
-        raise ValueError(f"{missing[0]} has no scalar map 'label': make it with the surface sulcal_regions")
-    labels = [surface.scalars[LABEL].astype(int) for surface in surfaces]
+    labels = [surface.truth.labels for surface in surfaces if surface.truth.labels is not None]
+    if len(labels) < 2:
+        missing = next(surface.name for surface in surfaces if surface.truth.labels is None)
+        raise ValueError(f"{missing} has no labels: make them with the surface sulcal_regions")
     names = names_by_majority(labels[1] - 1, target_surface.mesh.vertex_areas, labels[0] - 1, distance.correspondence)
     colors = [_colors(labels[0]), _colors(np.concatenate([[OUTSIDE], names])[labels[1]] + 1)]
     views = []

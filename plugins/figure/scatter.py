@@ -24,7 +24,7 @@ class Scatter(Options):
 
     title: str = Field("", description="heading in the figure; default: the method and what is compared")
     caption: str = Field("", description="sentence below the figure")
-    names: bool = Field(False, description="write the owner of each member beside its point")
+    names: bool = Field(False, description="write the label of each member beside its point")
     width: int = Field(1000, ge=300, le=4000, description="pixels across")
 
 
@@ -48,25 +48,25 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
             axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
         axes.set_aspect("equal", adjustable="datalim")
         if options.names:
-            _write_owners(axes, embedding, points)
+            _write_labels(axes, embedding, points)
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
         pixels = drawn(figure)
     caption = options.caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
     return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)})
 
 
-def _write_owners(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:
+def _write_labels(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:
     axes.figure.canvas.draw()
     places, size = axes.transData.transform(points), text_size(0.8 * FONT * axes.figure.bbox.width)
     line = SPACING * 0.8 * FONT * axes.figure.bbox.width
     # names that would stand on one another are moved apart and joined to their points
-    reach, heights = 9.0 * line, places[:, 1].copy()
+    reach, heights = 0.45 * max(map(len, embedding.labels)) * line, places[:, 1].copy()
     for group in _neighbours(places, reach, line):
         heights[group] = spread(places[group, 1], line)
     for label, point, place, height in zip(embedding.labels, points, places, heights, strict=True):
-        owner, moved = label.partition(" @ ")[2], abs(height - place[1]) > 0.3 * line
+        moved = abs(height - place[1]) > 0.3 * line
         axes.annotate(
-            owner,
+            label,
             point,
             xytext=(text_size(12.0 if moved else 8.0), text_size(height - place[1])),
             textcoords="offset points",

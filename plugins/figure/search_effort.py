@@ -6,7 +6,7 @@ from pydantic import Field
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.statistics.labels import classes_of
+from surfexp.member import Member
 from surfexp.workflow.registry import Options, register
 
 
@@ -18,14 +18,14 @@ class SearchEffort(Options):
 
 
 @register("figure", "search_effort")
-def search_effort_figure(options: SearchEffort, *, distances: dict[str, Distance]) -> Figure:
-    """Evaluations against n, a line for each method before " @ " in the labels, beside the 2^n of enumeration."""
-    sizes = {label: found.source_points.shape[1] for label, found in distances.items()}
+def search_effort_figure(options: SearchEffort, *, distances: dict[Member, Distance]) -> Figure:
+    """Evaluations against n, a line for each class of members, beside the 2^n of enumeration."""
+    sizes = {member: found.source_points.shape[1] for member, found in distances.items()}
     x = np.array(sorted(set(sizes.values())), dtype=np.float64)
     lines = {"enumeration": 2.0**x}
-    for method, (label, found) in zip(classes_of(distances), distances.items(), strict=True):
-        line = lines.setdefault(method, np.full(len(x), np.nan))
-        line[np.searchsorted(x, sizes[label])] = found.evaluations
+    for member, found in distances.items():
+        line = lines.setdefault(member.class_name, np.full(len(x), np.nan))
+        line[np.searchsorted(x, sizes[member])] = found.evaluations
     return sweep_plot(
         x,
         lines,

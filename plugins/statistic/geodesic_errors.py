@@ -5,7 +5,6 @@ from pydantic import Field
 
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
-from surfexp.embedding.labels import ORIGIN
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
@@ -32,13 +31,15 @@ def geodesic_errors_statistic(
     options: GeodesicErrors, *, source_surface: Surface, target_surface: Surface, maps: dict[str, Distance]
 ) -> Statistic:
     """Share of the target that each map sends within a geodesic distance of the true place on the source."""
-    if ORIGIN not in target_surface.scalars:
-        known = ", ".join(target_surface.scalars) or "none"
-        raise ValueError(f"{target_surface.name} has no scalar map 'origin', the true vertices; it has: {known}")
+    truth = target_surface.truth
+    if truth.origin is None or truth.template != source_surface.mesh.identity:
+        raise ValueError(
+            f"the true vertices of {target_surface.name!r} on {source_surface.name!r} are not known: take surface disguised"
+        )
     errors = geodesic_errors(
         source_surface.mesh,
         target_surface.mesh.vertex_areas,
-        target_surface.scalars[ORIGIN].astype(np.int64),
+        truth.origin,
         {name: found.correspondence for name, found in maps.items()},
         options.samples,
         options.seed,

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -53,6 +54,6 @@ CONVERGENCE_ORDERS_METRICS = {
 
 
 @register("statistic", "convergence_orders", metrics=CONVERGENCE_ORDERS_METRICS)
-def orders_statistic(options: Orders, *, errors: dict[str, Statistic]) -> Statistic:
+def orders_statistic(options: Orders, *, errors: dict[Member, Statistic]) -> Statistic:
     """Orders of convergence in the edge length, fitted for each method of an axis "method @ level"."""
     return convergence_orders(errors, options.metric)

@@ -8,9 +8,9 @@ from surfexp.embedding.population import Side
 from surfexp.embedding.population_study import SIDES
 from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci
 from surfexp.embedding.sulcal_template import make_template
+from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.statistics.labels import classes_of, groups_of
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
@@ -32,21 +32,17 @@ METRICS = {
 
 
 @register("statistic", "sulcal_table", metrics=METRICS)
-def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces: dict[str, Surface]) -> Statistic:
-    """Lengths of sulci by every estimator for each subject and side, surfaces labelled "left @ NAME" and "right @ NAME"."""
-    labels = tuple(surfaces)
-    sides = [FREESURFER.get(name, name) for name in classes_of(labels)]
-    place = dict(zip(zip(groups_of(labels), sides, strict=True), labels, strict=True))
-    subjects = sorted(set(groups_of(labels)))
-    if set(place) != {(subject, side) for subject in subjects for side in SIDES} or len(place) != len(labels):
-        raise ValueError(
-            f"surfaces are {', '.join(labels)}; take one 'left @ NAME' (or lh) and one 'right @ NAME' (or rh) each"
-        )
+def sulcal_table_statistic(options: SulcalTable, *, template: Surface, surfaces: dict[Member, Surface]) -> Statistic:
+    """Lengths of sulci by every estimator for each subject (group) and side (class left or right)."""
+    place = {(member.group, FREESURFER.get(member.class_name, member.class_name)): member for member in surfaces}
+    subjects = sorted({member.group for member in surfaces})
+    if set(place) != {(subject, side) for subject in subjects for side in SIDES} or len(place) != len(surfaces):
+        known = ", ".join(f"{member.class_name} of {member.group}" for member in surfaces)
+        raise ValueError(f"surfaces are {known}; take one of class left (or lh) and one of class right (or rh) a group")
     study = make_template(template, options.regions)
     table: dict[str, dict[Side, list[np.ndarray]]] = {}
     for done, (subject, side) in enumerate(sorted(place), 1):
-        label = place[subject, side]
-        for name, values in measure_sulci(study, surfaces[label]).items():
+        for name, values in measure_sulci(study, surfaces[place[subject, side]]).items():
             if name != TRUE:
                 table.setdefault(name, {"left": [], "right": []})["left" if side == "left" else "right"].append(values)
         report_progress(done, 1.0 - done / len(place))

@@ -6,6 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Polygon, boundary_angles
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
@@ -32,4 +33,6 @@ def drum_surface(options: DrumOptions) -> Surface:
     turned = np.linalg.det(np.stack([b - a, c - a], axis=1)) < 0
     faces = np.where(turned[:, None], drum.faces[:, [0, 2, 1]], drum.faces)
     vertices = np.column_stack([drum.vertices, np.zeros(len(drum.vertices))])
-    return with_metrics(Surface(TriangleMesh(vertices, faces), f"{options.which} drum"))
+    mesh = TriangleMesh(vertices, faces)
+    shape = Polygon(tuple(boundary_angles(mesh).tolist()), mesh.area)
+    return with_metrics(Surface(mesh, f"{options.which} drum", shape=shape))

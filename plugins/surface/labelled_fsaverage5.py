@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.embedding.label_files import read_labels
-from surfexp.embedding.labels import LABEL, desikan_killiany
+from surfexp.embedding.labels import desikan_killiany
 from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
@@ -25,7 +25,7 @@ class LabelledFsaverage5(Options):
 
 @register("surface", "labelled_fsaverage5")
 def labelled_fsaverage5_surface(options: LabelledFsaverage5) -> Surface:
-    """One hemisphere of fsaverage5 with the scalar map "label": the 35 Desikan-Killiany regions, or those of a file."""
+    """One hemisphere of fsaverage5 with true labels: the 35 Desikan-Killiany regions, or those of a file."""
     surface = fsaverage5(options.hemisphere, options.sheet)
     if options.labels is None:
         labels = desikan_killiany(options.hemisphere)
@@ -34,4 +34,4 @@ def labelled_fsaverage5_surface(options: LabelledFsaverage5) -> Surface:
         count = len(surface.mesh.vertices)
         if len(labels) != count:
             raise ValueError(f"{options.labels} has {len(labels)} labels, {surface.name} has {count} vertices")
-    return replace(surface, scalars={**surface.scalars, LABEL: labels.astype(float)})
+    return replace(surface, truth=replace(surface.truth, labels=labels))

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.labels import LABEL
 from surfexp.embedding.sulcal_regions import sulcal_regions
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
@@ -27,10 +26,10 @@ METRICS = {
 
 @register("surface", "sulcal_regions", metrics=METRICS)
 def sulcal_regions_surface(options: SulcalRegions, *, original: Surface) -> Surface:
-    """Another surface with the scalar map "label": its sulcal regions from 1, largest first, and 0 on gyri."""
+    """Another surface with its sulcal regions as labels from 1, largest first, and 0 on gyri."""
     regions = sulcal_regions(original.mesh, options.length, options.smallest_share)
     inside = regions >= 0
     areas = original.mesh.vertex_areas
     metrics = {"regions": float(regions.max() + 1), "sulcal share": float(areas[inside].sum() / areas.sum())}
-    scalars = {**original.scalars, LABEL: (regions + 1).astype(np.float64)}
-    return replace(original, scalars=scalars, metrics={**original.metrics, **metrics})
+    labels = (regions + 1).astype(np.int64)
+    return replace(original, metrics={**original.metrics, **metrics}, truth=replace(original.truth, labels=labels))

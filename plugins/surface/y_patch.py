@@ -13,6 +13,9 @@ class YPatch(Options):
     edge_length: float = Field(0.25, ge=0.02, le=0.5, description="side of the triangles")
     arm: float = Field(6.0, ge=3, le=100, description="length of each arm")
     width: float = Field(2.0, ge=2, le=60, description="width of each arm")
+    stem: float = Field(
+        1.25, ge=1, le=5, description="first arm over the others; at 1 the first eigenvalue is double at any resolution"
+    )
 
 
 @register("surface", "y_patch")

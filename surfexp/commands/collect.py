@@ -23,8 +23,8 @@ examples:
   surfexp run experiment=tosca_classification axes=tosca
   surfexp collect subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to people
 
-The axis is conf/axes/NAME.yaml in the working folder. A member is called "CLASS @ OWNER": classifiers tell classes apart and
-never train on an owner that they judge. Without an owner in the regular expression each file is one of its own."""
+The axis is conf/axes/NAME.yaml in the working folder. Each member has a class, which classifiers tell apart, and a group, the
+owner, on which they never train when they judge it. Without an owner in the regular expression each file is one of its own."""
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -53,7 +53,7 @@ def command(name: str, arguments: list[str]) -> int:
     files = _files(given.folder, given.pattern or PATTERNS)
     readable, refused = _read(files, given.surface)
     members = _members(given.folder, readable, given.group, given.surface)
-    counts = Counter(label.partition(" @ ")[0] for label in members)
+    counts = Counter(str(member["class"]) for member in members.values())
     _report(f"{len(members)} of {len(files)} files are members", counts, refused)
     if len(members) < 2:
         raise UserError(f"{given.folder}: {len(members)} surfaces can be read, a collection needs at least 2")
@@ -103,10 +103,10 @@ def _members(folder: Path, files: Sequence[Path], group: str, plugin: str) -> di
         if not named.get("class"):
             raise UserError(f"--group {group!r} finds no class in {place!r}; write (?P<class>...) around it")
         owner = named.get("owner") or file.stem
-        label = " ".join(filter(None, [named["class"], "@", owner, named.get("detail")]))
+        label = " ".join(filter(None, [named["class"], owner, named.get("detail")]))
         if label in members:
             raise UserError(f"two files are called {label!r}; tell them apart by (?P<owner>...) or (?P<detail>...)")
-        members[label] = {"surface": {"name": plugin, "path": str(file)}}
+        members[label] = {"class": named["class"], "group": owner, "surface": {"name": plugin, "path": str(file)}}
     return members
 
 

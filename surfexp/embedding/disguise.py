@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from surfexp.embedding.labels import ORIGIN
 from surfexp.mesh.edge_operations import collapse_edges, flip_edges, split_edges
 from surfexp.mesh.shape_metrics import with_metrics
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 
 
@@ -49,7 +48,8 @@ def disguise(
     Returns
     -------
     Surface
-        With the scalar map "origin": the vertex of `surface` that each vertex is, or is nearest to.
+        Its true origin is the vertex of `surface` that each vertex is, or is nearest to. Bent or meshed anew it has no known
+        shape; turned and scaled, the shape goes along.
     """
     if not scale > 0:
         raise ValueError(f"scale = {scale:g}, take a positive one")
@@ -65,12 +65,21 @@ def disguise(
         place = np.argsort(order)
         vertices, origin = vertices[order], origin[order]
         faces = place[faces][rng.permutation(len(faces))]
+    rotation = random_rotation(seed) if rotated else np.eye(3)
     vertices = scale * _bent(vertices, bend)
     if rotated:
-        vertices = vertices @ random_rotation(seed).T
-    scalars = {name: values[origin] for name, values in surface.scalars.items()}
-    scalars[ORIGIN] = origin.astype(np.float64)
-    changed = replace(surface, mesh=TriangleMesh(vertices, faces), scalars=scalars, coordinates=None, metrics={})
+        vertices = vertices @ rotation.T
+    kept = surface.shape if bend == 0.0 and not remeshed else None
+    labels = surface.truth.labels
+    changed = replace(
+        surface,
+        mesh=TriangleMesh(vertices, faces),
+        scalars={name: values[origin] for name, values in surface.scalars.items()},
+        coordinates=None,
+        metrics={},
+        shape=None if kept is None else kept.similar(scale, rotation),
+        truth=Truth(None if labels is None else labels[origin], origin, mesh.identity),
+    )
     return with_metrics(changed)
 
 

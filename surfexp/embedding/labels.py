@@ -12,8 +12,6 @@ from surfexp.mesh.gifti import read_gifti_arrays
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers
 
-LABEL, ORIGIN = "label", "origin"
-
 
 def desikan_killiany(hemisphere: Literal["left", "right"]) -> Integers:
     """Return the gyral labels 0 to 34 of one hemisphere of fsaverage5 (Desikan et al. 2006), alike on both sides.
@@ -57,22 +55,18 @@ def label_accuracy(source: Integers, target: Integers, target_areas: Floats, row
 def map_metrics(source: Surface, target: Surface, rows: Integers) -> dict[str, float]:
     """Return how good a map is where labels or the true origin of the vertices are known.
 
-    With scalar maps "label" on both surfaces: "label accuracy" by area and "label accuracy, vertices". With the target's
-    scalar map "origin" and the same name (it is the source in disguise), the true vertex is known: "origin error", the
-    mean distance in space between the vertex found and the true one, on the source and over the square root of its area.
+    With true labels on both surfaces: "label accuracy" by area and "label accuracy, vertices". Where the target's true
+    origin counts on the source's vertices: "origin error", the mean distance in space between the vertex found and the true
+    one, on the source and over the square root of its area.
     """
     areas, metrics = target.mesh.vertex_areas, {}
     if len(rows) != len(areas):
         raise ValueError(f"map has {len(rows)} entries, the target has {len(areas)} vertices")
-    if LABEL in source.scalars and LABEL in target.scalars:
-        labels = source.scalars[LABEL].astype(np.int64), target.scalars[LABEL].astype(np.int64)
-        by_area, by_vertex = label_accuracy(labels[0], labels[1], areas, rows)
+    if source.truth.labels is not None and target.truth.labels is not None:
+        by_area, by_vertex = label_accuracy(source.truth.labels, target.truth.labels, areas, rows)
         metrics = {"label accuracy": by_area, "label accuracy, vertices": by_vertex}
-    if ORIGIN in target.scalars and source.name == target.name:
-        origin = target.scalars[ORIGIN].astype(np.int64)
-        if origin.min() < 0 or origin.max() >= len(source.mesh.vertices):
-            last = len(source.mesh.vertices) - 1
-            raise ValueError(f"origin names vertex {origin.max()}, the source has 0..{last}")
+    origin = target.truth.origin
+    if origin is not None and target.truth.template == source.mesh.identity:
         vertices = source.mesh.vertices
         misses = np.linalg.norm(vertices[rows] - vertices[origin], axis=1)
         metrics["origin error"] = float(misses @ areas / areas.sum() / np.sqrt(source.mesh.area))

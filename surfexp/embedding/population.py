@@ -109,7 +109,7 @@ def synthetic_subject(
     Returns
     -------
     Surface
-        With "origin" (see `disguise`) and the maps of the template.
+        With the maps of the template, and as its true origin the template's vertices.
     """
     if side not in ("left", "right"):
         raise ValueError(f"side {side!r} is unknown, choose left or right")
@@ -120,10 +120,11 @@ def synthetic_subject(
     moved += random_displacement(vertices, strain / np.sqrt(2.0), wavelength, own)
     if region is not None and asymmetry != 0.0:
         moved = stretch(moved, region, 0.5 * asymmetry * (1.0 if side == "left" else -1.0), direction)
-    changed = replace(template, mesh=TriangleMesh(moved, template.mesh.faces), metrics={})
+    changed = replace(template.deformed(TriangleMesh(moved, template.mesh.faces)), metrics={})
     result = disguise(changed, rotated=True, remeshed=remeshed, seed=own)
     if side == "right":
         # mirrored last, since meshing anew depends on the orientation and would set the sides apart
         mirrored = TriangleMesh(result.mesh.vertices * [-1.0, 1.0, 1.0], result.mesh.faces[:, ::-1])
         result = replace(result, mesh=mirrored, metrics={})
-    return with_metrics(replace(result, name=f"synthetic subject {subject}, {side}"))
+    truth = replace(result.truth, template=template.mesh.identity)
+    return with_metrics(replace(result, name=f"synthetic subject {subject}, {side}", truth=truth))

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from surfexp.embedding.labels import ORIGIN
 from surfexp.embedding.population import Side, synthetic_subject
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
@@ -24,7 +23,9 @@ def name_regions(template: Template, target: Surface, sizes: tuple[int, ...] = (
     """Return the share of the target's sulcal area that is named right, by rule and number n of eigenfunctions."""
     regions, system = sulcal_regions(target.mesh), sulcal_system(target.mesh)
     areas = target.mesh.vertex_areas
-    truth = names_by_majority(regions, areas, template.regions, target.scalars[ORIGIN].astype(np.int64))
+    if target.truth.origin is None:
+        raise ValueError(f"the true vertices of {target.name!r} are not known: take a synthetic subject")
+    truth = names_by_majority(regions, areas, template.regions, target.truth.origin)
     scores = {"regions": float(regions.max() + 1)}
     template_areas = template.surface.mesh.vertex_areas
     for n in sizes:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.embedding.labels import ORIGIN
 from surfexp.embedding.sulcal_lengths import carried_ends, closed_region, geodesic_lengths
 from surfexp.embedding.sulcal_lines import LINE_ESTIMATORS, sulcal_line
 from surfexp.embedding.sulcal_regions import OUTSIDE, names_by_majority, sulcal_regions
@@ -58,14 +57,14 @@ def measure_sulci(
 
     "carried ends" is the geodesic on the surface between the ends that the map brings from the template. The others are
     those of `sulcal_line`, on the region that the map brings and on the target's own of that name, both closed by a
-    ring. Where the target has the scalar map "origin", "true" is the geodesic between the true ends. `named` is what
+    ring. Where the target's true origin is known, "true" is the geodesic between the true ends. `named` is what
     `name_sulci` gave, when that is known. Without `lines` only geodesics between ends are measured.
     """
     named = named or (name_sulci(template, target) if lines else None)
     mesh, source = target.mesh, template.surface.mesh
     maps = {DEFAULT: named.rows if named else template_rows(template, target)}
-    if ORIGIN in target.scalars:
-        maps = {TRUE: target.scalars[ORIGIN].astype(np.int64), **maps}
+    if target.truth.origin is not None:
+        maps = {TRUE: target.truth.origin, **maps}
     pairs = [carried_ends(source, rows, ends) for rows in maps.values() for ends in template.ends]
     found = np.array(geodesic_lengths(mesh, pairs)).reshape(len(maps), -1)
     lengths = dict(zip(maps, found, strict=True))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Disk
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
 
@@ -46,7 +47,8 @@ def disk(rings: int = 30, radius: float = 1.0) -> Surface:
     rho, angle = ring_coordinates(rings)
     vertices = radius * np.stack([rho * np.cos(angle), rho * np.sin(angle), np.zeros_like(rho)], axis=1)
     mesh = TriangleMesh(vertices, ring_faces(rings))
-    return with_metrics(Surface(mesh, name="disk", coordinates=np.stack([radius * rho, angle], axis=1)))
+    polar = np.stack([radius * rho, angle], axis=1)
+    return with_metrics(Surface(mesh, name="disk", coordinates=polar, shape=Disk(radius)))
 
 
 def ring_coordinates(rings: int) -> tuple[np.ndarray, np.ndarray]:

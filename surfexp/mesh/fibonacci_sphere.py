@@ -7,6 +7,7 @@ from scipy.spatial import ConvexHull
 
 from surfexp.mesh.icosphere import GOLDEN, spherical_coordinates
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Sphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -39,6 +40,5 @@ def fibonacci_sphere(count: int = 2562, jitter: float = 0.0, seed: int = 0, radi
     faces = ConvexHull(points).simplices.astype(np.int64)
     inward = np.linalg.det(points[faces]) < 0
     faces[inward] = faces[inward][:, [0, 2, 1]]
-    return with_metrics(
-        Surface(TriangleMesh(radius * points, faces), name="sphere", coordinates=spherical_coordinates(points))
-    )
+    mesh, shape = TriangleMesh(radius * points, faces), Sphere(radius)
+    return with_metrics(Surface(mesh, name="sphere", coordinates=spherical_coordinates(points), shape=shape))

@@ -42,7 +42,9 @@ def genus_surface(genus: int = 2, count: int = 8000) -> Surface:
         )
     half = 0.5 * DISTANCE * (genus - 1) + MAJOR + MINOR + 0.1
     mesh = mesh_implicit(row_of_tori(genus), [-half, -1.55, -0.55], [half, 1.55, 0.55], _spacing(genus, count), count)
-    return with_metrics(Surface(mesh, name={1: "torus", 2: "double torus"}.get(genus, f"genus-{genus} surface")))
+    return with_metrics(
+        Surface(mesh, name={1: "implicit torus", 2: "double torus"}.get(genus, f"genus-{genus} surface"))
+    )
 
 
 def half_double_torus(count: int = 31247) -> Surface:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Sphere
 from surfexp.mesh.subdivision import subdivide
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
@@ -45,4 +46,5 @@ def icosphere(levels: int = 4, radius: float = 1.0) -> Surface:
 
     mesh = TriangleMesh(onto_sphere(corners), np.array(ICOSAHEDRON_FACES))
     mesh = subdivide(mesh, onto_sphere, levels)
-    return with_metrics(Surface(mesh, name="sphere", coordinates=spherical_coordinates(mesh.vertices)))
+    longitude_latitude = spherical_coordinates(mesh.vertices)
+    return with_metrics(Surface(mesh, name="sphere", coordinates=longitude_latitude, shape=Sphere(radius)))

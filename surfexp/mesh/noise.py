@@ -33,4 +33,5 @@ def add_vertex_noise(
         shift = mesh.vertex_normals * random.normal(0.0, sigma, (len(mesh.vertices), 1))
     note = f"vertices carry Gaussian noise of standard deviation {sigma:g} (seed {seed}, direction: {direction})"
     moved = TriangleMesh(mesh.vertices + shift, mesh.faces)
-    return with_metrics(replace(surface, mesh=moved, notes=(*surface.notes, note)))
+    noisy = surface.deformed(moved) if sigma > 0 else surface
+    return with_metrics(replace(noisy, notes=(*surface.notes, note)))

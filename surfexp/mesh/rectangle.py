@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.torus import periodic_grid_faces
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
@@ -38,9 +39,8 @@ def rectangle(n_x: int = 61, n_y: int = 41, width: float = 1.5, height: float = 
         )
     x, y = np.meshgrid(np.linspace(0.0, width, n_x), np.linspace(0.0, height, n_y), indexing="ij")
     vertices = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
-    return with_metrics(
-        Surface(TriangleMesh(vertices, grid_faces(n_x, n_y)), name="rectangle", coordinates=vertices[:, :2])
-    )
+    mesh, shape = TriangleMesh(vertices, grid_faces(n_x, n_y)), Rectangle(width, height)
+    return with_metrics(Surface(mesh, name="rectangle", coordinates=vertices[:, :2], shape=shape))
 
 
 def flat_torus(n: int = 24, equilateral: bool = False) -> tuple[Integers, Floats]:

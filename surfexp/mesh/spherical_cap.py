@@ -6,6 +6,7 @@ import numpy as np
 
 from surfexp.mesh.disk import ring_coordinates, ring_faces
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Sphere, SphericalCap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -39,7 +40,8 @@ def spherical_cap(angle: float = 1.0, rings: int = 30, radius: float = 1.0) -> S
     polar = angle * fraction
     x, y, z = np.sin(polar) * np.cos(longitude), np.sin(polar) * np.sin(longitude), np.cos(polar)
     mesh = TriangleMesh(radius * np.stack([x, y, z], axis=1), ring_faces(rings))
-    return with_metrics(Surface(mesh, name="spherical cap", coordinates=np.stack([polar, longitude], axis=1)))
+    angles, shape = np.stack([polar, longitude], axis=1), SphericalCap(radius, angle)
+    return with_metrics(Surface(mesh, name="spherical cap", coordinates=angles, shape=shape))
 
 
 def capped_sphere(angle: float = 1.0, rings: int = 20, radius: float = 1.0) -> Surface:
@@ -55,4 +57,5 @@ def capped_sphere(angle: float = 1.0, rings: int = 20, radius: float = 1.0) -> S
     vertices = np.concatenate([upper.mesh.vertices, lower.mesh.vertices[:inner] * [1.0, 1.0, -1.0]])
     other = np.stack([np.pi - lower.coordinates[:inner, 0], lower.coordinates[:inner, 1]], axis=1)
     mesh = TriangleMesh(vertices, np.concatenate([upper.mesh.faces, faces]))
-    return with_metrics(Surface(mesh, name="sphere", coordinates=np.concatenate([upper.coordinates, other])))
+    angles = np.concatenate([upper.coordinates, other])
+    return with_metrics(Surface(mesh, name="sphere", coordinates=angles, shape=Sphere(radius)))

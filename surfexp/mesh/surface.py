@@ -1,14 +1,37 @@
-"""A surface as an experiment sees it: a mesh with a name, a unit and scalar maps."""
+"""A surface as an experiment sees it: a mesh with a name, a unit, scalar maps, and what is known of it for certain."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.smooth_shape import SmoothShape
+from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 from surfexp.metric import Metric
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """What the maker of a surface knows and a method has to find.
+
+    Parameters
+    ----------
+    labels : (n,) int64, optional
+        The region of each vertex, numbered alike on all surfaces that are compared; 0 is none.
+    origin : (n,) int64, optional
+        The vertex of the template that each vertex is, or is nearest to.
+    template : str
+        `TriangleMesh.identity` of the template that `origin` counts on.
+    midline : (s, 3) float64, optional
+        The line along which a patch was laid out.
+    """
+
+    labels: Integers | None = None
+    origin: Integers | None = None
+    template: str = ""
+    midline: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,7 +42,7 @@ class Surface:
     ----------
     mesh : TriangleMesh
     name : str
-        What a caption calls it.
+        What a caption calls it; nothing else hangs on it.
     unit : str
         Unit of length, empty when there is none.
     scalars : dict of str to (n,) float64
@@ -30,6 +53,15 @@ class Surface:
         Numbers for the table.
     notes : tuple of str
         What was repaired or lost on the way here, one sentence each.
+    shape : SmoothShape, optional
+        The smooth surface that all vertices lie on; checked. None for every surface whose smooth shape nobody vouches for.
+    truth : Truth
+        Ground truth, where there is some.
+
+    Raises
+    ------
+    ValueError
+        If a map or a truth is not one entry a vertex, or vertices lie off the shape.
     """
 
     mesh: TriangleMesh
@@ -39,6 +71,8 @@ class Surface:
     coordinates: Floats | None = None
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    shape: SmoothShape | None = None
+    truth: Truth = Truth()
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),
@@ -51,6 +85,15 @@ class Surface:
 
     def __post_init__(self) -> None:
         n = len(self.mesh.vertices)
+        for name, numbers in (("labels", self.truth.labels), ("origin", self.truth.origin)):
+            if numbers is not None and np.shape(numbers) != (n,):
+                raise ValueError(f"true {name} have shape {np.shape(numbers)}, the mesh has {n} vertices")
+        if self.shape is not None and not self.shape.holds(self.mesh):
+            raise ValueError(f"the vertices of {self.name!r} do not lie on a {self.shape.words}: give shape=None")
         for name, values in self.scalars.items():
             if np.shape(values) != (n,):
                 raise ValueError(f"scalar map {name!r} has shape {np.shape(values)}, the mesh has {n} vertices")
+
+    def deformed(self, mesh: TriangleMesh) -> Surface:
+        """The surface with its vertices moved: of the same connectivity, but of no known shape and midline."""
+        return replace(self, mesh=mesh, shape=None, truth=replace(self.truth, midline=None))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.smooth_shape import Torus
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
@@ -58,7 +59,8 @@ def torus(
     u = ((np.arange(n_u)[:, None] + shift[0]) * step_u).ravel()
     v = ((np.arange(n_v)[None, :] + shift[1]) * step_v).ravel()
     mesh = TriangleMesh(torus_points(u, v, major_radius, minor_radius), periodic_grid_faces(n_u, n_v))
-    return with_metrics(Surface(mesh, name="torus", coordinates=np.stack([u, v], axis=1) % (2.0 * np.pi)))
+    angles = np.stack([u, v], axis=1) % (2.0 * np.pi)
+    return with_metrics(Surface(mesh, name="torus", coordinates=angles, shape=Torus(major_radius, minor_radius)))
 
 
 def torus_points(u: Floats, v: Floats, major_radius: float, minor_radius: float) -> Floats:

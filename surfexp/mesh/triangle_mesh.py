@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -49,6 +50,11 @@ class TriangleMesh:
         for name, array in (("vertices", vertices), ("faces", faces)):
             array.flags.writeable = False
             object.__setattr__(self, name, array)
+
+    @cached_property
+    def identity(self) -> str:
+        """Digest of both arrays: the same for the same vertices and faces in the same order, and for nothing else."""
+        return hashlib.sha256(self.vertices.tobytes() + self.faces.tobytes()).hexdigest()
 
     @cached_property
     def face_cross_products(self) -> Floats:

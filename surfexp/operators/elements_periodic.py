@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from surfexp.mesh.rectangle import flat_torus
+from surfexp.mesh.smooth_shape import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -14,7 +15,7 @@ from surfexp.operators.intrinsic_delaunay import hat_gradients_from_lengths
 from surfexp.operators.surface_operator import SurfaceOperator
 
 Lattice = Literal["square", "hexagonal"]
-NAMES = {"square": "square flat torus", "hexagonal": "hexagonal flat torus"}
+SHAPES = {"square": FlatTorus(), "hexagonal": FlatTorus((1.0, 0.0), (-0.5, 0.75**0.5))}
 
 
 def periodic_surface(n: int = 40, lattice: Lattice = "square") -> Surface:
@@ -37,14 +38,13 @@ def periodic_surface(n: int = 40, lattice: Lattice = "square") -> Surface:
     ValueError
         If n is under 3 or the lattice is unknown.
     """
-    if lattice not in NAMES:
+    if lattice not in SHAPES:
         raise ValueError(f"lattice {lattice!r} is unknown, choose square or hexagonal")
-    faces, corners = flat_torus(n, lattice == "hexagonal")
-    sides = corners[:, 1:] - corners[:, :1]
-    area = 0.5 * float(np.abs(np.linalg.det(sides)).sum())
-    metrics = {"vertices": float(n * n), "faces": float(len(faces)), "genus": 1.0, "area": area}
+    faces, _ = flat_torus(n, lattice == "hexagonal")
+    metrics = {"vertices": float(n * n), "faces": float(len(faces)), "genus": 1.0, "area": SHAPES[lattice].area}
     notes = ("The torus is flat and only drawn in space: take operator=periodic.",)
-    return Surface(TriangleMesh(torus(n, n).mesh.vertices, faces), NAMES[lattice], metrics=metrics, notes=notes)
+    mesh = TriangleMesh(torus(n, n).mesh.vertices, faces)
+    return Surface(mesh, f"{lattice} flat torus", metrics=metrics, notes=notes, shape=SHAPES[lattice])
 
 
 def periodic_operator(surface: Surface) -> SurfaceOperator:
@@ -53,11 +53,15 @@ def periodic_operator(surface: Surface) -> SurfaceOperator:
     Raises
     ------
     ValueError
-        If the surface is no flat torus.
+        If the surface is no flat torus, or its vertices are in another order than its maker's.
     """
-    if surface.name not in NAMES.values():
+    if not isinstance(surface.shape, FlatTorus):
         raise ValueError(f"the surface {surface.name!r} has no periods: operator periodic takes a flat_torus")
     count = len(surface.mesh.vertices)
-    faces, corners = flat_torus(round(count**0.5), surface.name == NAMES["hexagonal"])
+    faces, corners = flat_torus(round(count**0.5), surface.shape == SHAPES["hexagonal"])
+    if surface.shape not in SHAPES.values() or not np.array_equal(faces, surface.mesh.faces):
+        raise ValueError(
+            f"the faces of {surface.name!r} are not those of periodic_surface: take a flat_torus as it is made"
+        )
     lengths = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
     return SurfaceOperator(faces, *hat_gradients_from_lengths(lengths), count, name="periodic")

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import diags_array
 
 from surfexp.linalg.factorisation import factorise
+from surfexp.mesh.smooth_shape import UP, Sphere, Torus
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.assembly import stiffness
@@ -35,31 +36,31 @@ class Manufactured:
 def manufactured(surface: Surface) -> Manufactured:
     """Return x y z on a sphere about the origin, or sin u sin v on a torus of revolution about z.
 
-    A torus is a surface with coordinates (u, v); the harmonic polynomial x y z of degree 3 has Laplacian -12 x y z / r^2.
+    The angles u around the axis and v around the tube are those of the points; the harmonic polynomial x y z of degree 3
+    has Laplacian -12 x y z / r^2.
 
     Raises
     ------
     ValueError
         If the surface is neither.
     """
-    points, genus = surface.mesh.vertices, surface.mesh.genus
-    radii = np.linalg.norm(points, axis=1)
-    if genus == 0 and np.ptp(radii) <= 1e-9 * radii.max():
+    points = surface.mesh.vertices
+    if isinstance(surface.shape, Sphere):
         x, y, z = points.T
-        values, radius = x * y * z, radii.mean()
+        values, radius = x * y * z, surface.shape.radius
         ambient = np.stack([y * z, z * x, x * y], axis=1)
         tangent = ambient - 3.0 * values[:, None] * points / radius**2
         return Manufactured(values, tangent, -12.0 * values / radius**2)
-    if genus == 1 and surface.coordinates is not None:
-        return _on_torus(points, *surface.coordinates.T)
+    if isinstance(surface.shape, Torus) and surface.shape.axis == UP:
+        return _on_torus(points, surface.shape)
     raise ValueError(
-        f"{surface.name} is no sphere about the origin and no torus of revolution; take icosphere or torus"
+        f"{surface.name!r} is no sphere about the origin and no torus of revolution about z: take icosphere or torus"
     )
 
 
-def _on_torus(points: Floats, u: Floats, v: Floats) -> Manufactured:
-    minor = float(np.sin(v) @ points[:, 2] / (np.sin(v) @ np.sin(v)))
-    rho = np.hypot(points[:, 0], points[:, 1])
+def _on_torus(points: Floats, torus: Torus) -> Manufactured:
+    minor, rho = torus.minor_radius, np.hypot(points[:, 0], points[:, 1])
+    u, v = np.arctan2(points[:, 1], points[:, 0]), np.arctan2(points[:, 2], rho - torus.major_radius)
     values, along_u, along_v = np.sin(u) * np.sin(v), np.cos(u) * np.sin(v), np.sin(u) * np.cos(v)
     east = np.stack([-np.sin(u), np.cos(u), np.zeros_like(u)], axis=1)
     north = np.stack([-np.sin(v) * np.cos(u), -np.sin(v) * np.sin(u), np.cos(v)], axis=1)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.mesh.shape_metrics import with_metrics
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.skeleton.planar_patch import triangulate_region
 from surfexp.skeleton.planted_map import planted_map
@@ -126,18 +126,6 @@ def callosum(
     if signal is not None:
         scalars["signal"] = planted_map(mesh.vertices[:, :2], shape, signal, seed)
     flat = mesh.vertices[:, :2]
-    return with_metrics(Surface(mesh, f"callosum {seed}", "mm", scalars, coordinates=flat, metrics=known))
-
-
-def true_midline(surface: Surface) -> Floats:
-    """(s, 3) midline of a patch made by `callosum`, from the seed and thinning among its metrics.
-
-    Raises
-    ------
-    ValueError
-        If the surface is another.
-    """
-    if "seed" not in surface.metrics or "thinning" not in surface.metrics:
-        raise ValueError(f"the midline of {surface.name!r} is not known, only that of surface callosum is")
-    midline = callosum_shape(int(surface.metrics["seed"]), surface.metrics["thinning"]).midline
-    return np.concatenate([midline, np.zeros((len(midline), 1))], axis=1)
+    line = np.concatenate([shape.midline, np.zeros((len(shape.midline), 1))], axis=1)
+    truth = Truth(midline=line)
+    return with_metrics(Surface(mesh, f"callosum {seed}", "mm", scalars, coordinates=flat, metrics=known, truth=truth))

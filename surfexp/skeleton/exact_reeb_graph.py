@@ -9,7 +9,7 @@ from numba import njit
 
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 from surfexp.mesh.vertex_star import vertex_stars
-from surfexp.skeleton.adjacency import opposite_sides
+from surfexp.skeleton.adjacency import Flags, opposite_sides, pinched_vertices
 from surfexp.skeleton.feature import checked_feature
 
 
@@ -43,14 +43,14 @@ def exact_reeb_graph(mesh: TriangleMesh, values: Floats) -> ReebGraph:
     Parameters
     ----------
     mesh : TriangleMesh
-        A manifold, open or closed, of any number of components.
+        Open or closed, of any number of components; at a vertex where fans of faces touch (a bow-tie) their contours meet.
     values : (n,) float64
         Vertices of one value are taken in the order of their numbers, everywhere alike.
 
     Raises
     ------
     ValueError
-        If the values are unfit or an edge has three faces.
+        If the values are unfit, or an edge has three faces; the message names the edge and the repair.
     """
     values = checked_feature(values, len(mesh.vertices))
     start, star = vertex_stars(mesh.faces, len(mesh.vertices))
@@ -58,13 +58,14 @@ def exact_reeb_graph(mesh: TriangleMesh, values: Floats) -> ReebGraph:
     order = np.argsort(values, kind="stable")
     rank = np.empty(len(order), np.int64)
     rank[order] = np.arange(len(order))
-    nodes, arcs, vertex_arcs = _sweep(mesh.faces, twins, start, star, order, rank)
+    pinched = pinched_vertices(mesh.faces, twins, start, star)
+    nodes, arcs, vertex_arcs = _sweep(mesh.faces, twins, start, star, pinched, order, rank)
     return ReebGraph(nodes, values[nodes], arcs, vertex_arcs)
 
 
 @njit(cache=True, nogil=True)
 def _sweep(
-    faces: Integers, twins: Integers, start: Integers, star: Integers, order: Integers, rank: Integers
+    faces: Integers, twins: Integers, start: Integers, star: Integers, pinched: Flags, order: Integers, rank: Integers
 ) -> tuple[Integers, Integers, Integers]:
     # arcs are kept at the first of the two sides that make an edge
     side_arc = np.full(len(twins), -1, np.int64)
@@ -99,7 +100,8 @@ def _sweep(
                 upper -= 2
             elif above == 0:
                 lower -= 2
-        regular = upper == 2 and lower == 2
+        # an extremum of one fan adds nothing to the counts of another
+        regular = upper == 2 and lower == 2 and not pinched[v]
         if not regular:
             contours = _relabel(faces, twins, start, star, rank, v, side_arc, seen, arc_count, True)
             if contours == 1 and lowest_arc >= 0 and not several:

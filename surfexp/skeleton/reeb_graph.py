@@ -31,13 +31,14 @@ def reeb_graph(mesh: TriangleMesh, values: Floats, levels: Floats, name: str = "
     Returns
     -------
     Skeleton
-        Metrics: contours, nodes, components, b1, leaves, branch_nodes, chain, levels; on a closed surface "hidden_handles", its
-        genus less b1: handles whose two saddles no level separates. A note then names their saddles, from the exact graph.
+        Metrics: contours, nodes, components, b1, leaves, branch_nodes, chain, levels; on a closed surface "hidden_handles",
+        loops of the exact graph whose two saddles no level separates (with b1 they make the genus of a manifold). A note then
+        names their saddles.
 
     Raises
     ------
     ValueError
-        If values or levels are unfit, or the mesh is no manifold.
+        If values or levels are unfit, or an edge has three faces.
     """
     contours = level_contours(mesh, values, levels)
     slabs = slab_components(mesh, contours)
@@ -56,14 +57,14 @@ def reeb_graph(mesh: TriangleMesh, values: Floats, levels: Floats, name: str = "
     metrics |= {"levels": float(len(contours.levels)), "contours": float(count)}
     notes: tuple[str, ...] = ()
     if not contours.boundary_sides:
-        euler_characteristic = len(np.unique(mesh.faces)) - len(mesh.faces) // 2
-        genus = int(metrics["components"]) - euler_characteristic // 2
-        hidden = genus - int(metrics["b1"])
-        metrics["hidden_handles"] = float(hidden)
+        hidden = hidden_handles(mesh, values, contours.levels)
+        count_hidden = sum(item.handles for item in hidden)
+        metrics["hidden_handles"] = float(count_hidden)
         if hidden:
-            named = ", ".join(map(str, hidden_handles(mesh, values, contours.levels)))
+            handles, named = int(metrics["b1"]) + count_hidden, ", ".join(map(str, hidden))
             notes = (
-                f"{hidden} of {genus} handles have no level between their saddles ({named}): take critical levels.",
+                f"{count_hidden} of {handles} handles have no level between their saddles ({named}): "
+                "take critical levels.",
             )
     return Skeleton(
         positions=np.concatenate([middles, positions]),

@@ -11,6 +11,11 @@ from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
 
+EQUAL_ARMS = (
+    "Three equal arms: the first eigenvalue is double at every resolution and its function an accident of the mesh, "
+    "with 2 or 3 extrema; take a stem above 1."
+)
+
 
 def strip(
     length: float = 60.0,
@@ -84,28 +89,51 @@ def bend_isometrically(flat: Floats, bend: float, scale: float) -> Floats:
     return np.stack([np.interp(s, fine, across), flat[:, 1], np.interp(s, fine, up)], axis=1)
 
 
-def y_patch(edge_length: float = 0.25, arm: float = 6.0, width: float = 2.0) -> Surface:
-    """A flat patch of three arms of one length at 120 degrees: its skeleton has three leaves.
+def y_patch(edge_length: float = 0.25, arm: float = 6.0, width: float = 2.0, stem: float = 1.25) -> Surface:
+    """A flat patch of three arms at 120 degrees: its skeleton has three leaves.
+
+    With three equal arms the first eigenvalue is double, whatever the resolution: its functions with three extrema and
+    those with two are equally good, and which one comes out is an accident of the mesh. A longer first arm makes it simple,
+    with an extremum at the end of every arm; a shorter one makes it simple with two.
+
+    Parameters
+    ----------
+    edge_length, arm, width : float
+        Side of the triangles; length and width of the second and the third arm.
+    stem : float
+        Length of the first arm over that of the others, at least 1; at 1.25 the gap to the second eigenvalue is .32 to .38
+        for edges of .16 to .5, where an unsymmetric mesh of equal arms opens one of .0003 to .017.
+
+    Returns
+    -------
+    Surface
+        With a note where the arms are equal.
 
     Raises
     ------
     ValueError
-        If an arm is not three times as long as wide, or less than four edges wide.
+        If an arm is not 1.5 times as long as wide, or less than four edges wide, or the stem is under 1.
     """
     from surfexp.skeleton.planar_patch import triangulate_region
 
-    if width < 4.0 * edge_length or arm < 1.5 * width:
+    if width < 4.0 * edge_length or arm < 1.5 * width or stem < 1.0:
         raise ValueError(
-            f"arms are {arm} long, {width} wide with edges of {edge_length}; 1.5 widths and 4 edges are needed"
+            f"arms are {arm} long, {width} wide with edges of {edge_length} and a stem of {stem:g} arms; "
+            "1.5 widths, 4 edges and a stem of 1 or more are needed"
         )
     directions = [np.array([np.cos(a), np.sin(a)]) for a in (np.pi / 2, np.pi * 7 / 6, np.pi * 11 / 6)]
+    lengths = (stem * arm, arm, arm)
 
     def inside(points: Floats) -> Integers:
         found = np.zeros(len(points), dtype=bool)
-        for u in directions:
+        for u, length in zip(directions, lengths, strict=True):
             along, aside = points @ u, points @ np.array([-u[1], u[0]])
-            found |= (along >= 0) & (along <= arm) & (np.abs(aside) <= 0.5 * width)
+            found |= (along >= 0) & (along <= length) & (np.abs(aside) <= 0.5 * width)
         return found
 
-    mesh = triangulate_region(inside, np.array([-arm, -arm]), np.array([arm, arm]), 0.5 * edge_length, edge_length)
-    return replace(with_metrics(Surface(mesh, name="Y")), coordinates=mesh.vertices[:, :2])
+    reach = stem * arm
+    mesh = triangulate_region(
+        inside, np.array([-reach, -reach]), np.array([reach, reach]), 0.5 * edge_length, edge_length
+    )
+    notes = (EQUAL_ARMS,) if stem == 1.0 else ()
+    return replace(with_metrics(Surface(mesh, name="Y", notes=notes)), coordinates=mesh.vertices[:, :2])

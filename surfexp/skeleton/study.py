@@ -12,7 +12,7 @@ from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.boundary_distance import boundary_distance
-from surfexp.skeleton.callosum import GENU, true_midline
+from surfexp.skeleton.callosum import GENU
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
 from surfexp.skeleton.group import align, bootstrap_shares, principal_components
@@ -98,19 +98,24 @@ def miss_metrics(surfaces: Mapping[str, Surface], skeletons: Mapping[str, Skelet
 
     "genu_miss" is the mean of the largest distance of the genu's part of the midline, where it turns back.
     """
-    if any("seed" not in surface.metrics or "thinning" not in surface.metrics for surface in surfaces.values()):
+    midlines = {
+        label: surface.truth.midline for label, surface in surfaces.items() if surface.truth.midline is not None
+    }
+    if len(midlines) < len(surfaces):
         return {}
-    errors = np.array([_misses(surface, skeletons[label]) for label, surface in surfaces.items()])
+    errors = np.array(
+        [_misses(midlines[label], skeletons[label]) / surface.mesh.edge_length for label, surface in surfaces.items()]
+    )
     names = ("midline_miss", "skeleton_excess", "genu_miss")
     means = dict(zip(names, map(float, errors.mean(axis=0)), strict=True))
     return {**means, "midline_miss_worst": float(errors[:, 0].max())}
 
 
-def _misses(surface: Surface, skeleton: Skeleton) -> Floats:
-    midline, line = true_midline(surface), trunk_contours(skeleton)
+def _misses(midline: Floats, skeleton: Skeleton) -> Floats:
+    line = trunk_contours(skeleton)
     first, last = (round(share * (len(midline) - 1)) for share in GENU)
     genu = float(distance_from_line(midline[first : last + 1], line)[0].max())
-    return np.array([*midline_errors(midline, line), genu]) / surface.mesh.edge_length
+    return np.array([*midline_errors(midline, line), genu])
 
 
 @dataclass(frozen=True, eq=False)

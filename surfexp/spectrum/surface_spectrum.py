@@ -16,7 +16,6 @@ from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_graph import NodalGraph, element_faces, nodal_graph
 from surfexp.spectrum.slicing import Progress
-from surfexp.spectrum.smooth_shapes import projections
 
 LARGEST_BAD_ANGLE = 1.0
 
@@ -39,7 +38,7 @@ def elements_of(
         Its triangles may be intrinsic; then order 1 only.
     order : 1, 2 or 3
     curved : bool
-        Put the new nodes of order 2 and 3 on the smooth surface; known for sphere, disk and torus.
+        Put the new nodes of order 2 and 3 on the smooth shape of the surface, where it has one.
     patches : bool
         Put them on cubic patches through the vertices, for a mesh whose smooth shape nobody knows.
 
@@ -51,8 +50,12 @@ def elements_of(
     if curved and patches:
         raise ValueError("curved and patches are two ways to place the same nodes: choose one")
     if curved:
-        onto, onto_rim = projections(surface)
-        return surface_elements(surface.mesh, order, onto, onto_rim, mass, boundary)
+        if surface.shape is None:
+            raise ValueError(
+                f"the smooth shape of {surface.name!r} is unknown: choose curved=false, or patches=true for cubic patches"
+            )
+        shape = surface.shape
+        return surface_elements(surface.mesh, order, shape.project, shape.project_boundary, mass, boundary)
     if order > 1 and not np.array_equal(operator.faces, surface.mesh.faces):
         raise ValueError(
             f"elements of order {order} on the triangles of operator {operator.name!r}: choose fem, or order 1"

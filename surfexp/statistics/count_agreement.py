@@ -44,19 +44,19 @@ def count_agreement(reference: Signature, others: Mapping[str, Signature], part:
         raise ValueError(f"{len(sequences)} sequences of {length} modes: at least 1 of {WINDOW} is needed")
     columns: dict[str, Floats] = {"mode": np.arange(1.0, length + 1.0)}
     metrics: dict[str, float] = {}
-    errors = []
+    errors: list[float] = []
+    values: dict[str, list[float]] = {name: [] for name in ("first 20", "all", "trusted")}
     for label, sequence in sequences.items():
         same = sequence[:length] == known[:length]
         share = moving_mean(same.astype(np.float64))
         columns[label] = share
         low = np.flatnonzero(share < TRUST)
-        metrics[f"first 20 {label}"] = float(same[:WINDOW].mean())
-        metrics[f"all {label}"] = float(same.mean())
-        metrics[f"trusted {label}"] = float(low[0] if len(low) else length)
+        numbers = {"first 20": same[:WINDOW].mean(), "all": same.mean(), "trusted": low[0] if len(low) else length}
+        for name, number in numbers.items():
+            metrics[f"{name} {label}"] = float(number)
+            values[name].append(float(number))
         errors.append(float(np.abs(sequence[:length] - known[:length]).mean()))
-    for name in ("first 20", "all", "trusted"):
-        found = [value for key, value in metrics.items() if key.startswith(f"{name} ")]
-        metrics[name.replace(" ", "_")] = float(np.mean(found))
+    metrics |= {name.replace(" ", "_"): float(np.mean(numbers_of)) for name, numbers_of in values.items()}
     metrics["mean_error"] = float(np.mean(errors))
     return Statistic("agreement of nodal counts", columns, metrics=metrics)
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.metric import Metric
-from surfexp.statistics.labels import classes_of, groups_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,13 +18,13 @@ class DistanceMatrix:
     Parameters
     ----------
     labels : tuple of str
-        Names of the n members, such as "caudate @ 9861 left".
+        Names of the n members, for people.
     values : (n, n) float64
         Distances; symmetric, not negative, 0 on the diagonal.
     classes : tuple of str, optional
-        The class of each member; default: the label before " @ ".
+        The class of each member; default: each of its own.
     groups : tuple of str, optional
-        The person or object to which each belongs; default: the first word after " @ ".
+        The person or object to which each belongs; default: each to its own.
     coordinates : (n, d) float64, optional
         Points whose Euclidean distances these are, where there are such.
     name : str
@@ -55,8 +54,8 @@ class DistanceMatrix:
     }
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "classes", self.classes or classes_of(self.labels))
-        object.__setattr__(self, "groups", self.groups or groups_of(self.labels))
+        object.__setattr__(self, "classes", self.classes or self.labels)
+        object.__setattr__(self, "groups", self.groups or self.labels)
         n, values = len(self.labels), self.values
         if values.shape != (n, n) or len(self.classes) != n or len(self.groups) != n:
             sizes = f"{len(self.classes)} classes and {len(self.groups)} groups"

@@ -17,7 +17,6 @@ from surfexp.spectrum.heat_trace import (
 )
 from surfexp.statistics.statistic import Statistic
 
-POLYGONS = ("rectangle", "first drum", "second drum")
 TIMES = 24
 # in units of 1 / lambda_k: long enough for what lies beyond the last value not to matter, short enough for three terms
 SMALL_TIMES = (12.0, 48.0)
@@ -38,8 +37,8 @@ def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
         "closed" if mesh.is_closed else ("dirichlet" if system.boundary == "dirichlet" else "neumann")
     )
     length = boundary_length(surface)
-    polygon = surface.name in POLYGONS
-    constant = corner_constant(corner_angles(surface)) if polygon else smooth_constant(mesh.euler_characteristic)
+    corners = None if surface.shape is None else surface.shape.corners
+    constant = smooth_constant(mesh.euler_characteristic) if corners is None else corner_constant(np.array(corners))
     shortest, longest = (factor / float(system.values[-1]) for factor in SMALL_TIMES)
     times = np.geomspace(shortest, longest, TIMES)
     trace = heat_trace(system.values, times, system.area)
@@ -84,16 +83,3 @@ def boundary_length(surface: Surface) -> float:
             for loop in surface.mesh.boundary_loops
         )
     )
-
-
-def corner_angles(surface: Surface, straight: float = 1e-6) -> Floats:
-    """Return the inner angles at the boundary vertices of a flat domain that differ from pi."""
-    mesh = surface.mesh
-    angles = np.zeros(len(mesh.vertices))
-    corners = mesh.vertices[mesh.faces]
-    for k in range(3):
-        first, second = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
-        cosine = np.einsum("ij,ij->i", first, second) / np.linalg.norm(first, axis=1) / np.linalg.norm(second, axis=1)
-        np.add.at(angles, mesh.faces[:, k], np.arccos(np.clip(cosine, -1.0, 1.0)))
-    rim = np.unique(np.concatenate(mesh.boundary_loops))
-    return angles[rim][np.abs(angles[rim] - np.pi) > straight]

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfexp.member import Member
 from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.labels import classes_of
 from surfexp.statistics.separation import separation
 
 # parts of a spectral signature as captions call them
@@ -28,14 +28,13 @@ WORDS = {
 
 
 def signature_distances(
-    signatures: Mapping[str, Signature], part: str = "", alpha: float = 1.0, length: int | None = None
+    signatures: Mapping[Member, Signature], part: str = "", alpha: float = 1.0, length: int | None = None
 ) -> DistanceMatrix:
     """Return sqrt(sum_n ((l_n - l'_n) / n^alpha)^2) (4.3) between all members; alpha = 0 is the Euclidean distance.
 
     Parameters
     ----------
-    signatures : mapping of label to Signature
-        Labels "class @ owner ..." as `labels` reads them.
+    signatures : mapping of Member to Signature
     part : str
         Which part of the signatures; empty: the signature itself.
     alpha : float
@@ -52,7 +51,10 @@ def signature_distances(
     ValueError
         If there are fewer than two members, one is not finite, or one is shorter than `length`.
     """
-    labels, rows = tuple(signatures), [signature.part(part) for signature in signatures.values()]
+    labels, rows = (
+        tuple(member.label for member in signatures),
+        [signature.part(part) for signature in signatures.values()],
+    )
     if len(rows) < 2:
         raise ValueError(f"the collection has {len(rows)} members, distances need at least 2")
     shortest = min(len(row) for row in rows)
@@ -67,12 +69,13 @@ def signature_distances(
     name = WORDS.get(part) or (part or next(iter(signatures.values())).name).replace("_", " ")
     points = values * np.arange(1.0, used + 1.0) ** -alpha
     distances = euclidean(points)
-    metrics = {"members": float(len(labels)), "length": float(used), **separation(distances, classes_of(labels))}
+    classes, groups = zip(*((member.class_name, member.group) for member in signatures), strict=True)
+    metrics = {"members": float(len(labels)), "length": float(used), **separation(distances, classes)}
     notes: tuple[str, ...] = ()
     longest = max(len(row) for row in rows)
     if length is None and longest > shortest:
         notes = (f"Signatures have {shortest} to {longest} entries; the first {shortest} are compared.",)
-    return DistanceMatrix(labels, distances, coordinates=points, name=name, metrics=metrics, notes=notes)
+    return DistanceMatrix(labels, distances, classes, groups, points, name=name, metrics=metrics, notes=notes)
 
 
 def euclidean(points: Floats) -> Floats:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 import numpy as np
 
 from surfexp.figures.order_plot import convergence_order
+from surfexp.member import Member, levels_of
+from surfexp.mesh.smooth_shape import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.spectrum.smooth_shapes import exact_spectrum
 from surfexp.statistics.statistic import Statistic
-
-LINE = re.compile(r"(?P<line>.+) @ (?P<level>.+)")
 
 
 def spectrum_error(surface: Surface, system: EigenSystem, low: int = 8, high: int = 24) -> Statistic:
@@ -37,11 +35,15 @@ def spectrum_error(surface: Surface, system: EigenSystem, low: int = 8, high: in
     ValueError
         If fewer values were computed, or the exact ones are unknown.
     """
-    exact = exact_spectrum(surface, len(system.values), system.boundary)
-    flat = surface.metrics.get("area", system.area) if surface.name.endswith("flat torus") else system.area
-    if abs(system.area - flat) > 1e-9 * flat:
+    shape = surface.shape
+    if shape is None:
         raise ValueError(
-            f"the spectrum is of a surface of area {system.area:.3g}, not {flat:.3g}: take operator=periodic"
+            f"the smooth shape of {surface.name!r} is unknown, so are its eigenvalues: take a generated one"
+        )
+    exact = shape.spectrum(len(system.values), system.boundary)
+    if isinstance(shape, FlatTorus) and abs(system.area - shape.area) > 1e-9 * shape.area:
+        raise ValueError(
+            f"the spectrum is of a surface of area {system.area:.3g}, not {shape.area:.3g}: take operator=periodic"
         )
     moving = exact > 1e-9 * exact[-1]
     if moving.sum() < max(low, high):
@@ -60,31 +62,28 @@ def spectrum_error(surface: Surface, system: EigenSystem, low: int = 8, high: in
     return Statistic(f"spectrum of the {surface.name}", columns, metrics=metrics)
 
 
-def convergence_orders(errors: Mapping[str, Statistic], metric: str = "error_high") -> Statistic:
+def convergence_orders(errors: Mapping[Member, Statistic], metric: str = "error_high") -> Statistic:
     """Fit the order of an error in the edge length, a line for each method.
 
     Parameters
     ----------
-    errors : mapping of label to Statistic
-        Labels "method @ level"; all methods on the same levels.
+    errors : mapping of Member to Statistic
+        The class of a member is its method, and its level the refinement; all methods on the same levels.
     metric : str
 
     Returns
     -------
     Statistic
-        Columns: edge_length, and each method's errors. Metrics: "order METHOD", "finest METHOD".
+        Rows are the levels. Columns: edge_length, and each method's errors. Metrics: "order METHOD", "finest METHOD".
 
     Raises
     ------
     ValueError
-        If a label does not fit, or methods have different levels.
+        If a member has no level, or methods have different ones.
     """
-    lines: dict[str, dict[str, Statistic]] = {}
-    for label, found in errors.items():
-        match = LINE.fullmatch(label)
-        if match is None:
-            raise ValueError(f"axis label {label!r}: write 'method @ level', for example 'P1 @ 3'")
-        lines.setdefault(match["line"], {})[match["level"]] = found
+    lines: dict[str, dict[float, Statistic]] = {}
+    for level, (member, found) in zip(levels_of(errors), errors.items(), strict=True):
+        lines.setdefault(member.class_name, {})[level] = found
     levels = [tuple(members) for members in lines.values()]
     if len(set(levels)) != 1 or len(levels[0]) < 2:
         raise ValueError(f"methods have the levels {levels}: at least two, the same for all, are needed")
@@ -95,4 +94,4 @@ def convergence_orders(errors: Mapping[str, Statistic], metric: str = "error_hig
         columns[line] = np.array([found.metrics[metric] for found in members.values()])
         metrics[f"order {line}"] = convergence_order(sizes, columns[line])
         metrics[f"finest {line}"] = float(columns[line][np.argmin(sizes)])
-    return Statistic(next(iter(first.values())).name, columns, levels[0], metrics)
+    return Statistic(next(iter(first.values())).name, columns, tuple(f"{level:g}" for level in levels[0]), metrics)

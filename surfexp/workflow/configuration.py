@@ -8,12 +8,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from typing_extensions import TypedDict
 
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.registry import plugin
 
 Context = dict[str, Any]
+Facts = TypedDict("Facts", {"class": str, "group": str, "level": float}, total=False)
+Facts.__pydantic_config__ = ConfigDict(extra="allow", coerce_numbers_to_str=True)  # type: ignore[attr-defined]
 
 
 class Settings(BaseModel):
@@ -35,17 +38,14 @@ class Settings(BaseModel):
     figures: list[Any] = Field([], description="figure plugins drawn for each variant: a name, or name and options")
     objective: str | None = Field(None, description="metric that an optimising sweeper minimises")
     claims: list[Any] = Field([], description="published claims, each judged from the rows of the report")
-    axes: dict[str, Any] = Field({}, description="named collections: axis, then label, then a partial configuration")
+    axes: dict[str, dict[Any, Facts] | list[Facts]] = Field({}, description="collections: label, facts, stages")
     variants: list[Any] = Field([], description="partial configurations, each with its own grid; their union is run")
     grid: dict[str, list[Any]] = Field({}, description="dotted option to list of values; every combination is run")
 
 
 def settings_of(configuration: Mapping[str, Any]) -> Settings:
     """Check the top level of a configuration; UserError naming the nearest valid key."""
-    keys = [*Settings.model_fields, *KINDS]
-    for key in configuration:
-        if key not in keys:
-            raise unknown("configuration key", str(key), keys)
+    check_known("configuration key", configuration, [*Settings.model_fields, *KINDS])
     try:
         return Settings(**{key: value for key, value in configuration.items() if key in Settings.model_fields})
     except ValidationError as error:
@@ -63,11 +63,9 @@ def one_line(where: str, error: ValidationError) -> str:
 
 def stage(value: Any) -> Context:
     """Normal form of a stage's configuration: a bare name becomes a mapping."""
-    if isinstance(value, str):
-        return {"name": value}
-    if isinstance(value, Mapping):
-        return dict(value)
-    raise UserError(f"stage configuration {value!r}: expected a plugin name or a mapping with 'name'")
+    if not isinstance(value, str | Mapping):
+        raise UserError(f"stage configuration {value!r}: expected a plugin name or a mapping with 'name'")
+    return {"name": value} if isinstance(value, str) else dict(value)
 
 
 def merge(base: Mapping[str, Any], partial: Mapping[str, Any]) -> Context:

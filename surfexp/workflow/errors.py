@@ -18,6 +18,13 @@ class StageFailure(Exception):
     """A stage that ran and failed; the command line prints it in one line and exits with 1."""
 
 
+def check_known(thing: str, names: Iterable[str], choices: Iterable[str]) -> None:
+    """Raise `unknown` for the first name that is no choice."""
+    for name in names:
+        if name not in choices:
+            raise unknown(thing, str(name), choices)
+
+
 def unknown(thing: str, name: str, choices: Iterable[str]) -> UserError:
     """Say that `name` does not exist and what comes nearest."""
     known = sorted(choices)

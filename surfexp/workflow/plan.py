@@ -10,8 +10,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from surfexp.member import FACTS, axis_members
 from surfexp.workflow.configuration import Context, Settings, merge, one_line, settings_of, stage
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.errors import UserError, check_known
 from surfexp.workflow.fingerprint import code_digest, compiled_state, digest, file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.registry import PLUGINS, Plugin, plugin
@@ -24,7 +25,8 @@ Keys = str | list[str] | dict[str, str]
 class Node:
     """One stage of a plan: a plugin, its code and compilation cache, its checked options, its inputs' keys by role.
 
-    `files` holds the digest, when planned, of each file that an option names.
+    `files` holds the digest, when planned, of each file that an option names. Facts about the members of a collection stand beside
+    its keys, for inputs that ask for them.
     """
 
     key: str
@@ -36,6 +38,7 @@ class Node:
     options: dict[str, Any]
     inputs: dict[str, Keys]
     files: dict[str, str] = field(default_factory=dict)
+    members: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
 
     @property
     def children(self) -> list[str]:
@@ -109,13 +112,11 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
         for figure in settings.figures:
             leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
         plan.requested += resolver.visits
-        if key in seen:
-            seen[key].figures += [figure for figure in leaf.figures if figure not in seen[key].figures]
-        else:
-            seen[key] = leaf
-            plan.leaves.append(leaf)
+        first = seen.setdefault(key, leaf)
+        first.figures += [figure for figure in leaf.figures if figure not in first.figures]
     if plan is None:
         raise UserError("nothing to plan: the sweep is empty")
+    plan.leaves += seen.values()
     return plan
 
 
@@ -140,56 +141,52 @@ class _Resolver:
         if here in path:
             raise UserError(f"cycle: {' -> '.join(step.split(' ')[0] for step in (*path[path.index(here) :], here))}")
         options = _checked_options(method, configured)
-        for role in overrides:
-            if role not in method.inputs:
-                raise unknown(f"input of {kind}/{method.name}", role, method.inputs)
+        check_known(f"input of {kind}/{method.name}", overrides, method.inputs)
         inputs = {
             role: self._input(method, role, context, dict(overrides.get(role) or {}), (*path, here))
             for role in method.inputs
         }
         return self._add(method, options, inputs)
 
-    def _input(self, method: Plugin, role: str, context: Context, override: Context, path: tuple[str, ...]) -> Keys:
+    def _input(self, method: Plugin, role: str, context: Context, override: Context, path: tuple[str, ...]) -> Any:
         wanted = method.inputs[role]
         axis = override.pop("over", None)
-        for key in override:
-            if key not in KINDS:
-                raise unknown(f"stage kind below inputs.{role} of {method.kind}/{method.name}", str(key), KINDS)
+        check_known(f"stage kind below inputs.{role} of {method.kind}/{method.name}", override, KINDS)
         context = merge(context, override)
         if wanted.shape == "one":
-            key = self.node(wanted.kind, context, path)
-            allowed = method.accepts.get(wanted.kind)
-            if allowed is not None and self.plan.nodes[key].plugin not in allowed:
-                name = self.plan.nodes[key].plugin
-                raise UserError(
-                    f"{method.kind}/{method.name} takes no {wanted.kind} {name!r}; it takes: {', '.join(allowed)}"
-                )
+            key, where = self.node(wanted.kind, context, path), f"{method.kind}/{method.name}"
+            name = self.plan.nodes[key].plugin
+            allowed = method.accepts.get(wanted.kind, (name,))
+            if name not in allowed:
+                raise UserError(f"{where} takes no {wanted.kind} {name!r}; it takes: {', '.join(allowed)}")
             return key
-        if axis not in self.axes:
-            raise unknown(f"axis of list input {role!r} of {method.kind}/{method.name} (over)", str(axis), self.axes)
-        members = _members(self.axes[axis])
-        keys = {str(label): self.node(wanted.kind, merge(context, part), path) for label, part in members.items()}
-        return keys if wanted.shape == "dict" else list(keys.values())
+        check_known(f"axis of list input {role!r} of {method.kind}/{method.name} (over)", [str(axis)], self.axes)
+        members = axis_members(self.axes[axis])
+        check_known(f"key of a member of axis {axis!r}", sorted(set().union(*members.values())), (*KINDS, *FACTS))
+        keys = {member: self.node(wanted.kind, merge(context, part), path) for member, part in members.items()}
+        named = {member.label: key for member, key in keys.items()}
+        return {"members": keys, "dict": named, "list": list(keys.values())}[wanted.shape]
 
-    def _add(self, method: Plugin, options: dict[str, Any], inputs: dict[str, Keys]) -> str:
+    def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
         self.visits += KINDS[method.kind].stored
-        code = code_digest(method.file)
+        code, cache, where = code_digest(method.file), compiled_state(method.file), str(method.file)
         files = {
             name: _digest_of(Path(value))
             for name, value in options.items()
             if value is not None and "Path" in str(method.options.model_fields[name].annotation)
         }
-        key = digest([method.kind, method.name, {**options, **files}, inputs, code])
-        where, cache = str(method.file), compiled_state(method.file)
-        self.plan.nodes[key] = Node(key, method.kind, method.name, where, code, cache, options, inputs, files)
+        asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
+        members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
+        inputs = wired | {role: {member.label: key for member, key in keys.items()} for role, keys in asked.items()}
+        key = digest([method.kind, method.name, {**options, **files}, inputs, members, code])
+        node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members)
+        self.plan.nodes[key] = node
         return key
 
 
 def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
     where = f"{method.kind}/{method.name}"
-    for name in configured:
-        if name not in method.options.model_fields:
-            raise unknown(f"option of {where}", str(name), method.options.model_fields)
+    check_known(f"option of {where}", configured, method.options.model_fields)
     given = {name: value for name, value in configured.items() if value != "???"}
     try:
         return method.options(**given).model_dump(mode="json")

@@ -14,8 +14,9 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict
 
+from surfexp.member import Member
 from surfexp.metric import Metric
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.kinds import KINDS, kind_of
 
@@ -28,7 +29,7 @@ class Options(BaseModel):
 
 @dataclass(frozen=True)
 class Input:
-    """One input of a plugin: the kind it asks for, and whether it takes one result, a list or a labelled dict of them."""
+    """One input of a plugin: the kind it asks for, and how it takes results: one, a list, or a dict by label or by member."""
 
     kind: str
     shape: str
@@ -68,9 +69,9 @@ def register(
     """Register a function as plugin `name` of stage `kind`.
 
     Its first argument is annotated with a pydantic model of options; each keyword-only argument is an input, named by
-    its role and annotated with the result type of a kind (or a list, or a dict by label, of it). `accepts` restricts,
-    for a kind, which plugins may feed this one; it is checked before anything runs. `metrics` declares what the results
-    measure, beside what every result of the kind does (`METRICS` of its class).
+    its role and annotated with the result type of a kind (or a list of it, or a dict of it by label or by `Member`).
+    `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
+    `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
     """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -89,8 +90,7 @@ def register(
 
 def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type[BaseModel], dict[str, Input]]:
     where = f"plugin {kind}/{name}"
-    if kind not in KINDS:
-        raise unknown("stage kind", kind, KINDS)
+    check_known("stage kind", [kind], KINDS)
     hints = get_type_hints(function)
     parameters = list(inspect.signature(function).parameters.values())
     options = hints.get(parameters[0].name) if parameters else None
@@ -102,7 +102,8 @@ def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type
     inputs = {}
     for parameter in parameters[1:]:
         hint = hints[parameter.name]
-        shape = {list: "list", dict: "dict"}.get(get_origin(hint) or hint, "one")
+        shapes = {list: "list", dict: "members" if Member in get_args(hint) else "dict"}
+        shape = shapes.get(get_origin(hint) or hint, "one")
         try:
             inputs[parameter.name] = Input(kind_of(get_args(hint)[-1] if shape != "one" else hint), shape)
         except KeyError:

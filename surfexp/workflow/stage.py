@@ -17,6 +17,7 @@ from typing import Any
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
+from surfexp.member import Member  # noqa: E402
 from surfexp.result_contract import check_result  # noqa: E402
 from surfexp.workflow import registry, store  # noqa: E402
 from surfexp.workflow.errors import DamagedResult  # noqa: E402
@@ -83,12 +84,13 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
             store.write_text(event_path(results, kind, child), json.dumps({"damage": str(error)}))
             raise
 
-    def some(value: Keys) -> Any:
-        if isinstance(value, str):
-            return one(value)
-        return [one(child) for child in value] if isinstance(value, list) else {k: one(v) for k, v in value.items()}
+    def some(role: str, keys: Keys) -> Any:
+        if not isinstance(keys, dict):
+            return one(keys) if isinstance(keys, str) else [one(key) for key in keys]
+        names = [Member(**facts) for facts in node.members[role]] if role in node.members else list(keys)
+        return dict(zip(names, map(one, keys.values()), strict=True))
 
-    options, inputs = method.options(**node.options), {role: some(value) for role, value in node.inputs.items()}
+    options, inputs = method.options(**node.options), {role: some(role, keys) for role, keys in node.inputs.items()}
     _check_files(node)
     started = time.process_time()
     result = method.function(options, **inputs)

@@ -66,7 +66,7 @@ def test_the_same_surface_in_disguise_is_at_distance_zero(reading: str) -> None:
         back = spectral_distance(second, first, reading)
         assert found.value < 1e-6 and found.optimal
         assert back.value < 1e-6
-        origin = disguise(surface, scale=3.0, seed=seed).scalars["origin"]
+        origin = disguise(surface, scale=3.0, seed=seed).truth.origin
         assert (found.correspondence == origin).mean() > 0.999
 
 

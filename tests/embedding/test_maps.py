@@ -56,7 +56,7 @@ def test_vertex_index_scores_as_chance(pair: Pair) -> None:
 
 def test_icp_and_zoomout_mend_a_spoilt_map(pair: Pair) -> None:
     first, second = pair.areas
-    origin = pair.target_surface.scalars["origin"].astype(int)
+    origin = pair.target_surface.truth.origin
     rng = np.random.default_rng(0)
     rows = np.where(rng.uniform(size=len(origin)) < 0.15, rng.integers(0, len(first), len(origin)), origin)
     mended = zoomout(pair.source, pair.target, (first, second), rows, 4, 30, 1)

@@ -86,9 +86,7 @@ def test_subjects_repeat_differ_and_mirror(cortex) -> None:
 def test_without_strain_the_sides_are_mirror_images_triangle_by_triangle(cortex) -> None:
     left, right = (synthetic_subject(cortex, 0, side, strain=0.0) for side in ("left", "right"))
     assert np.sort(left.mesh.areas) == pytest.approx(np.sort(right.mesh.areas), rel=1e-9)
-    assert len(np.intersect1d(left.scalars["origin"], right.scalars["origin"])) == len(
-        np.unique(left.scalars["origin"])
-    )
+    assert len(np.intersect1d(left.truth.origin, right.truth.origin)) == len(np.unique(left.truth.origin))
 
 
 def test_components_of_two_caps() -> None:

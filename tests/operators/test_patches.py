@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from surfexp.embedding.disguise import disguise
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.rectangle import rectangle
 from surfexp.mesh.torus import torus
@@ -15,7 +16,6 @@ from surfexp.operators.elements_patches import patch_normals, patch_positions
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface
 from surfexp.operators.elements_surface import assemble_elements
 from surfexp.operators.fem import fem
-from surfexp.spectrum.smooth_shapes import flat_torus_spectrum, projections
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.statistics.spectrum_error import spectrum_error
 
@@ -126,7 +126,7 @@ def test_flat_tori_have_their_exact_spectra(lattice: str, order: int, bound: flo
     found = spectrum_error(surface, surface_spectrum(surface, operator, 30, order=order)).metrics
     assert found["error_high"] < bound and found["below_exact"] == 0
     assert surface_spectrum(surface, operator, 30, order=order).values[1:7] == pytest.approx(
-        flat_torus_spectrum(7, lattice == "hexagonal")[1:], rel=bound
+        surface.shape.spectrum(7)[1:], rel=bound
     )
 
 
@@ -140,4 +140,7 @@ def test_a_flat_torus_is_not_taken_for_its_drawing() -> None:
     with pytest.raises(ValueError, match="choose square or hexagonal"):
         periodic_surface(12, "round")
     with pytest.raises(ValueError, match="choose curved=false"):
-        projections(surface)
+        surface_spectrum(surface, fem(surface.mesh), 5, order=2, curved=True)
+    shuffled = disguise(surface, rotated=False)
+    with pytest.raises(ValueError, match="take a flat_torus as it is made"):
+        periodic_operator(shuffled)

@@ -13,10 +13,12 @@ from surfexp.mesh.reading import read_mesh
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
 from surfexp.mesh.writing import write_mesh
+from surfexp.operators.fem import fem
 from surfexp.skeleton.agreement import same_graph
-from surfexp.skeleton.callosum import callosum, callosum_shape, true_midline
+from surfexp.skeleton.callosum import callosum, callosum_shape
 from surfexp.skeleton.cingulate import cingulate
 from surfexp.skeleton.donor_cingulate import donor_cingulate, medial_face
+from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.group import align, bootstrap_shares, principal_components, rigid_fit
 from surfexp.skeleton.midline import midline_errors
 from surfexp.skeleton.planar_patch import clean_mask, triangulate_mask
@@ -37,9 +39,9 @@ def test_the_midline_of_a_callosum_from_a_bare_file(seed, tmp_path):
     h = mesh.edge_length
     good, _ = eigenmap_skeleton(mesh)
     poor, _ = eigenmap_skeleton(mesh, levels="uniform")
-    miss, excess = midline_errors(true_midline(surface), trunk_contours(good))
+    miss, excess = midline_errors(surface.truth.midline, trunk_contours(good))
     assert good.is_chain and miss < 1.0 * h and excess < 7.0 * h
-    assert midline_errors(true_midline(surface), trunk_contours(poor))[0] > 5 * miss
+    assert midline_errors(surface.truth.midline, trunk_contours(poor))[0] > 5 * miss
     found = miss_metrics({"one": surface}, {"one": good})
     assert found["midline_miss"] == pytest.approx(miss / h) and found["genu_miss"] <= found["midline_miss"]
     shifted = replace(good, positions=good.positions + 5.0 * h * np.eye(3)[2])
@@ -54,8 +56,7 @@ def test_thinning_acts_at_the_isthmus_alone():
     assert np.array_equal(plain.midline, thin.midline)
     with pytest.raises(ValueError, match=r"0\.\.0\.8"):
         callosum_shape(0, 0.9)
-    with pytest.raises(ValueError, match="not known"):
-        true_midline(strip())
+    assert strip().truth.midline is None
 
 
 def test_masks_become_discs_with_their_area():
@@ -64,6 +65,28 @@ def test_masks_become_discs_with_their_area():
     mesh = triangulate_mask(mask, 1.0, np.zeros(2), 0.7)
     assert mesh.area == pytest.approx(mask.sum()) and mesh.euler_characteristic == 1
     assert validate(mesh.vertices, mesh.faces).ok and (mesh.face_normals[:, 2] > 0).all()
+
+
+@pytest.mark.parametrize("edge_length", [0.5, 0.4, 0.33, 0.25])
+def test_a_y_has_three_leaves_at_every_resolution_for_every_choice_of_levels(edge_length):
+    surface = y_patch(edge_length)
+    assert surface.notes == () and eigenmap(fem(surface.mesh)).metrics["gap"] > 0.3
+    for levels in ("uniform", "area_quantile", "arc_length", "critical"):
+        found, _ = eigenmap_skeleton(surface.mesh, levels=levels, count=30)
+        assert (found.metrics["leaves"], found.metrics["branch_nodes"]) == (3, 1), levels
+
+
+def test_three_equal_arms_are_said_to_leave_the_first_eigenmap_to_the_mesh():
+    leaves = set()
+    for edge_length in (0.5, 0.25):
+        surface = y_patch(edge_length, stem=1.0)
+        feature = eigenmap(fem(surface.mesh))
+        assert "double at every resolution" in surface.notes[0]
+        assert feature.metrics["gap"] < 0.05 and "nearly double" in feature.notes[0]
+        leaves.add(eigenmap_skeleton(surface.mesh, levels="uniform", count=30)[0].metrics["leaves"])
+    assert leaves == {2, 3}
+    with pytest.raises(ValueError, match="stem of 1 or more"):
+        y_patch(stem=0.9)
 
 
 def test_a_y_has_three_leaves_and_bending_changes_no_graph():

@@ -13,7 +13,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.writing import write_mesh
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.branches import branch_graph, branch_paths
-from surfexp.skeleton.callosum import callosum, true_midline
+from surfexp.skeleton.callosum import callosum
 from surfexp.skeleton.export import write_skeleton
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.levels import choose_levels
@@ -141,7 +141,7 @@ def test_midlines_of_all_callosa_from_relabelled_bare_files(tmp_path):
         mesh = from_bare_file(relabelled(surface.mesh, seed), tmp_path / f"{seed}.ply")
         skeleton, _ = eigenmap_skeleton(mesh)
         assert skeleton.is_chain
-        misses.append(midline_errors(true_midline(surface), trunk_contours(skeleton))[0] / mesh.edge_length)
+        misses.append(midline_errors(surface.truth.midline, trunk_contours(skeleton))[0] / mesh.edge_length)
     assert np.mean(misses) <= 1.0
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from surfexp.member import Member
 from surfexp.mesh.disk import disk
+from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.smooth_shape import Rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -16,14 +19,6 @@ from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes
-from surfexp.spectrum.smooth_shapes import (
-    disk_spectrum,
-    exact_spectrum,
-    flat_torus_spectrum,
-    projections,
-    rectangle_spectrum,
-    sphere_spectrum,
-)
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.spectrum.surface_spectrum import elements_of, graph_of, surface_spectrum
 from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
@@ -54,9 +49,9 @@ def test_a_multiple_eigenvalue_at_the_shift_costs_no_accuracy() -> None:
     ],
 )
 def test_exact_spectra(surface: Surface, boundary: str, bound: float) -> None:
-    curved = surface.name != "rectangle"
+    curved = not isinstance(surface.shape, Rectangle)
     system = spectrum(surface, order=2, curved=curved, boundary=boundary)
-    exact = exact_spectrum(surface, 25, boundary)
+    exact = surface.shape.spectrum(25, boundary)
     assert np.abs(system.values - exact).max() < bound * exact[-1]
     assert system.complete and zero_modes(system) == (boundary == "neumann")
 
@@ -66,17 +61,19 @@ def test_closed_forms() -> None:
     assert rectangle_spectrum(3, 2.0, 1.0, "neumann") == pytest.approx(np.pi**2 * np.array([0, 0.25, 1.0]))
     assert disk_spectrum(3, 1.0, "dirichlet") == pytest.approx([5.783186, 14.681971, 14.681971])
     assert disk_spectrum(3, 1.0, "neumann") == pytest.approx([0, 3.389958, 3.389958])
-    assert flat_torus_spectrum(5) == pytest.approx(4 * np.pi**2 * np.array([0, 1, 1, 1, 1]))
-    assert flat_torus_spectrum(8, True) == pytest.approx(4 * np.pi**2 * np.array([0, *[4 / 3] * 6, 4.0]))
+    assert lattice_spectrum(5, np.eye(2)) == pytest.approx(4 * np.pi**2 * np.array([0, 1, 1, 1, 1]))
+    assert lattice_spectrum(8, np.array([[1.0, 0.0], [-0.5, 0.75**0.5]])) == pytest.approx(
+        4 * np.pi**2 * np.array([0, *[4 / 3] * 6, 4.0])
+    )
 
 
 def test_nodes_of_a_curved_torus_lie_on_it() -> None:
-    onto, rim = projections(torus(24, 12, 1.0, 0.3))
-    points = onto(np.random.default_rng(0).normal(size=(50, 3)) * 0.1 + [1.2, 0.1, 0.1])
+    points = torus(24, 12, 1.0, 0.3).shape.project(
+        np.random.default_rng(0).normal(size=(50, 3)) * 0.1 + [1.2, 0.1, 0.1]
+    )
     assert np.hypot(np.linalg.norm(points[:, :2], axis=1) - 1.0, points[:, 2]) == pytest.approx(0.3)
-    assert rim is None
     with pytest.raises(ValueError, match="choose curved=false"):
-        projections(rectangle())
+        spectrum(rectangle(), order=2, curved=True)
 
 
 def test_values_are_no_lower_bounds_on_facets() -> None:
@@ -156,15 +153,19 @@ def test_orders_of_convergence_are_fitted() -> None:
     for name, options in (("P1", {}), ("P2", {"order": 2}), ("P2 curved", {"order": 2, "curved": True})):
         for level in (2, 3):
             surface = icosphere(level)
-            found[f"{name} @ {level}"] = spectrum_error(surface, spectrum(surface, **options))
+            found[Member(f"{name}, {level}", name, level=level)] = spectrum_error(surface, spectrum(surface, **options))
     orders = convergence_orders(found).metrics
     assert orders["order P1"] == pytest.approx(2.0, abs=0.2)
     assert orders["order P2"] == pytest.approx(2.0, abs=0.2)
     assert orders["order P2 curved"] == pytest.approx(4.0, abs=0.3)
-    with pytest.raises(ValueError, match="method @ level"):
-        convergence_orders({"P1": found["P1 @ 2"]})
+    assert convergence_orders(found).rows == ("2", "3")
+    one, two, three = list(found.values())[:3]
+    with pytest.raises(ValueError, match="'P1' has no level"):
+        convergence_orders({Member("P1"): one})
     with pytest.raises(ValueError, match="the same for all"):
-        convergence_orders({"P1 @ 2": found["P1 @ 2"], "P2 @ 2": found["P2 @ 2"], "P2 @ 3": found["P2 @ 3"]})
+        convergence_orders(
+            {Member("a", level=2): one, Member("b", "c", level=2): two, Member("d", "c", level=3): three}
+        )
 
 
 def test_heat_trace_tells_the_corrected_expansion_from_the_printed_one() -> None:

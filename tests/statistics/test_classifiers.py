@@ -8,30 +8,60 @@ import numpy as np
 import pytest
 from sklearn.metrics import silhouette_score
 
+from surfexp.member import Member
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.classifiers import METHODS, classify
 from surfexp.statistics.distance_matrix import DistanceMatrix
+from surfexp.statistics.embeddings import classical_scaling
 from surfexp.statistics.group_power import group_power
-from surfexp.statistics.labels import classes_of, groups_of
 from surfexp.statistics.permutation_test import energy_distance, p_value
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.separation import retrieval, separation
 from surfexp.statistics.signature_distances import euclidean, signature_distances
 
 
-def collection(points: np.ndarray, labels: list[str]) -> DistanceMatrix:
-    return DistanceMatrix(tuple(labels), euclidean(points), coordinates=points, name="points")
+def member(written: str) -> Member:
+    """A member from its class and group, written "class @ group detail" in these tests alone."""
+    class_name, _, owner = written.partition(" @ ")
+    return Member(written, class_name, owner.split()[0])
+
+
+def classes_of(written: list[str]) -> list[str]:
+    return [member(item).class_name for item in written]
+
+
+def collection(points: np.ndarray, written: list[str]) -> DistanceMatrix:
+    groups = tuple(member(item).group for item in written)
+    return DistanceMatrix(tuple(written), euclidean(points), tuple(classes_of(written)), groups, points, "points")
 
 
 def people(classes: str = "abc", count: int = 6) -> list[str]:
     return [f"{name} @ {person} {side}" for name in classes for person in range(count) for side in ("left", "right")]
 
 
-def test_labels() -> None:
-    assert classes_of(["caudate @ 9861 left", "sphere"]) == ("caudate", "sphere")
-    assert groups_of(["caudate @ 9861 left", "sphere"]) == ("9861", "sphere")
+def test_members_are_their_own_class_and_group_unless_told() -> None:
+    assert Member("caudate @ 9861 left") == Member("caudate @ 9861 left", "caudate @ 9861 left", "caudate @ 9861 left")
+    plain = DistanceMatrix(("a @ 1", "a @ 2"), np.zeros((2, 2)))
+    assert plain.classes == plain.groups == ("a @ 1", "a @ 2")
+
+
+def test_labels_decide_nothing() -> None:
+    rng = np.random.default_rng(3)
+    kinds = [(name, str(owner)) for name in "ab" for owner in range(5) for _ in range(2)]
+    signatures = [Signature(rng.normal(size=9) + 2 * (name == "b"), "test") for name, _ in kinds]
+    numbers = []
+    for labels in ([f"{name} {i}" for i, (name, _) in enumerate(kinds)], [f"{i % 3} @ {i} b" for i in range(20)]):
+        keys = [Member(label, *kind) for label, kind in zip(labels, kinds, strict=True)]
+        matrix = signature_distances(dict(zip(keys, signatures, strict=True)))
+        judged = classify(matrix, permutations=19)
+        power = group_power(matrix, [3], draws=20, permutations=30)
+        points = classical_scaling(matrix)
+        numbers.append(
+            [matrix.metrics, judged.metrics, judged.predicted, power.metrics, points.classes, points.metrics]
+        )
+    assert numbers[0] == numbers[1]
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -64,7 +94,7 @@ def test_nobody_is_judged_by_their_own_other_side() -> None:
     for label in labels:
         places.append(home[label.split()[2] + label[0]] + 0.01 * rng.normal(size=4))
     matrix = collection(np.array(places), labels)
-    alone = DistanceMatrix(matrix.labels, matrix.values, groups=matrix.labels, coordinates=matrix.coordinates)
+    alone = DistanceMatrix(matrix.labels, matrix.values, matrix.classes, matrix.labels, matrix.coordinates)
     assert classify(alone, permutations=0).metrics["accuracy"] == 1.0
     assert classify(matrix, permutations=0).metrics["accuracy"] < 0.9
 
@@ -90,7 +120,9 @@ def test_retrieval_by_hand() -> None:
 
 def test_weighted_distance_is_the_printed_one() -> None:
     rng = np.random.default_rng(0)
-    signatures = {f"a @ {i}": Signature(rng.normal(size=9), "test", {"other": rng.normal(size=4)}) for i in range(4)}
+    signatures = {
+        Member(f"a {i}", "a"): Signature(rng.normal(size=9), "test", {"other": rng.normal(size=4)}) for i in range(4)
+    }
     found = signature_distances(signatures, alpha=1.0, length=7)
     rows = np.stack([signature.values[:7] for signature in signatures.values()])
     by_hand = np.sqrt((((rows[1] - rows[3]) / np.arange(1, 8)) ** 2).sum())
@@ -100,9 +132,9 @@ def test_weighted_distance_is_the_printed_one() -> None:
         with pytest.raises(ValueError, match=words):
             signature_distances(signatures, **arguments)
     with pytest.raises(ValueError, match="is not finite"):
-        signature_distances({**signatures, "b @ 9": Signature(np.full(9, np.nan), "test")})
+        signature_distances({**signatures, Member("b"): Signature(np.full(9, np.nan), "test")})
     with pytest.raises(ValueError, match="at least 2"):
-        signature_distances({"a @ 1": signatures["a @ 1"]})
+        signature_distances({Member("a 1", "a"): signatures[Member("a 1", "a")]})
 
 
 def test_distances_between_classes() -> None:

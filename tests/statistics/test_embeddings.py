@@ -22,8 +22,11 @@ from surfexp.statistics.signature_distances import euclidean
 
 
 def of_points(points: np.ndarray, coordinates: bool = True) -> DistanceMatrix:
-    labels = tuple(f"{'ab'[i % 2]} @ {i}" for i in range(len(points)))
-    return DistanceMatrix(labels, euclidean(points), coordinates=points if coordinates else None, name="points")
+    classes = tuple("ab"[i % 2] for i in range(len(points)))
+    labels = tuple(f"{name} {i}" for i, name in enumerate(classes))
+    return DistanceMatrix(
+        labels, euclidean(points), classes, coordinates=points if coordinates else None, name="points"
+    )
 
 
 @settings(max_examples=20, deadline=None)

@@ -85,8 +85,9 @@ def test_collect_writes_an_axis_and_lists_what_is_left_out(shapes: Path, capsys:
     assert "5 of 6 files are members: ball 3, ring 2" in said and "left out: ring7.off" in said
     written = (shapes.parent / "conf" / "axes" / "mine.yaml").read_text()
     members = yaml.safe_load(written)["shapes"]
-    assert list(members) == ["ball @ ball0", "ball @ ball1", "ball @ ball10", "ring @ ring0", "ring @ ring2"]
-    assert members["ring @ ring2"] == {"surface": {"name": "file", "path": str(shapes / "ring2.off")}}
+    assert list(members) == ["ball ball0", "ball ball1", "ball ball10", "ring ring0", "ring ring2"]
+    surface = {"name": "file", "path": str(shapes / "ring2.off")}
+    assert members["ring ring2"] == {"class": "ring", "group": "ring2", "surface": surface}
     assert "# left out: ring7.off" in written
     assert main(["collect", str(shapes), "--to", "mine"]) == 2 and "--force" in capsys.readouterr().err
 
@@ -113,7 +114,8 @@ def test_people_by_a_regular_expression(working_folder: Path, capsys: pytest.Cap
     group = r"(?P<owner>[^/]+)/(?P<class>.h)"
     assert main(["collect", "people", "--group", group, "--axis", "subjects"]) == 0
     members = yaml.safe_load((working_folder / "conf" / "axes" / "people.yaml").read_text())["subjects"]
-    assert list(members) == ["lh @ anna", "rh @ anna", "lh @ ben", "rh @ ben"]
+    assert list(members) == ["lh anna", "rh anna", "lh ben", "rh ben"]
+    assert [(m["class"], m["group"]) for m in members.values()][1:3] == [("rh", "anna"), ("lh", "ben")]
     wrong = (
         (r"(?P<class>x)", "finds no class"),
         ("(", "no regular expression"),

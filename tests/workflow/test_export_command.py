@@ -26,7 +26,7 @@ TABLE = {
         "regions": 2,
         "inputs": {"template": PIAL, "surfaces": {"over": "subjects"}},
     },
-    "axes": {"subjects": {f"{side} @ anna": PIAL for side in ("left", "right")}},
+    "axes": {"subjects": {f"{side} anna": {"class": side, "group": "anna", **PIAL} for side in ("left", "right")}},
 }
 COUNTS = {"experiment": "counts", "target": "statistic", "statistic": "distance_growth"}
 

@@ -78,6 +78,44 @@ def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
         make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "sujet"}}}}])
 
 
+def collection(**members: dict[str, object]) -> dict[str, object]:
+    surfaces = {name: {"surface": {"name": "toy_triangle", "size": 2.0}, **part} for name, part in members.items()}
+    return {
+        "target": "pairing",
+        "axes": {"subject": surfaces},
+        "scalar": "toy_boundary",
+        "pairing": {"name": "toy_members", "inputs": {"features": {"over": "subject"}}},
+    }
+
+
+def test_facts_about_members_reach_the_method_and_its_key(tmp_path: Path) -> None:
+    configuration = collection(one={"class": "round", "group": 9861, "level": 2}, two={})
+    plan, pairing = run(configuration, tmp_path)
+    assert pairing.trace == "round/9861/2.0,two/two/None"
+    assert read_plan(plan.write(tmp_path)).nodes == plan.nodes
+    key = plan.leaves[0].key
+    assert run(configuration, tmp_path)[0].leaves[0].key == key
+    other = collection(one={"class": "long", "group": 9861, "level": 2}, two={})
+    assert run(other, tmp_path)[0].leaves[0].key != key
+    as_list = {**configuration, "axes": {"subject": [{"class": "a", "surface": {"name": "toy_triangle"}}]}}
+    assert run(as_list, tmp_path)[1].trace == "a/0/None"
+
+
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        ({"clas": "round"}, r"key of a member of axis 'subject' 'clas'; did you mean 'class'"),
+        ({"level": "fine"}, r"axes.subject.*level = 'fine': .*valid number"),
+        ({"class": ["round"]}, r"axes.subject.*class = \['round'\]: .*valid string"),
+    ],
+)
+def test_wrong_facts_about_members_are_refused(part: dict[str, object], message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        make_plan([collection(one=part)])
+    with pytest.raises(UserError, match="axes"):
+        make_plan([{**collection(), "axes": {"subject": None}}])
+
+
 def test_cycles_are_named() -> None:
     circular = {"target": "scalar", "surface": "toy_triangle", "scalar": "toy_eigenfunction", "weighted": "toy_flux"}
     with pytest.raises(UserError, match="cycle: scalar/toy_eigenfunction -> weighted/toy_flux -> scalar/toy_eigen"):
@@ -155,7 +193,9 @@ def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None
     assert codes == [0, 1]
     key = plan.leaves[0].key
     assert not store.is_done(tmp_path, "pairing", key)
-    assert outcome.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")
+    assert outcome.read_event(tmp_path, "pairing", key)["failure"].startswith(
+        "pairing/toy_failure: surface has area 0.5"
+    )
 
 
 def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

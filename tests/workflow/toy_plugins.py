@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from pydantic import Field
 
+from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.workflow.kinds import stage_kind
@@ -87,6 +88,13 @@ def toy_spread(options: Nothing, *, features: list[Feature], named: dict[str, Fe
     """Lists that fan in over an axis."""
     value = float(np.ptp([item.values.sum() for item in features]))
     return Pairing(value, ",".join(named), metrics={"spread": value})
+
+
+@register("pairing", "toy_members")
+def toy_members(options: Nothing, *, features: dict[Member, Feature]) -> Pairing:
+    """What is known of the members of an axis."""
+    facts = [f"{member.class_name}/{member.group}/{member.level}" for member in features]
+    return Pairing(float(len(features)), ",".join(facts))
 
 
 @register("pairing", "toy_failure")
