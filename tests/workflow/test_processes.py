@@ -25,7 +25,7 @@ from surfexp.commands import processes
 ready, alive, folder, mode = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
 signal.signal(signal.SIGINT, signal.default_int_handler)
 processes.end_on_signals()
-def follow(process, nodes, results):
+def follow(process):
     try:
         os.write(ready, b"D")
         while process.poll() is None:
@@ -40,9 +40,8 @@ def follow(process, nodes, results):
                     pass
         if mode != "swallowed":
             raise
-processes.follow = follow
 try:
-    processes.drive(["bash", "-c", sys.argv[5]], folder / "log", [], folder, pass_fds=[ready, alive])
+    processes.drive(["bash", "-c", sys.argv[5]], folder / "log", follow, pass_fds=[ready, alive])
 except KeyboardInterrupt:
     sys.exit(130)
 """
@@ -70,7 +69,10 @@ def test_no_process_is_left(tmp_path: Path, mode: str, number: signal.Signals) -
 def test_what_outlives_snakemake_is_ended_with_it(tmp_path: Path) -> None:
     alive, hold = os.pipe()
     code = processes.drive(
-        ["bash", "-c", 'trap "" TERM; sleep 100000 & kill -9 $$'], tmp_path / "log", [], tmp_path, pass_fds=[hold]
+        ["bash", "-c", 'trap "" TERM; sleep 100000 & kill -9 $$'],
+        tmp_path / "log",
+        lambda process: process.wait() and None,
+        pass_fds=[hold],
     )
     os.close(hold)
     assert code == -signal.SIGKILL and os.read(alive, 1) == b""
