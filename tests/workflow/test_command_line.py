@@ -66,6 +66,11 @@ def store_bytes(folder: Path) -> dict[str, bytes]:
     }
 
 
+def latest_log(folder: Path) -> str:
+    logs = (folder / "results" / "logs").glob("*.snakemake.log")
+    return max(logs, key=lambda path: path.stat().st_mtime).read_text()
+
+
 def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> None:
     first = surfexp("run", "experiment=chain")
     assert "toy_distance" in first.stdout and "results/chain/report.html" in first.stdout
@@ -80,13 +85,20 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     )  # fmt: skip
     assert "Nothing to be done" in nothing.stdout + nothing.stderr, nothing.stdout + nothing.stderr
 
+    damaged = next((laboratory / "results" / "store" / "surface").glob("*/arrays.npz"))
+    damaged.write_bytes(damaged.read_bytes()[:-1])
+    assert f"surface/{damaged.parent.name} is damaged: arrays.npz" in surfexp("run", "experiment=chain").stderr
+    assert (
+        latest_log(laboratory).count("localrule") == 2
+    )  # the surface, nothing that was made from it, and the rule all
+    assert store_bytes(laboratory) == before
+
     surfexp("run", "experiment=chain", "surface.size=2.0")
     assert len(runs(laboratory)) == 3
     planned = surfexp("plan", "experiment=chain", "surface.size=2.0,3.0,4.0").stdout
     assert "3 configurations: 24 stages without sharing, 18 with sharing" in planned
     surfexp("run", "experiment=chain", "surface.size=2.0,3.0,4.0")
-    log = max((laboratory / "results" / "logs").glob("*.snakemake.log"), key=lambda path: path.stat().st_mtime)
-    assert log.read_text().count("localrule") == 13  # the stages of two new sizes, and the rule all
+    assert latest_log(laboratory).count("localrule") == 13  # the stages of two new sizes, and the rule all
 
     toys = laboratory / "plugins" / "pairing" / "toys.py"
     good = toys.read_text()
