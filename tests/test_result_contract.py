@@ -14,6 +14,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.result_contract import check_result, documented_shapes
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.solution import Solution
 from surfexp.workflow.kinds import KINDS
 
@@ -90,6 +91,12 @@ def test_arrays_inside_parts_of_a_result_count() -> None:
         check_result(replace(surface, mesh=broken), Surface)
     with pytest.raises(TypeError, match="returned Table, a plugin of this kind returns Surface"):
         check_result(GOOD, Surface)
+
+
+def test_a_table_may_lack_values_and_has_no_infinite_ones() -> None:
+    check_result(Statistic("lengths", {"left": np.array([1.0, np.nan])}), Statistic)
+    with pytest.raises(ValueError, match=r"columns\['left'\] has 1 of 2 values that are not finite"):
+        check_result(Statistic("lengths", {"left": np.array([np.inf, np.nan])}), Statistic)
 
 
 def test_lengths_agree_within_one_result() -> None:

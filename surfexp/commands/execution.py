@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from surfexp.commands.processes import drive
+from surfexp.commands.progress import follow
 from surfexp.report.page import write_report
 from surfexp.workflow import launch, registry, store
 from surfexp.workflow.errors import StageFailure, UserError
@@ -74,7 +75,8 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], force
     log = results / "logs" / f"{path.stem}.snakemake.log"
     environment = {**os.environ, HELD: "1"}
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
-    code = drive(command, log, missing or plan.stored, results, grace, env=environment, pass_fds=_locks)
+    shown = missing or plan.stored
+    code = drive(command, log, lambda it: follow(it, shown, results), grace, env=environment, pass_fds=_locks)
     if code and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
         tail = [line for line in log.read_text().splitlines() if line.strip()]
         reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"

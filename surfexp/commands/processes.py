@@ -11,12 +11,9 @@ import contextlib
 import os
 import signal
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
-
-from surfexp.commands.progress import follow
-from surfexp.workflow.plan import Node
 
 INTERRUPTED = "interrupted; finished stages are kept, run the same command to continue"
 _state = {"interrupted": False, "starting": False}
@@ -31,11 +28,16 @@ def end_on_signals() -> None:
 
 
 def drive(
-    command: Sequence[str], log: Path, nodes: list[Node], results: Path, grace: float = 0.0, **options: Any
+    command: Sequence[str],
+    log: Path,
+    follow: Callable[[subprocess.Popen[bytes]], None],
+    grace: float = 0.0,
+    **options: Any,
 ) -> int:
-    """Run Snakemake in a session of its own, show its stages and return its exit code; nothing of it is left running.
+    """Run Snakemake in a session of its own and return its exit code; nothing of it is left running.
 
-    `grace` is how many seconds it has to call its jobs off a cluster when the run is interrupted; KeyboardInterrupt then.
+    `follow` shows the running process and returns when it has ended. `grace` is how many seconds it has to call its jobs
+    off a cluster when the run is interrupted. Raises KeyboardInterrupt then; `options` are those of Popen.
     """
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as sink:
@@ -45,7 +47,7 @@ def drive(
         _state["starting"] = False
         try:
             if not _state["interrupted"]:
-                follow(process, nodes, results)
+                follow(process)
         finally:
             if grace and process.poll() is None:
                 process.send_signal(signal.SIGINT)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from surfexp.mesh.npy import read_npy
 from surfexp.mesh.open3d_files import import_open3d
 from surfexp.mesh.repair import Repaired, repair
 from surfexp.mesh.triangle_mesh import Floats
@@ -22,7 +23,7 @@ def read_points(path: Path | str) -> Floats:
     path = Path(path)
     try:
         if path.suffix == ".npy":
-            points = np.load(path, allow_pickle=False)
+            points = read_npy(path)
         elif path.suffix in (".xyz", ".xyzn", ".xyzrgb", ".txt"):
             points = np.loadtxt(path, ndmin=2)
         else:

@@ -8,6 +8,7 @@ import numpy as np
 
 from surfexp.mesh import freesurfer
 from surfexp.mesh.gifti import read_gifti_arrays
+from surfexp.mesh.npy import read_npy
 from surfexp.mesh.obj import read_obj
 from surfexp.mesh.off import read_off
 from surfexp.mesh.open3d_files import MESH_SUFFIXES, POINT_SUFFIXES, read_with_open3d
@@ -78,7 +79,7 @@ def read_scalars(path: Path | str) -> Floats:
     path = Path(path)
     try:
         if path.suffix == ".npy":
-            return np.asarray(np.load(path, allow_pickle=False), dtype=np.float64)
+            return read_npy(path)
         if path.suffix in (".txt", ".csv", ".dat"):
             separator = "," if path.suffix == ".csv" else None
             return np.asarray(np.loadtxt(path, delimiter=separator, dtype=np.float64))

@@ -16,7 +16,7 @@ class Statistic:
     name : str
         What was examined, for captions.
     columns : dict of str to (r,) or (r, 3) float64
-        The table, a column each, or a value with the ends of its interval; curves are drawn from it.
+        The table, a column each, or a value with the ends of its interval; NaN where there is no value.
     rows : tuple of str, optional
         Names of the r rows.
     metrics, notes
@@ -29,7 +29,7 @@ class Statistic:
     """
 
     name: str
-    columns: dict[str, Floats] = field(default_factory=dict)
+    columns: dict[str, Floats] = field(default_factory=dict, metadata={"nan": True})
     rows: tuple[str, ...] = ()
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()

@@ -1,8 +1,9 @@
 # One named rule for each stage kind; the plan says which results exist and what each is made from.
+import functools
 import shlex
 import sys
 
-from surfexp.workflow import launch
+from surfexp.workflow import launch, store
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import stored_inputs
 
@@ -15,13 +16,22 @@ def records(keys):
     return [record.format(kind=plan.nodes[key].kind, key=key) for key in keys]
 
 
+# What is there is right, for its key says what it was made from: it has no input, so that nothing makes Snakemake run it
+# again when a damaged result before it is replaced. Where clocks matter, leaves run each time, after all that they read.
+@functools.cache
+def inputs(key):
+    done = store.is_done(results, plan.nodes[key].kind, key)
+    return [] if done and not plan.settings.timing else records(stored_inputs(plan.nodes, key))
+
+
 wildcard_constraints:
     key="[0-9a-f]+",
 
 
 rule all:
     input:
-        records(dict.fromkeys(key for leaf in plan.leaves for key in (leaf.key, *leaf.figures))),
+        # not the leaves alone: a damaged result in the middle is made again though all that follows from it is there
+        records(node.key for node in plan.stored),
     default_target: True
 
 
@@ -31,7 +41,7 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
         name:
             kind
         input:
-            lambda wildcards: [ancient(path) for path in records(stored_inputs(plan.nodes, wildcards.key))],
+            lambda wildcards: [ancient(path) for path in inputs(wildcards.key)],
         output:
             record.format(kind=kind, key="{key}"),
         log:

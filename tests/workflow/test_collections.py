@@ -93,15 +93,16 @@ def test_collect_writes_an_axis_and_lists_what_is_left_out(shapes: Path, capsys:
 
 
 @pytest.mark.xdist_group("end_to_end")
+@pytest.mark.timeout(3600)
 def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0
     command = [sys.executable, "-m", "surfexp.commands.command_line", "plan", "experiment=tosca_classification"]
     # five members, of which ball0 and ball10 hold the same bytes
     for axes, count in ((["axes=mine"], 4), ([], 36)):
-        said = subprocess.run([*command, *axes], capture_output=True, text=True, timeout=300).stdout
+        said = subprocess.run([*command, *axes], capture_output=True, text=True).stdout
         row = next(line for line in said.splitlines() if "surface" in line)
         assert row.split("│")[2].strip() == str(count), said
-    unknown = subprocess.run([*command, "axes=min"], capture_output=True, text=True, timeout=300)
+    unknown = subprocess.run([*command, "axes=min"], capture_output=True, text=True)
     assert unknown.returncode == 2 and "articulated mine" in unknown.stderr
 
 

@@ -47,11 +47,12 @@ def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run the plan with its stages in this process; return the names of those that were started."""
     started: list[str] = []
 
-    def drive(command: list[str], log: Path, nodes: Any, results: Path, *rest: Any, **options: Any) -> int:
-        path = Path(command[-1].removeprefix("plan="))
-        wanted = {node.key for node in nodes}
+    def in_this_process(plan: Plan, path: Path, results: Path, missing: Any, forced: bool) -> None:
+        wanted = {node.key for node in missing}
         started.extend(node.plugin for node in plan.stored if node.key in wanted)
-        return max(stage.run_stage(path, key) for key in plan.nodes if key in wanted)
+        for key in plan.nodes:
+            if key in wanted:
+                stage.run_stage(path, key)
 
     def once() -> list[str]:
         started.clear()
@@ -59,7 +60,7 @@ def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
         return list(started)
 
     monkeypatch.setenv(execution.HELD, "1")
-    monkeypatch.setattr(execution, "drive", drive)
+    monkeypatch.setattr(execution, "_snakemake", in_this_process)
     monkeypatch.setattr(execution, "finish", lambda path: None)
     return once
 

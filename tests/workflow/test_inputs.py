@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.reading import read_scalars
 from surfexp.mesh.writing import write_mesh
 from surfexp.workflow import fingerprint, outcome, registry, stage, store
 from surfexp.workflow.plan import Plan, make_plan
@@ -133,3 +134,32 @@ def test_shipped_plugins_count_the_packages_whose_data_they_read(
     fingerprint.code_digest.cache_clear()
     assert len({before, one, fingerprint.code_digest(file)}) == 3
     fingerprint.code_digest.cache_clear()
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        np.ones(5, complex),
+        np.zeros(5, "datetime64[s]"),
+        np.zeros(5, "timedelta64[s]"),
+        np.zeros(5, [("curvature", float)]),
+        np.array(["1"] * 5),
+    ],
+    ids=lambda values: str(values.dtype.kind),
+)
+def test_a_map_that_is_not_of_real_numbers_is_refused(tmp_path: Path, values: np.ndarray) -> None:
+    np.save(tmp_path / "map.npy", values)
+    with pytest.raises(
+        ValueError, match=r"map.npy cannot be read as a scalar map: it holds .*, real numbers are expected"
+    ):
+        read_scalars(tmp_path / "map.npy")
+
+
+def test_numbers_of_other_widths_and_flags_are_read_as_they_are(tmp_path: Path) -> None:
+    for values in (np.arange(5, dtype=np.int16), np.arange(5, dtype=np.float32) / 3, np.arange(5) > 2):
+        np.save(tmp_path / "map.npy", values)
+        assert read_scalars(tmp_path / "map.npy").tolist() == values.astype(float).tolist()
+    np.savez(tmp_path / "map", a=np.zeros(5), b=np.zeros(5))
+    (tmp_path / "map.npz").rename(tmp_path / "map.npy")
+    with pytest.raises(ValueError, match="archive of several arrays"):
+        read_scalars(tmp_path / "map.npy")
