@@ -36,7 +36,7 @@ class InteriorPoint:
             cp.multiply(roots, self._unknown) - roots * fidelity.target
         )
         self._problem = cp.Problem(cp.Minimize(energy), [self._link])
-        self._data, self._chain, self._inverse = self._problem.get_problem_data(cp.CLARABEL)
+        self._data, self._chain, self._inverse = self._problem.get_problem_data(cp.CLARABEL, solver_opts={})
 
     def solve(self, tolerance: float) -> Any:
         """Return what CLARABEL gives; this is what is timed."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from itertools import chain
 from pathlib import Path
 
 from mutation.change import Change
@@ -49,12 +50,14 @@ def run_planted(options: argparse.Namespace) -> list[str]:
         return [f"no fault has {words} in its name, the first is {FAULTS[0].name!r}"]
     prepare()
     tests = sorted({f"tests/{test}" for fault in faults for test in fault.tests})
-    for _, outcome in run_all([Trial(tuple(tests))], 1):
-        if outcome.verdict != "survived":
-            return [f"the tests do not pass without a fault: {' '.join(outcome.failed)}"]
+    baseline = run_all([Trial((test,)) for test in tests], options.workers)
+    red = {trial.arguments[0]: outcome.failed[0] for trial, outcome in baseline if outcome.failed}
     names: dict[Change, Fault] = {}
     problems = []
     for fault in faults:
+        if not_passing := [red[f"tests/{test}"] for test in fault.tests if f"tests/{test}" in red]:
+            problems.append(f"{fault.name}: a test does not pass without the fault: {not_passing[0]}")
+            continue
         try:
             names[fault.change] = fault
         except (ValueError, OSError) as error:
@@ -80,8 +83,10 @@ def run_random(options: argparse.Namespace) -> list[str]:
     if wanted:
         prepare()
         baseline = measured_baseline(wanted, options.workers)
-        trials = (selected(change, baseline, options.budget) for change in wanted)
-        for number, (trial, outcome) in enumerate(run_all(trials, options.workers), 1):
+        trials = [selected(change, baseline, options.budget) for change in wanted]
+        untested = [(trial, Outcome("survived", (), {}, 0.0)) for trial in trials if not trial.arguments]
+        tried = run_all([trial for trial in trials if trial.arguments], options.workers)
+        for number, (trial, outcome) in enumerate(chain(untested, tried), 1):
             assert trial.change is not None
             _report(f"{number} of {len(wanted)}", trial.change, outcome)
             if outcome.verdict == "broken":

@@ -17,18 +17,19 @@ from mutation.trial import Trial, run_all
 BASELINE = ROOT / "results" / "mutation" / "baseline.json"
 # a test so slow is left to the suite; a test one import farther away is taken as a third as likely to notice
 SLOW, FARTHER, LEAST = 15.0, 3.0, 0.02
+NEAREST = 8
 Baseline = dict[str, dict[str, Any]]
 
 
 def measured_baseline(changes: Iterable[Change], workers: int) -> Baseline:
-    """Return what every test file that reaches one of the changes does without a fault, run where it is not known.
+    """Return what the test files nearest to one of the changes do without a fault, run where it is not known.
 
     A file is run again when it or anything that it imports has changed. Tests that fail without a fault prove nothing
     and are left out.
     """
     targets = {ROOT / change.path for change in changes}
     baseline: Baseline = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
-    files = {_name(test): _digest(test) for test in numeric_tests() if targets & distances(test).keys()}
+    files = {_name(test): _digest(test) for target in sorted(targets) for test in nearest_tests(target)}
     unknown = [name for name, digest in files.items() if baseline.get(name, {}).get("digest") != digest]
     for trial, outcome in run_all((Trial((name,)) for name in unknown), workers):
         name = trial.arguments[0]
@@ -43,10 +44,9 @@ def measured_baseline(changes: Iterable[Change], workers: int) -> Baseline:
 def selected(change: Change, baseline: Baseline, budget: float) -> Trial:
     """Return the trial of a fault: tests in order of their seconds, tripled with each import, until the budget is spent."""
     target, candidates = ROOT / change.path, []
-    for name, entry in baseline.items():
-        distance = distances(ROOT / name).get(target)
-        if distance is None:
-            continue
+    for file in nearest_tests(target):
+        name, distance = _name(file), distances(file)[target]
+        entry = baseline.get(name, {"seconds": {}, "failed": []})
         for test, seconds in entry["seconds"].items():
             if seconds <= SLOW and not any(row.startswith(test) for row in entry["failed"]):
                 score = math.log2(max(seconds, LEAST) * FARTHER**distance)
@@ -58,6 +58,17 @@ def selected(change: Change, baseline: Baseline, budget: float) -> Trial:
             break
         kept[test] = seconds
     return Trial(tuple(dict.fromkeys(test.split("::")[0] for test in kept)), change, kept)
+
+
+def nearest_tests(target: Path) -> list[Path]:
+    """Return the eight test files that reach a module by the fewest imports, those of its own package first."""
+    package = target.relative_to(ROOT).parts[1]
+    ranked = sorted(
+        (distances(test)[target], test.parent.name != package, test)
+        for test in numeric_tests()
+        if target in distances(test)
+    )
+    return [test for _, _, test in ranked[:NEAREST]]
 
 
 def _name(test: Path) -> str:

@@ -98,12 +98,13 @@ def prepare() -> None:
 def run_all(trials: Iterable[Trial], workers: int) -> Iterator[tuple[Trial, Outcome]]:
     """Run trials, at most `workers` at a time, and give each with its outcome as it ends."""
     running: dict[int, tuple[Trial, Path]] = {}
-    waiting = iter(trials)
+    waiting = enumerate(trials)
     with tempfile.TemporaryDirectory() as folder:
         try:
             while True:
-                while len(running) < workers and (trial := next(waiting, None)) is not None:
-                    path = Path(folder) / f"{id(trial)}.jsonl"
+                while len(running) < workers and (numbered := next(waiting, None)) is not None:
+                    number, trial = numbered
+                    path = Path(folder) / f"{number}.jsonl"
                     running[_start(trial, path)] = trial, path
                 if not running:
                     return
@@ -184,9 +185,10 @@ def _outcome(path: Path, status: int, cpu: float) -> Outcome:
         verdict = "timed out" if number == signal.SIGXCPU else "crashed"
         return Outcome(verdict, (f"{started[-1] if started else 'import'}: signal {number}",), seconds, cpu)
     code = os.WEXITSTATUS(status)
+    file = path.with_suffix(".log")
+    log = file.read_text(errors="replace").splitlines() if file.exists() else []
     if code in (TESTS_FAILED, INTERRUPTED, USAGE_ERROR):
-        return Outcome("killed", failed or (f"import: pytest ends with code {code}",), seconds, cpu)
+        return Outcome("killed", failed or (f"{log[-1] if log else 'import'} (pytest ends with {code})",), seconds, cpu)
     if code == INTERNAL_ERROR:
-        log = path.with_suffix(".log")
-        return Outcome("broken", (log.read_text(errors="replace")[-2000:] if log.exists() else "",), seconds, cpu)
+        return Outcome("broken", (" ".join(log[-20:]),), seconds, cpu)
     return Outcome("survived", (), seconds, cpu)
