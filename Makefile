@@ -35,7 +35,8 @@ bench: optional # the rivals come with it
 	$(BIN)/python -m benchmarks
 
 mutate: .venv/ready
-	$(BIN)/python -m mutation
+	$(BIN)/python -m mutation planted
+	$(BIN)/python -m mutation random
 
 reproduction: .venv/ready
 	for name in $(EXPERIMENTS); do echo "== $$name"; $(BIN)/surfexp run experiment=$$name || exit 1; done

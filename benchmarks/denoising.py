@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 from benchmarks.interior_point import InteriorPoint
 from benchmarks.line import Line, not_installed, race
-from benchmarks.measurement import Cost, IterationClock, measure, median_cost
+from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both, median_cost
 from benchmarks.scenes import Scene, cup_scene
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
@@ -34,8 +34,8 @@ def warm_up() -> None:
 
 def lines(quick: bool) -> list[Line]:
     """Return the three lines of ROF."""
-    scene = cup_scene(4000 if quick else 25075)
-    return [_againstpublished(scene), *_against_conic(scene)]
+    scene = cup_scene(2000 if quick else 25075)
+    return [_against_published(scene), *_against_conic(scene)]
 
 
 def _size(scene: Scene) -> str:
@@ -49,7 +49,7 @@ def solve(scene: Scene, method: Method) -> tuple[Solution, Cost]:
 
 
 def published(scene: Scene, iterations: int) -> tuple[Solution, tuple[float, float]]:
-    """Run the printed iteration, its linear system factorised; the audit of its result is not timed."""
+    """Run the published iteration, its linear system factorised; the audit of its result is not timed."""
     operator, clock = vertex_averaged(scene.surface.mesh), IterationClock()
     method = partial(
         published_split_bregman, inner="direct", tolerance=0.0, iteration_limit=iterations, progress=clock.tick
@@ -59,21 +59,31 @@ def published(scene: Scene, iterations: int) -> tuple[Solution, tuple[float, flo
     return solution, (clock.cpu, clock.wall)
 
 
-def _againstpublished(scene: Scene) -> Line:
+def _against_published(scene: Scene) -> Line:
     ours, cost = solve(scene, partial(primal_dual, tolerance=1e-4))
     runs = {count: published(scene, count) for count in CHECKPOINTS}
     least = min(solution.energy for solution, _ in runs.values())
-    chosen = next(count for count in CHECKPOINTS if runs[count][0].energy <= (1.0 + ENERGY_SLACK) * least)
+
+    def near_its_best(count: int) -> bool:
+        if count not in runs:
+            runs[count] = published(scene, count)
+        return runs[count][0].energy <= (1.0 + ENERGY_SLACK) * least
+
+    first = next(count for count in CHECKPOINTS if near_its_best(count))
+    chosen = least_count(near_its_best, max((count for count in CHECKPOINTS if count < first), default=0), first)
     theirs, times = runs[chosen]
-    their_cost = median_cost([times, *(published(scene, chosen)[1] for _ in range(2))])
+    their_cost = median_cost([times, *(published(scene, chosen)[1] for _ in range(cost.runs - 1))])
     rmse = ours.metrics["rmse"]
     their_rmse = min(solution.metrics["rmse"] for solution, _ in runs.values())
     accuracy = (
-        f"ours gap {ours.relative_gap:.1e} (tolerance 1e-4), RMSE {rmse:.2f}; "
+        f"ours gap {ours.relative_gap:.1e} of the energy (tolerance 1e-4), RMSE {rmse:.2f}; "
         f"rival RMSE {theirs.metrics['rmse']:.2f}, at best {their_rmse:.2f}, "
         f"energy {theirs.energy / ours.energy - 1.0:.1%} above ours"
     )
-    note = f"{chosen} iterations bring the rival within {ENERGY_SLACK:.0%} of its least energy in {CHECKPOINTS[-1]}"
+    note = (
+        f"{chosen} iterations, found by bisection, bring the rival within {ENERGY_SLACK:.0%} of its least energy in "
+        f"{CHECKPOINTS[-1]}; both on ready operators, its factorisation and our certificates counted, its audit not"
+    )
     rival = "split Bregman as published, factorised, to its own best energy"
     work = f"ROF {_size(scene)} to 1e-4"
     return race(
@@ -86,7 +96,7 @@ def _against_conic(scene: Scene) -> list[Line]:
         (1e-6, 12.0, "newton", partial(newton, tolerance=1e-6)),
         (1e-8, 5.0, "newton", partial(newton, tolerance=1e-8)),
     ]
-    rival, found = "CVXPY + CLARABEL to the same gap", []
+    rival, found = "CLARABEL (stated in CVXPY) to the same gap", []
     names = [f"ROF {_size(scene)} to {aim:g}, {solver}" for aim, _, solver, _ in aims]
     if missing := [package for package in ("cvxpy", "clarabel") if find_spec(package) is None]:
         return [not_installed(name, rival, aim[1], ", ".join(missing)) for name, aim in zip(names, aims, strict=True)]
@@ -94,15 +104,18 @@ def _against_conic(scene: Scene) -> list[Line]:
     problem = InteriorPoint(ROF().fidelity(scene.image, operator), operator)
     tolerances = iter(CONIC_TOLERANCES)
     tolerance = next(tolerances)
-    gap = problem.solve(tolerance)[0]
+    gap = problem.relative_gap(problem.solve(tolerance))
     for name, (aim, least, _, method) in zip(names, aims, strict=True):
         while gap > aim and tolerance != CONIC_TOLERANCES[-1]:
             tolerance = next(tolerances)
-            gap = problem.solve(tolerance)[0]
-        (_, inside), their_cost = measure(partial(problem.solve, tolerance))
-        ours, cost = solve(scene, method)
-        accuracy = f"ours gap {ours.relative_gap:.1e}; rival {gap:.1e} with its tolerance {tolerance:g}"
-        note = f"CLARABEL by itself reports {inside:.1f} s of wall, the rest is CVXPY"
+            gap = problem.relative_gap(problem.solve(tolerance))
+        (ours, cost), (_, their_cost) = measure_both(
+            partial(ROF().run, scene.image, operator, method), partial(problem.solve, tolerance)
+        )
+        accuracy = (
+            f"gaps over the energy: ours {ours.relative_gap:.1e}, rival {gap:.1e} with its tolerance {tolerance:g}"
+        )
+        note = "CVXPY's own work is not counted"
         fair = ours.converged and gap <= aim
         found.append(race(name, rival, least, cost, their_cost, accuracy, fair=fair, note=note))
     return found

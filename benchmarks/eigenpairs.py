@@ -32,6 +32,6 @@ def _line(size: int, count: int, threads: int, least: float) -> Line:
     work = f"first {count} eigenpairs, {len(mesh.vertices):,} V, residual {RESIDUAL:g}{on}"
     if not has_cholmod():
         return without_cholmod(work, LAPY, least)
-    return race(
-        work, LAPY, least, ours(mesh, count, threads), lapy(mesh, count, threads), wall=threads > 1, memory=MEMORY
-    )
+    theirs = lapy(mesh, count, threads)
+    found = ours(mesh, count, threads, theirs.cost.runs)
+    return race(work, LAPY, least, found, theirs, wall=threads > 1, memory=MEMORY)

@@ -42,8 +42,11 @@ def _lines(size: int, count: int, least: float, least_tuned: float | None) -> li
     rivals = [(LAPY, least, lapy)] + ([] if least_tuned is None else [(TUNED, least_tuned, tuned)])
     if not has_cholmod():
         return [without_cholmod(work, rival, ratio) for rival, ratio, _ in rivals]
-    found = ours(mesh, count)
-    return [race(work, rival, ratio, found, solve(mesh, count)) for rival, ratio, solve in rivals]
+    lines = []
+    for rival, ratio, solve in rivals:
+        theirs = solve(mesh, count)
+        lines.append(race(work, rival, ratio, ours(mesh, count, runs=theirs.cost.runs), theirs))
+    return lines
 
 
 def _large(rows: int, columns: int) -> Line:

@@ -1,6 +1,8 @@
-"""ROF as a second-order cone problem, for CVXPY with CLARABEL at a tolerance of one's choice."""
+"""ROF as a second-order cone problem, stated in CVXPY once and solved by CLARABEL at a tolerance of one's choice."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from scipy.sparse import diags_array
@@ -13,7 +15,7 @@ from surfexp.variational.vector_pair import project_to_ball
 
 
 class InteriorPoint:
-    """The rival; each solve states the problem afresh, as a user would.
+    """The rival at its best: what CVXPY does to the problem, more than a tenth of the whole, is done before the clock starts.
 
     Parameters
     ----------
@@ -24,22 +26,26 @@ class InteriorPoint:
 
     def __init__(self, fidelity: SeparableQuadratic, operator: SurfaceOperator) -> None:
         self._fidelity, self._operator = fidelity, operator
-        self._gradient = diags_array(np.repeat(operator.areas, 2)) @ gradient_matrix(operator)
-
-    def solve(self, tolerance: float) -> tuple[float, float]:
-        """Return the relative gap, certified as ours is, and the seconds that CLARABEL says it took."""
         import cvxpy as cp
 
-        fidelity, operator = self._fidelity, self._operator
-        count = len(operator.faces)
-        unknown, field = cp.Variable(operator.vertex_count), cp.Variable((count, 2))
-        link = cp.vec(field, order="C") == self._gradient @ unknown
+        gradient = diags_array(np.repeat(operator.areas, 2)) @ gradient_matrix(operator)
+        self._unknown, field = cp.Variable(operator.vertex_count), cp.Variable((len(operator.faces), 2))
+        self._link = cp.vec(field, order="C") == gradient @ self._unknown
         roots = np.sqrt(0.5 * operator.mass * fidelity.weight)
         energy = cp.sum(cp.norm(field, 2, axis=1)) + cp.sum_squares(
-            cp.multiply(roots, unknown) - roots * fidelity.target
+            cp.multiply(roots, self._unknown) - roots * fidelity.target
         )
-        problem = cp.Problem(cp.Minimize(energy), [link])
-        problem.solve(solver=cp.CLARABEL, tol_gap_abs=tolerance, tol_gap_rel=tolerance, tol_feas=tolerance)
-        dual = project_to_ball(-link.dual_value.reshape(count, 2))
-        certificate = certify(fidelity, operator, unknown.value, adjoint_gradient(operator, dual))
-        return certificate.relative_gap, float(problem.solver_stats.solve_time)
+        self._problem = cp.Problem(cp.Minimize(energy), [self._link])
+        self._data, self._chain, self._inverse = self._problem.get_problem_data(cp.CLARABEL, solver_opts={})
+
+    def solve(self, tolerance: float) -> Any:
+        """Return what CLARABEL gives; this is what is timed."""
+        options = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), tolerance)
+        return self._chain.solve_via_data(self._problem, self._data, solver_opts=options)
+
+    def relative_gap(self, found: Any) -> float:
+        """Return the relative gap of a result of `solve`, certified as ours is."""
+        self._problem.unpack_results(found, self._chain, self._inverse)
+        dual = project_to_ball(-self._link.dual_value.reshape(len(self._operator.faces), 2))
+        load = adjoint_gradient(self._operator, dual)
+        return float(certify(self._fidelity, self._operator, self._unknown.value, load).relative_gap)

@@ -35,6 +35,13 @@ class Line:
     accuracy: str = ""
     note: str = ""
 
+    def __post_init__(self) -> None:
+        """Refuse medians of unequal numbers of runs."""
+        if self.ours and self.theirs and self.ours.runs != self.theirs.runs:
+            raise ValueError(
+                f"{self.work}: ours is the median of {self.ours.runs} runs, the rival of {self.theirs.runs}"
+            )
+
     @property
     def verdict(self) -> str:
         """ "met" or "not met"."""

@@ -14,7 +14,8 @@ from statistics import median
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
-LONG = 8.0
+Other = TypeVar("Other")
+LONG = 40.0
 
 
 @dataclass(frozen=True)
@@ -34,15 +35,47 @@ class Cost:
 
 
 def measure(work: Callable[[], Result], runs: int = 3) -> tuple[Result, Cost]:
-    """Return what the last run gave and the median cost; work of more than 8 s of processor is run once."""
+    """Return what the last run gave and the median cost; work of more than 40 s of processor is run once."""
     costs: list[tuple[float, float]] = []
     while len(costs) < runs:
-        wall, cpu = time.perf_counter(), time.process_time()
-        result = work()
-        costs.append((time.process_time() - cpu, time.perf_counter() - wall))
+        result, cost = _timed(work)
+        costs.append(cost)
         if costs[0][0] > LONG:
             break
     return result, median_cost(costs)
+
+
+def measure_both(
+    ours: Callable[[], Result], theirs: Callable[[], Other], runs: int = 3
+) -> tuple[tuple[Result, Cost], tuple[Other, Cost]]:
+    """Return what the last runs of both sides gave and their median costs, run in turn and equally often.
+
+    Where the rival takes more than 40 s of processor, each side is run once.
+    """
+    our_costs: list[tuple[float, float]] = []
+    their_costs: list[tuple[float, float]] = []
+    while len(their_costs) < runs:
+        theirs_found, their_cost = _timed(theirs)
+        ours_found, our_cost = _timed(ours)
+        their_costs.append(their_cost)
+        our_costs.append(our_cost)
+        if their_costs[0][0] > LONG:
+            break
+    return (ours_found, median_cost(our_costs)), (theirs_found, median_cost(their_costs))
+
+
+def least_count(enough: Callable[[int], bool], low: int, high: int) -> int:
+    """Return the least count in (low, high] that is enough, by bisection; `low` is not and `high` is."""
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if enough(middle) else (middle, high)
+    return high
+
+
+def _timed(work: Callable[[], Result]) -> tuple[Result, tuple[float, float]]:
+    wall, cpu = time.perf_counter(), time.process_time()
+    result = work()
+    return result, (time.process_time() - cpu, time.perf_counter() - wall)
 
 
 def apart(work: Callable[..., Result], *arguments: Any) -> Result:

@@ -23,6 +23,7 @@ from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import measure as measure_vectors
 
 RESIDUAL = 1e-8
+ARPACK_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
 LAPY, TUNED = "LaPy with CHOLMOD", "eigsh with CHOLMOD, tuned"
 
 
@@ -56,12 +57,16 @@ def ours(mesh: TriangleMesh, count: int, threads: int = 1, runs: int = 3) -> Spe
 
 def lapy(mesh: TriangleMesh, count: int, threads: int = 1) -> Spectrum:
     """Return the spectrum by LaPy with its CHOLMOD switched on; it has no tolerance to set."""
-    return _apart(_lapy, mesh, count, threads, 1)
+    return _apart(_lapy, mesh, count, threads, 3)
 
 
 def tuned(mesh: TriangleMesh, count: int) -> Spectrum:
-    """Return the spectrum by ARPACK with a basis of 2.2 k and the tolerance 1e-9, which reaches about our residual."""
-    return _apart(_tuned, mesh, count, 1, 1)
+    """Return the spectrum by ARPACK with a basis of 2.2 k, at the loosest tolerance that reaches the residual."""
+    for tolerance in ARPACK_TOLERANCES:
+        found = _apart(partial(_tuned, tolerance=tolerance), mesh, count, 1, 3)
+        if found.residual <= RESIDUAL:
+            break
+    return found
 
 
 def race(
@@ -138,12 +143,12 @@ def _lapy(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
     return values, vectors, False
 
 
-def _tuned(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
+def _tuned(mesh: TriangleMesh, count: int, tolerance: float) -> tuple[Floats, Floats, bool]:
     from sksparse.cholmod import cholesky
 
     a, b = _matrices(mesh)
     shift = -0.01 * 4.0 * np.pi / float(b.sum())
     inverse = LinearOperator(a.shape, matvec=cholesky((a - shift * b).tocsc()), dtype=np.float64)
     start = np.random.default_rng(0).normal(size=a.shape[0])
-    values, vectors = eigsh(a, count, b, sigma=shift, OPinv=inverse, v0=start, ncv=int(2.2 * count) + 20, tol=1e-9)
+    values, vectors = eigsh(a, count, b, sigma=shift, OPinv=inverse, v0=start, ncv=int(2.2 * count) + 20, tol=tolerance)
     return values, vectors, False

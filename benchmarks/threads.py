@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from benchmarks.line import Line
-from benchmarks.measurement import measure
+from benchmarks.measurement import measure_both
 from benchmarks.scenes import torus_scene
 from surfexp.operators.fem import fem
 from surfexp.variational.primal_dual import primal_dual
@@ -33,8 +33,7 @@ def _line(side: int) -> Line:
     operator = fem(scene.surface.mesh)
     fidelity = ROF().fidelity(scene.image, operator)
     run = partial(primal_dual, fidelity, operator, tolerance=1e-12, iteration_limit=ITERATIONS)
-    one, cost = measure(run)
-    two, shared = measure(partial(run, threads=2))
+    (two, shared), (one, cost) = measure_both(partial(run, threads=2), run)
     difference = float(np.abs(one.values - two.values).max() / 255.0)
     ratio = cost.wall / shared.wall
     work = f"primal-dual, {ITERATIONS} iterations, {operator.vertex_count:,} V, two threads"

@@ -1,90 +1,106 @@
-"""`python -m mutation [WORD ...]`: plant the faults one by one in a copy, run their tests, fail if one survives."""
+"""`python -m mutation planted [WORD ...]` or `random [--count N] [--seed N]`: plant faults one by one and run tests."""
 
 from __future__ import annotations
 
 import argparse
-import os
-import shutil
-import subprocess
 import sys
-import tempfile
-import time
+from itertools import chain
 from pathlib import Path
 
+from mutation.change import Change
 from mutation.fault import Fault
 from mutation.geometry_faults import GEOMETRY_FAULTS
+from mutation.record import PAGE, add, page, results
+from mutation.sample import sample
+from mutation.selection import measured_baseline, selected
+from mutation.trial import Outcome, Trial, prepare, run_all
 from mutation.variational_faults import VARIATIONAL_FAULTS
 
-ROOT = Path(__file__).resolve().parent.parent
-PASSED, FAILED = 0, 1
 FAULTS = VARIATIONAL_FAULTS + GEOMETRY_FAULTS
-SEEDED = "import surfexp; assert surfexp.__path__[0].startswith({root!r}), surfexp.__path__"
 
 
 def main() -> None:
-    """Run the faults whose names contain one of the words, all by default."""
+    """Run what is asked for; end with 1 if a planted fault survives or a random one cannot be tried."""
     parser = argparse.ArgumentParser(prog="mutation", description=__doc__)
-    parser.add_argument("words", nargs="*", metavar="WORD", help="part of the name of a fault")
+    commands = parser.add_subparsers(required=True)
+    planted = commands.add_parser("planted", help="faults chosen by hand, each with the tests that have to catch it")
+    planted.add_argument("words", nargs="*", metavar="WORD", help="part of the name of a fault")
+    planted.set_defaults(run=run_planted)
+    drawn = commands.add_parser("random", help="a sample over all numerics; what is recorded is not run again")
+    drawn.add_argument("--count", type=int, default=300, help="faults (default 300)")
+    drawn.add_argument("--seed", type=int, default=0, help="seed of the sample (default 0)")
+    drawn.add_argument("--budget", type=float, default=30.0, help="seconds of tests for a fault (default 30)")
+    drawn.add_argument("--only", default="", metavar="WORD", help="faults of files with WORD in their path")
+    drawn.add_argument("--survivors", action="store_true", help="try those again that survived before")
+    drawn.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
+    drawn.set_defaults(run=run_random)
+    for command in (planted, drawn):
+        command.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
     options = parser.parse_args()
-    faults = [fault for fault in FAULTS if not options.words or any(word in fault.name for word in options.words)]
-    if not faults:
-        parser.error(
-            f"no fault has {' or '.join(map(repr, options.words))} in its name, the first is {FAULTS[0].name!r}"
-        )
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(folder).resolve()
-        _copy_to(copy)
-        problems = _untouched(copy, faults) or [problem for fault in faults if (problem := _try(copy, fault))]
-    print("\n".join(problems) if problems else f"all {len(faults)} faults caught")
+    problems = options.run(options)
+    print("\n".join(problems))
     sys.exit(1 if problems else 0)
 
 
-def _copy_to(copy: Path) -> None:
-    for name in ("surfexp", "tests", "examples"):
-        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "pyproject.toml", copy)
-    subprocess.run([sys.executable, "-c", SEEDED.format(root=str(copy))], cwd=copy, check=True)
+def run_planted(options: argparse.Namespace) -> list[str]:
+    """Return which of the faults chosen by hand were not caught."""
+    faults = [fault for fault in FAULTS if not options.words or any(word in fault.name for word in options.words)]
+    if not faults:
+        words = " or ".join(map(repr, options.words))
+        return [f"no fault has {words} in its name, the first is {FAULTS[0].name!r}"]
+    prepare()
+    tests = sorted({f"tests/{test}" for fault in faults for test in fault.tests})
+    baseline = run_all([Trial((test,)) for test in tests], options.workers)
+    red = {trial.arguments[0]: outcome.failed[0] for trial, outcome in baseline if outcome.failed}
+    names: dict[Change, Fault] = {}
+    problems = []
+    for fault in faults:
+        if not_passing := [red[f"tests/{test}"] for test in fault.tests if f"tests/{test}" in red]:
+            problems.append(f"{fault.name}: a test does not pass without the fault: {not_passing[0]}")
+            continue
+        try:
+            names[fault.change] = fault
+        except (ValueError, OSError) as error:
+            problems.append(str(error))
+    trials = [Trial(tuple(f"tests/{test}" for test in fault.tests), change) for change, fault in names.items()]
+    for trial, outcome in run_all(trials, options.workers):
+        assert trial.change is not None
+        fault = names[trial.change]
+        _report(fault.name, trial.change, outcome)
+        if outcome.verdict in ("survived", "broken"):
+            problems.append(f"{outcome.verdict}: {fault.name} ({fault.path})")
+    return problems
 
 
-def _untouched(copy: Path, faults: list[Fault]) -> list[str]:
-    """The tests have to pass before a fault is planted, else their failing proves nothing."""
-    code, reason = _pytest(copy, sorted({test for fault in faults for test in fault.tests}))
-    return [] if code == PASSED else [f"the tests do not pass on the untouched copy: {reason}"]
+def run_random(options: argparse.Namespace) -> list[str]:
+    """Try the faults of the sample that have no result, write the page, and return those that could not be tried."""
+    changes = sample(options.count, options.seed)
+    known = results()
+    state = "survived" if options.survivors else ""
+    verdicts = {change: known.get(change.identity, {}).get("verdict", "") for change in changes}
+    wanted = [change for change in changes if options.only in change.path and verdicts[change] == state]
+    problems = []
+    if wanted:
+        prepare()
+        baseline = measured_baseline(wanted, options.workers)
+        trials = [selected(change, baseline, options.budget) for change in wanted]
+        untested = [(trial, Outcome("survived", (), {}, 0.0)) for trial in trials if not trial.arguments]
+        tried = run_all([trial for trial in trials if trial.arguments], options.workers)
+        for number, (trial, outcome) in enumerate(chain(untested, tried), 1):
+            assert trial.change is not None
+            _report(f"{number} of {len(wanted)}", trial.change, outcome)
+            if outcome.verdict == "broken":
+                problems.append(f"broken: {trial.change.path} line {trial.change.line}: {' '.join(outcome.failed)}")
+            else:
+                add(trial.change, outcome)
+    options.page.write_text(page(changes, results(), options.seed, options.budget), encoding="utf-8")
+    return problems
 
 
-def _try(copy: Path, fault: Fault) -> str:
-    """Return why the fault was not caught, or nothing."""
-    path, begin = copy / "surfexp" / fault.path, time.perf_counter()
-    source = path.read_text(encoding="utf-8")
-    try:
-        path.write_text(fault.planted(source), encoding="utf-8")
-        code, reason = _pytest(copy, fault.tests)
-    except ValueError as error:
-        return str(error)
-    finally:
-        path.write_text(source, encoding="utf-8")
-    words = {PASSED: "SURVIVED", FAILED: "caught"}.get(code, f"pytest ended with code {code}")
-    print(f"{words:8} {time.perf_counter() - begin:5.1f} s  {fault.name} ({fault.path})\n    {reason}", flush=True)
-    return "" if code == FAILED else f"{words}: {fault.name} ({fault.path}) {reason}"
-
-
-def _pytest(copy: Path, tests: list[str] | tuple[str, ...]) -> tuple[int, str]:
-    """Run tests of the copy until one fails; return pytest's code and which test failed how.
-
-    Nothing compiled is kept: numba looks for changes only in the file of a function, not in those that it calls.
-    """
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "--no-header", "-p", "no:cacheprovider"]
-    with tempfile.TemporaryDirectory() as cache:
-        environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(copy), "COLUMNS": "200"}
-        run = subprocess.run(
-            [*command, *(f"tests/{test}" for test in tests)],
-            cwd=copy,
-            env=environment | {"NUMBA_CACHE_DIR": cache},
-            capture_output=True,
-            text=True,
-        )
-    rows = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
-    return run.returncode, rows[0] if rows else run.stderr[-500:]
+def _report(name: str, change: Change, outcome: Outcome) -> None:
+    old, new = change.texts
+    print(f"{outcome.verdict:9} {outcome.cpu:6.1f} s  {name}, {change.path} line {change.line}\n    {old}\n    {new}")
+    print("".join(f"    {row}\n" for row in outcome.failed[:1]), end="", flush=True)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mutation import ROOT
+from mutation.change import Change, source_of
+
 
 @dataclass(frozen=True)
 class Fault:
@@ -27,15 +30,19 @@ class Fault:
     new: str
     tests: tuple[str, ...]
 
-    def planted(self, source: str) -> str:
-        """Return the source with the fault in it.
+    @property
+    def change(self) -> Change:
+        """The replacement in the file.
 
         Raises
         ------
         ValueError
             If the text to replace is not there exactly once.
         """
-        count = source.count(self.old)
+        path = f"surfexp/{self.path}"
+        source, old = source_of(ROOT / path), self.old.encode()
+        count = source.count(old)
         if count != 1:
-            raise ValueError(f"fault {self.name!r}: {self.old!r} occurs {count} times in surfexp/{self.path}, not once")
-        return source.replace(self.old, self.new)
+            raise ValueError(f"fault {self.name!r}: {self.old!r} occurs {count} times in {path}, not once")
+        start = source.index(old)
+        return Change(path, start, start + len(old), self.new.encode(), "planted")

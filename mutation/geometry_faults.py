@@ -20,8 +20,32 @@ CONTRACTION = "skeleton/test_reeb_graph.py::test_the_sampled_graph_is_a_contract
 STOPPED = "embedding/test_sign_search.py::test_a_stopped_search_says_so_and_its_bound_holds"
 ENUMERATION = "embedding/test_sign_search.py::test_branch_and_bound_equals_enumeration"
 SHIFTED = "embedding/test_distances.py::test_wasserstein_of_a_shift_and_of_sorted_numbers"
+HOLM = "embedding/test_paired_tests.py::test_holm_corrects_each_kind_of_p_by_itself"
+INTERVAL = "embedding/test_paired_tests.py::test_the_interval_of_the_effect_ends_at_zero_where_p_is_five_percent"
+WELCH = "skeleton/test_width_test.py::test_welch_by_hand"
 
 GEOMETRY_FAULTS = (
+    Fault(
+        "signed ranks corrected with the p of t",
+        "embedding/paired_tests.py",
+        "p_w, holm[1],",
+        "p_w, holm[0],",
+        (HOLM,),
+    ),
+    Fault(
+        "interval of the effect over the root of n - 1",
+        "embedding/paired_tests.py",
+        "/ np.sqrt(count)",
+        "/ np.sqrt(count - 1)",
+        (INTERVAL,),
+    ),
+    Fault(
+        "Welch's variance over n",
+        "skeleton/width_test.py",
+        "second.var(axis=0, ddof=1)",
+        "second.var(axis=0, ddof=0)",
+        (WELCH,),
+    ),
     Fault(
         "boundary term of the heat trace twice as large",
         "spectrum/heat_trace.py",

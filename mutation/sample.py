@@ -1,0 +1,53 @@
+"""A random sample of faults, spread over the files by their size."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+from mutation import ROOT
+from mutation.change import Change, source_of
+from mutation.places import changes
+
+# they move results and show them; what is planted here is numerics
+FRAMEWORK = {"workflow", "report", "commands", "plugins", "conf", "profiles"}
+
+
+def numerics() -> list[Path]:
+    """Every module below `surfexp/` but those of the framework, in order."""
+    files = (ROOT / "surfexp").glob("*/**/*.py")
+    return sorted(path for path in files if path.relative_to(ROOT).parts[1] not in FRAMEWORK)
+
+
+def sample(count: int, seed: int) -> list[Change]:
+    """Return faults in random order: the lines of all files, in a row, are picked at equal steps from a random start.
+
+    A file with a share s of all lines that can carry a fault so gets s * count faults, rounded up or down.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer lines than faults asked for.
+    """
+    generator = random.Random(seed)
+    lines: list[list[Change]] = []
+    for path in numerics():
+        name = path.relative_to(ROOT).as_posix()
+        by_line: dict[int, list[Change]] = {}
+        for change in changes(name, source_of(path)):
+            by_line.setdefault(change.line, []).append(change)
+        groups = list(by_line.values())
+        generator.shuffle(groups)
+        lines += groups
+    if not 1 <= count <= len(lines):
+        raise ValueError(f"{count} faults were asked for, there is room for 1 to {len(lines)}")
+    step = len(lines) / count
+    start = generator.random() * step
+    chosen = [_one(lines[int(start + k * step)], generator) for k in range(count)]
+    generator.shuffle(chosen)
+    return chosen
+
+
+def _one(group: list[Change], generator: random.Random) -> Change:
+    kind = generator.choice(sorted({change.kind for change in group}))
+    return generator.choice([change for change in group if change.kind == kind])

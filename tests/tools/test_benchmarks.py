@@ -1,0 +1,101 @@
+"""The benchmarks measure both sides alike, say so, and run at small sizes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks.convex_problem import Excess, Recorded
+from benchmarks.line import Line, race
+from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
+from benchmarks.table import page
+from surfexp.mesh.icosphere import icosphere
+from surfexp.operators.fem import fem
+from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.separable_quadratic import convex_chan_vese
+
+ROOT = Path(__file__).resolve().parents[2]
+GROUPS = ("denoising", "segmentation", "parametrization", "scaling", "threads", "nodal_domains", "assembly", "skeleton")
+
+
+@pytest.mark.parametrize("least", [1, 2, 57, 117, 118, 160])
+def test_bisection_finds_the_least_count(least: int) -> None:
+    asked: list[int] = []
+
+    def enough(count: int) -> bool:
+        asked.append(count)
+        return count >= least
+
+    assert least_count(enough, 0, 160) == least
+    assert len(asked) <= 8 and 160 not in asked and 0 not in asked
+
+
+def test_both_sides_run_in_turn_and_equally_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[str] = []
+    (ours, cost), (theirs, their_cost) = measure_both(lambda: order.append("ours"), lambda: order.append("theirs"), 3)
+    assert order == ["theirs", "ours"] * 3 and cost.runs == their_cost.runs == 3
+    assert ours is None and theirs is None
+    monkeypatch.setattr("benchmarks.measurement.LONG", -1.0)
+    assert [side[1].runs for side in measure_both(lambda: 1, lambda: 2, 3)] == [1, 1]
+    assert measure(lambda: 5, 3) == (5, measure(lambda: 5, 3)[1]) or measure(lambda: 5, 3)[1].runs == 1
+
+
+def test_a_line_refuses_medians_of_unequal_numbers_of_runs() -> None:
+    with pytest.raises(ValueError, match="median of 3 runs, the rival of 1"):
+        race("work", "rival", 2.0, Cost(1.0, 1.0, 3), Cost(4.0, 4.0, 1), "")
+    line = race("work", "rival", 2.0, Cost(1.0, 1.5, 3), Cost(4.0, 4.5, 3), "alike")
+    assert line.result == "4.0×" and line.verdict == "met"
+    assert race("work", "rival", 2.0, Cost(1.0, 1.0), Cost(4.0, 4.0), "", fair=False).verdict == "not met"
+    assert race("work", "rival", 5.0, Cost(1.0, 1.0), Cost(4.0, 4.0), "").verdict == "not met"
+
+
+def test_the_page_says_how_many_runs() -> None:
+    line = Line("work", "rival", "2×", "4×", True, Cost(1.0, 1.5, 3), Cost(4.0, 4.5, 3), "alike")
+    text = page({"Heading": [line]}, {"group": 1.0})
+    assert "| work | rival | 2× | 4× | met | 1 (1.5) | 4 (4.5) | 3 |" in text
+    assert "- work, rival: alike." in text
+    columns = {row.count("|") for row in text.splitlines() if row.startswith("|")}
+    assert len(columns) == 1
+
+
+def test_the_clock_adds_iterations_and_leaves_out_what_lies_between() -> None:
+    clock = IterationClock()
+    clock.start()
+    np.linalg.norm(np.random.default_rng(0).normal(size=(400, 400)), 2)
+    clock.tick(1, 0.0)
+    spent = clock.cpu
+    np.linalg.norm(np.random.default_rng(0).normal(size=(400, 400)), 2)
+    clock.start()
+    clock.tick(2, 0.0)
+    assert 0.0 < spent <= clock.cpu < 1.5 * spent
+
+
+def test_excess_of_a_half_sphere_on_every_scale() -> None:
+    """r = z on the sphere: the least energy is that of a cap, the empty field has 0 and the full one too."""
+    operator = fem(icosphere(3).mesh)
+    problem = convex_chan_vese(operator.mass, 8.0 * icosphere(3).mesh.vertices[:, 2])
+    recorded = Recorded(primal_dual)
+    solution = recorded(problem, operator)
+    assert recorded.problem is problem and solution.lower_bound is not None
+    excess = Excess(problem, operator)
+    assert 0.0 <= excess.of(solution.values) <= 2e-4
+    nothing = np.zeros(operator.vertex_count)
+    total = float(operator.mass @ np.abs(problem.slope))
+    assert excess.of(nothing) == pytest.approx(-solution.lower_bound / total, rel=1e-2)
+    words = excess.scales(nothing)
+    assert "1.0e+00 of the least energy" in words and "1.0e+00 of the spread" in words
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", GROUPS)
+def test_every_group_runs_at_small_sizes(group: str) -> None:
+    """In a process of its own, which sets its threads before it imports; rivals that are not installed are said so."""
+    command = [sys.executable, "-m", "benchmarks", "--quick", group]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr[-2000:]
+    assert "asked" in run.stdout
+    assert "energy excess" not in run.stdout

@@ -1,0 +1,139 @@
+"""Faults are planted where results are decided, in shares of size, and hide behind no compiled code."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from mutation.change import Change, source_of
+from mutation.import_graph import distances, imported_files, numeric_tests
+from mutation.places import changes
+from mutation.record import explanations, page
+from mutation.sample import numerics, sample
+from mutation.selection import selected
+from mutation.stale_functions import stale_functions
+
+ROOT = Path(__file__).resolve().parents[2]
+MODULE = b'''"""Text with 1 + 2."""
+LIMIT: int = 7
+
+
+def least(a: "tuple[1, 2]", b: int = 3) -> int:
+    """Return 1 < 2."""
+    if a < b and not b:
+        raise ValueError(f"{a + 4} is over {LIMIT - 5}")
+    b += -a
+    values[a, b] = f(a, b)
+    return min(a, zip(a, b, strict=True))
+'''
+
+
+def texts(source: bytes) -> set[tuple[str, str]]:
+    return {(change.kind, change.new.decode()) for change in changes("x.py", source)}
+
+
+def test_every_kind_of_fault_is_found_and_nothing_in_prose() -> None:
+    found = texts(MODULE)
+    assert ("constant", "8") in found and ("constant", "6") in found  # the limit
+    assert ("constant", "4") in found and ("constant", "2") in found  # the default
+    assert (
+        ("comparison", " <= ") in found and ("comparison", " > ") in found and ("comparison", " or not ") not in found
+    )
+    assert ("comparison", " or ") in found and ("comparison", "not (a < b and not b)") in found
+    assert ("sign", "b") in found and ("sign", "a") in found and ("operator", " -= ") in found
+    assert ("index", "b, a") in found and ("arguments", "b, a") in found and ("function", "max") in found
+    assert ("dropped statement", "pass") in found and ("constant", "False") not in found
+    lines = {change.start for change in changes("x.py", MODULE)}
+    assert all(MODULE.index(b'"""\nLIMIT') < start for start in lines)
+    message = MODULE.index(b"ValueError"), MODULE.index(b"    b += -a")
+    assert not any(message[0] <= start < message[1] for start in lines)
+    annotation = MODULE.index(b'"tuple'), MODULE.index(b", b: int")
+    assert not any(annotation[0] <= start < annotation[1] for start in lines)
+
+
+def test_every_fault_of_the_numerics_is_a_program_that_differs() -> None:
+    for path in numerics()[::25]:
+        source = source_of(path)
+        tree = ast.dump(ast.parse(source))
+        for change in changes(path.relative_to(ROOT).as_posix(), source)[::5]:
+            assert ast.dump(ast.parse(change.mutated)) != tree, (change.path, change.texts)
+
+
+def test_a_sample_repeats_and_gives_each_file_its_share() -> None:
+    drawn = sample(300, 3)
+    assert [change.identity for change in drawn] == [change.identity for change in sample(300, 3)]
+    assert drawn != sample(300, 4) and len({change.identity for change in drawn}) == 300
+    lines = {
+        path.relative_to(ROOT).as_posix(): len(
+            {change.line for change in changes(path.relative_to(ROOT).as_posix(), source_of(path))}
+        )
+        for path in numerics()
+    }
+    total = sum(lines.values())
+    for path, count in lines.items():
+        assert abs(sum(change.path == path for change in drawn) - 300 * count / total) < 1.0 + 1e-9
+    with pytest.raises(ValueError, match="there is room for 1 to"):
+        sample(10**6, 0)
+
+
+def first(path: str, text: bytes, new: bytes) -> Change:
+    start = source_of(ROOT / path).index(text)
+    return Change(path, start, start + len(text), new, "planted")
+
+
+def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain_one_not() -> None:
+    compiled = first("surfexp/operators/fem.py", b"0.5 * twice_area", b"twice_area")
+    stale = stale_functions(compiled)
+    assert stale and {module for module, _ in stale} == {"surfexp.operators.fem"}
+    plain = first("surfexp/skeleton/width_test.py", b"ddof=1", b"ddof=0")
+    assert stale_functions(plain) == frozenset()
+    heap = first("surfexp/skeleton/fast_marching.py", b"(i - 1) // 2", b"i // 2")
+    assert {name for _, name in stale_functions(heap)} == {"_rise", "_march"}
+
+
+def test_tests_are_chosen_by_imports_and_seconds() -> None:
+    path = ROOT / "surfexp" / "skeleton" / "width_test.py"
+    near = ROOT / "tests" / "skeleton" / "test_width_test.py"
+    assert near in numeric_tests() and distances(near)[path] == 1
+    examples = imported_files(ROOT / "tests" / "mesh" / "test_mesh_examples.py")
+    assert ROOT / "examples" / "gauss_bonnet.py" in examples
+    name = near.relative_to(ROOT).as_posix()
+    seconds = {f"{name}::slow": 5.0, f"{name}::quick": 0.1, f"{name}::red": 0.1, f"{name}::hours": 3000.0}
+    baseline = {name: {"seconds": seconds, "failed": [f"{name}::red: assert"]}}
+    change = first("surfexp/skeleton/width_test.py", b"ddof=1", b"ddof=0")
+    assert list(selected(change, baseline, 30.0).seconds) == [f"{name}::quick", f"{name}::slow"]
+    assert list(selected(change, baseline, 1.0).seconds) == [f"{name}::quick"]
+
+
+def test_the_page_counts_each_fault_once() -> None:
+    drawn = sample(20, 1)
+    verdicts = ["killed"] * 14 + ["timed out", "crashed", "survived", "survived"]
+    found = {
+        change.identity: {"verdict": verdict, "cpu": 2.0} for change, verdict in zip(drawn, verdicts, strict=False)
+    }
+    text = page(drawn, found, 1, 30.0)
+    assert "**16 of 18 killed, 88.9%; 2 survive, 0 more are explained.** 2 were not run; 2.0 processor" in text
+    assert text.count("\n- line ") == 2
+    rows = [row.split("|")[2:7] for row in text.split("| kind |")[0].splitlines() if row.startswith("| ")][1:]
+    assert sum(int(row[0]) for row in rows) == 18
+
+
+def test_each_explanation_belongs_to_a_line_that_stands_there() -> None:
+    for path, old, new in explanations():
+        lines = {" ".join(line.split()) for line in (ROOT / path).read_text(encoding="utf-8").splitlines()}
+        whole = " ".join((ROOT / path).read_text(encoding="utf-8").split())
+        assert old in lines or old in whole, f"{path}: {old!r} is not there"
+        assert old != new
+
+
+@pytest.mark.slow
+def test_planted_faults_are_seen_by_tests_in_memory() -> None:
+    """A module named *_test.py, which pytest would import itself, and a compiled function among them."""
+    command = [sys.executable, "-m", "mutation", "planted", "Welch", "area of the parallelogram"]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert run.stdout.count("killed") == 2
