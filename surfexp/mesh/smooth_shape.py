@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
+from surfexp.mesh.flat_domain import boundary_angles, is_flat
 from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 
 TOLERANCE = 1e-9
@@ -238,22 +239,3 @@ def turned(axis: Vector, rotation: Floats) -> Vector:
     """Return an axis turned by a (3, 3) rotation."""
     x, y, z = (rotation @ np.array(axis)).tolist()
     return x, y, z
-
-
-def is_flat(mesh: TriangleMesh) -> bool:
-    """Whether all vertices lie in one plane, to 1e-9 of the extent."""
-    centred = mesh.vertices - mesh.vertices.mean(axis=0)
-    normal = np.linalg.eigh(centred.T @ centred)[1][:, 0]
-    return bool(np.abs(centred @ normal).max() <= TOLERANCE * np.abs(centred).max())
-
-
-def boundary_angles(mesh: TriangleMesh, straight: float = 1e-6) -> Floats:
-    """Return the inner angles at the boundary vertices of a flat domain that differ from pi by more than `straight`."""
-    angles = np.zeros(len(mesh.vertices))
-    corners = mesh.vertices[mesh.faces]
-    for k in range(3):
-        first, second = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
-        cosine = np.einsum("ij,ij->i", first, second) / np.linalg.norm(first, axis=1) / np.linalg.norm(second, axis=1)
-        np.add.at(angles, mesh.faces[:, k], np.arccos(np.clip(cosine, -1.0, 1.0)))
-    boundary = np.unique(np.concatenate(mesh.boundary_loops))
-    return angles[boundary][np.abs(angles[boundary] - np.pi) > straight]

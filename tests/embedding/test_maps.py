@@ -18,7 +18,7 @@ from surfexp.embedding.template_distances import embedded, template_distances
 from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.ellipsoid import ellipsoid
 from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
@@ -35,8 +35,8 @@ def pair() -> Pair:
     x, y, z = surface.mesh.vertices.T
     swollen = surface.mesh.vertices * (1.0 + 0.25 * np.sin(2.0 * x + y + 0.5 * z) + 0.1 * y * z)[:, None]
     mesh = TriangleMesh(swollen, surface.mesh.faces)
-    octants = ((x > 0) + 2 * (y > 0) + 4 * (z > 0)).astype(float)
-    source = Surface(mesh, "lopsided", scalars={"label": octants, "height": z})
+    octants = ((x > 0) + 2 * (y > 0) + 4 * (z > 0)).astype(np.int64)
+    source = Surface(mesh, "lopsided", scalars={"height": z}, truth=Truth(labels=octants))
     target = disguise(source, scale=2.0, seed=4)
     return Pair(source, target, system_of(source), system_of(target))
 

@@ -18,11 +18,12 @@ from surfexp.mesh.disk import disk
 from surfexp.mesh.ellipsoid import ellipsoid
 from surfexp.mesh.exact_spectra import lattice_spectrum, rectangle_spectrum
 from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.flat_domain import boundary_angles
 from surfexp.mesh.genus_surface import genus_surface
 from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.rectangle import rectangle
-from surfexp.mesh.smooth_shape import Disk, FlatTorus, Polygon, Rectangle, Sphere, SphericalCap, Torus, boundary_angles
+from surfexp.mesh.smooth_shape import Disk, FlatTorus, Polygon, Rectangle, Sphere, SphericalCap, Torus
 from surfexp.mesh.spherical_cap import capped_sphere, spherical_cap
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.torus import torus
