@@ -72,14 +72,18 @@ def _check_shape(array: np.ndarray, name: str, shapes: tuple[tuple[str, ...], ..
     for shape in shapes:
         trial = dict(lengths)
         if len(shape) == array.ndim and all(
-            trial.setdefault(length, found) == found if length.isalpha() else not length.isdigit() or int(length) == found
+            trial.setdefault(length, found) == found
+            if length.isalpha()
+            else not length.isdigit() or int(length) == found
             for length, found in zip(shape, array.shape, strict=True)
         ):
             lengths.update(trial)
             return
     promised = " or ".join(f"({', '.join(shape)})" for shape in shapes)
     known_lengths = ", ".join(f"{length} = {found}" for length, found in lengths.items() if length in promised)
-    raise ValueError(f"{name} has shape {array.shape}, {promised}{known_lengths and f' with {known_lengths}'} is promised")
+    raise ValueError(
+        f"{name} has shape {array.shape}, {promised}{known_lengths and f' with {known_lengths}'} is promised"
+    )
 
 
 @cache

@@ -20,5 +20,7 @@ def command(name: str, arguments: list[str]) -> int:
     found = faults(given.results, [(folder.parent.name, folder.name) for folder in folders], anew=True)
     print(f"{len(folders) - len(found)} of {len(folders)} stored results are as they were written")
     if found:
-        raise StageFailure("\n".join(f"{fault}; the next run that needs it computes it again" for fault in found.values()))
+        raise StageFailure(
+            "\n".join(f"{fault}; the next run that needs it computes it again" for fault in found.values())
+        )
     return 0
