@@ -6,7 +6,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.feature import Feature
-from surfexp.skeleton.flux import flux, flux_weights, skeleton_points
+from surfexp.skeleton.flux import flux, flux_weights, skeleton_points, weight_far_from_boundary
 from surfexp.workflow.registry import Options, register
 
 
@@ -23,16 +23,19 @@ METRICS = {
     "skeleton_points": Metric("points of the skeleton"),
     "smallest_weight": Metric("smallest weight"),
     "largest_weight": Metric("largest weight"),
+    "weight_on_skeleton": Metric("mean weight far from the boundary over the mean of all"),
 }
 
 
 @register("feature", "flux", metrics=METRICS)
 def flux_feature(options: Flux, *, surface: Surface) -> Feature:
     """Flux of the gradient of the distance to the boundary (5.9), or the weight (5.10)."""
-    values, name = flux(surface.mesh, boundary_distance(surface.mesh)), "flux"
+    distance = boundary_distance(surface.mesh)
+    values, name = flux(surface.mesh, distance), "flux"
     metrics = {"least_flux": float(values.min()), "largest_flux": float(values.max())}
     metrics["skeleton_points"] = float(len(skeleton_points(surface.mesh, values)))
     if options.alpha is not None:
         values, name = flux_weights(values, options.alpha, options.contrast), f"weight, alpha {options.alpha:g}"
         metrics |= {"smallest_weight": float(values.min()), "largest_weight": float(values.max())}
+        metrics["weight_on_skeleton"] = weight_far_from_boundary(surface.mesh, values, distance)
     return Feature(values, name, "", metrics)

@@ -24,6 +24,7 @@ METRICS = {
     "vertex_error": Metric("root mean square distance of the vertices to the clean ones", "unit of length", "lower"),
     "normal_error_before": Metric("mean angle between noisy and clean face normals", "degrees"),
     "normal_error": Metric("mean angle between face normals and clean ones", "degrees", "lower"),
+    "normal_error_share": Metric("angle between normals after over before", better="lower"),
 }
 
 
@@ -40,4 +41,5 @@ def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, 
         "normal_error_before": normal_deviation(before, truth),
         "normal_error": normal_deviation(moved, truth),
     }
+    metrics["normal_error_share"] = metrics["normal_error"] / max(metrics["normal_error_before"], 1e-12)
     return replace(result, metrics=result.metrics | metrics)

@@ -60,7 +60,7 @@ class Estimators(Options):
 class SulcalAsymmetry(Estimators):
     """How chance is measured, and of what."""
 
-    draws: int = Field(200, ge=10, le=100000, description="random exchanges of sides, and samples for the power")
+    draws: int = Field(200, ge=10, le=100000, description="random halves of the subjects, and samples for the power")
     seed: int = Field(0, ge=0, description="seed of exchanges and samples")
 
 
@@ -70,7 +70,7 @@ SULCAL_ASYMMETRY_METRICS = {
     "p, {estimator}": Metric("p of the first sulcus, paired t-test, corrected by Holm"),
     "p Wilcoxon, {estimator}": Metric("p of the first sulcus, Wilcoxon's test, corrected by Holm"),
     "least p elsewhere, {estimator}": Metric("least corrected p of the other sulci"),
-    "false positives, {estimator}": Metric("share of random exchanges of sides in which a difference is found"),
+    "found in halves, {estimator}": Metric("share of random halves of the subjects with a difference"),
     "length, {estimator}": Metric("mean length of the first sulcus", "mm"),
     "pairs, {estimator}": Metric("complete pairs of the first sulcus"),
     "printed share of line": Metric("length of the published line over that with its ends"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
+from surfexp.embedding.paired_tests import paired_tests, power_by_subjects, rate_in_halves
 from surfexp.embedding.population_study import Table
 from surfexp.mesh.triangle_mesh import Floats
 
@@ -55,7 +55,7 @@ def asymmetry_study(
     table : mapping
         By estimator and side (subjects, sulci) lengths.
     draws : int
-        Random exchanges of sides within subjects, for the share of false positives.
+        Random halves of the subjects, for the share in which a difference is found.
     """
     rows: list[str] = []
     columns: dict[str, list[float]] = {}
@@ -69,14 +69,14 @@ def asymmetry_study(
         for name, values in vars(tests).items():
             if name != "names":
                 columns.setdefault(name, []).extend(np.nan_to_num(values, posinf=LARGEST, neginf=-LARGEST))
-        rates = [false_positive_rate(differences[:, k], draws, seed=seed) for k in range(count)]
+        rates = [rate_in_halves(differences[:, k], draws, seed=seed) for k in range(count)]
         metrics |= {
             f"difference, {estimator}": float(tests.difference[0]),
             f"effect, {estimator}": float(np.clip(tests.effect[0], -LARGEST, LARGEST)),
             f"p, {estimator}": float(tests.p_t_holm[0]),
             f"p Wilcoxon, {estimator}": float(tests.p_wilcoxon_holm[0]),
             f"least p elsewhere, {estimator}": float(tests.p_t_holm[1:].min()) if count > 1 else 1.0,
-            f"false positives, {estimator}": float(np.mean(rates)),
+            f"found in halves, {estimator}": float(np.mean(rates)),
             f"length, {estimator}": float(np.nanmean([lengths["left"][:, 0], lengths["right"][:, 0]])),
             f"pairs, {estimator}": float(tests.subjects[0]),
         }

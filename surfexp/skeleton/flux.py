@@ -117,3 +117,21 @@ def weighted_operator(operator: SurfaceOperator, weights: Floats, name: str = "w
         name=name,
         metrics={**operator.metrics, **metrics},
     )
+
+
+def weight_far_from_boundary(mesh: TriangleMesh, weights: Floats, distance: Floats, share: float = 0.1) -> float:
+    """Return the mean weight of the vertices farthest from the boundary over the mean of all, both by area.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    weights : (n,) float64
+        Of (5.10).
+    distance : (n,) float64
+        To the boundary.
+    share : float
+        Of the vertices that count as far.
+    """
+    areas = mesh.vertex_areas
+    far = distance >= np.quantile(distance, 1.0 - share)
+    return float(np.average(weights[far], weights=areas[far]) / np.average(weights, weights=areas))

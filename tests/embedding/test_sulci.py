@@ -9,7 +9,7 @@ from scipy import stats
 from surfexp.embedding.asymmetry import asymmetry_study, measured, power_study
 from surfexp.embedding.fresh_populations import fresh_study, fresh_tests
 from surfexp.embedding.length_table import chosen, length_columns, table_of
-from surfexp.embedding.paired_tests import false_positive_rate, paired_tests, power_by_subjects
+from surfexp.embedding.paired_tests import paired_tests, power_by_subjects, rate_in_halves
 from surfexp.embedding.population import random_displacement, stretch, synthetic_subject
 from surfexp.embedding.population_study import measure_population, name_regions
 from surfexp.embedding.sulcal_lengths import carried_ends, closed_region, geodesic_length, region_ends
@@ -299,9 +299,17 @@ def test_paired_tests_agree_with_scipy_and_holm_by_hand() -> None:
         paired_tests({"x": np.ones(4)}, {"x": np.ones(3)})
 
 
-def test_false_positives_are_nominal_and_power_grows() -> None:
+def test_halves_of_a_population_are_quiet_without_a_bias_and_show_one_that_is_planted() -> None:
     rng = np.random.default_rng(5)
-    rates = [false_positive_rate(rng.normal(0.3, 1.0, 40), 400, seed=k) for k in range(10)]
-    assert np.mean(rates) == pytest.approx(0.05, abs=0.015)
+    samples = [rng.normal(0.0, 1.0, 40) for _ in range(10)]
+    without = [rate_in_halves(sample - sample.mean(), 400, seed=k) for k, sample in enumerate(samples)]
+    assert max(without) <= 0.05
+    biased = [rate_in_halves(sample + 1.0, 400, seed=k) for k, sample in enumerate(samples)]
+    assert min(biased) > 0.9
+    assert rate_in_halves(np.append(samples[0] + 10.0, np.nan)) == 1.0
+
+
+def test_power_grows_with_the_subjects() -> None:
+    rng = np.random.default_rng(5)
     power = power_by_subjects(rng.normal(0.6, 1.0, 200), [5, 20, 80], 300)
     assert power[0] < power[1] < power[2] and power[2] > 0.95

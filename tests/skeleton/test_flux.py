@@ -14,7 +14,14 @@ from surfexp.operators.fem import fem
 from surfexp.skeleton.boundary_distance import boundary_distance, boundary_vertices, halve_boundary_edges
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.fast_marching import fast_marching
-from surfexp.skeleton.flux import flux, flux_weights, skeleton_points, vertex_gradients, weighted_operator
+from surfexp.skeleton.flux import (
+    flux,
+    flux_weights,
+    skeleton_points,
+    vertex_gradients,
+    weight_far_from_boundary,
+    weighted_operator,
+)
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
 from surfexp.skeleton.strip import strip, y_patch
 
@@ -129,3 +136,12 @@ def test_closed_surfaces_have_no_distance_to_a_boundary():
         hamilton_jacobi_skeleton(FLAT, TRUE, 0.3)
     with pytest.raises(ValueError, match="fast_marching, exact, heat"):
         boundary_distance(FLAT, "dijkstra")
+
+
+def test_points_on_the_midline_of_a_rectangle_have_more_weight() -> None:
+    mesh = rectangle(61, 25, 2.5, 1.0).mesh
+    distance = boundary_distance(mesh)
+    weights = flux_weights(flux(mesh, distance), 0.5)
+    assert weight_far_from_boundary(mesh, weights, distance) > 1.1
+    assert weight_far_from_boundary(mesh, 1.0 / weights, distance) < 1.0
+    assert weight_far_from_boundary(mesh, np.ones(len(distance)), distance) == pytest.approx(1.0)

@@ -1,0 +1,76 @@
+"""The list of the dissertation's statements against the claims of the experiments, both ways."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+STATEMENTS: list[dict[str, Any]] = yaml.safe_load((ROOT / "docs" / "claims.yaml").read_text(encoding="utf-8"))[
+    "statements"
+]
+KINDS = ("table", "figure", "section", "equation", "theorem", "lemma", "remark", "definition")
+FIGURES = {"1": 3, "2": 8, "3": 1, "4": 8, "5": 10, "6": 8}
+NUMBERED = (
+    [f"figure {chapter}.{k}" for chapter, count in FIGURES.items() for k in range(1, count + 1)]
+    + ["table 2.1", "table 2.2", "table 6.1", "remark 1.2.1", "remark 1.3.1", "remark 2.3.1", "remark 2.3.2"]
+    + [f"theorem {n}" for n in ("2.2.1", "2.2.2", "2.2.3", "3.1.1", "3.1.2", "3.1.3", "3.2.1", "4.3.1", "4.3.2")]
+    + ["theorem 6.2.1", "theorem 6.2.2", "lemma 6.2.1", "lemma 6.2.2"]
+    + ["definition 4.3.1", "definition 5.2.1", "definition 6.2.1"]
+)
+
+
+def claims() -> list[tuple[str, dict[str, Any]]]:
+    files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
+    return [
+        (file.stem, claim)
+        for file in files
+        for claim in yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []
+    ]
+
+
+def citation(claim: dict[str, Any]) -> str:
+    kind = next(key for key in claim["published"] if key != "value")
+    return f"{kind} {claim['published'][kind]}"
+
+
+CITED = [(name, claim) for name, claim in claims() if "published" in claim]
+BY_ID = {statement["id"]: statement for statement in STATEMENTS}
+
+
+def test_every_numbered_statement_is_listed_once() -> None:
+    names = [statement["id"] for statement in STATEMENTS]
+    assert len(names) == len(set(names))
+    assert not set(NUMBERED) - set(names)
+
+
+@pytest.mark.parametrize("statement", STATEMENTS, ids=lambda statement: statement["id"])
+def test_a_statement_has_verdicts_or_the_reason_why_none_is_possible(statement: dict[str, Any]) -> None:
+    assert set(statement) <= {"id", "section", "states", "values", "verdicts", "none"}
+    assert re.fullmatch(rf"({'|'.join(KINDS)}) \d(\.\d+)*( [a-z, ]+)?", statement["id"])
+    assert statement["section"] and statement["states"]
+    assert ("verdicts" in statement) != ("none" in statement)
+    citing = {name for name, claim in CITED if citation(claim) == statement["id"]}
+    assert citing == set(statement.get("verdicts", []))
+
+
+@pytest.mark.parametrize(("experiment", "claim"), CITED, ids=lambda item: item if isinstance(item, str) else "")
+def test_a_citation_is_listed_with_its_value(experiment: str, claim: dict[str, Any]) -> None:
+    statement = BY_ID.get(citation(claim))
+    assert statement is not None, f"{experiment}: {citation(claim)} is not in docs/claims.yaml"
+    assert claim["published"]["value"] in statement.get("values", []), f"{experiment}: {claim['claim']}"
+
+
+def test_places_stand_in_keys_and_not_in_prose() -> None:
+    place = re.compile(r"\((figure|section|theorem|lemma|table) ")
+    assert not [claim["claim"] for _, claim in claims() if place.search(claim["claim"])]
+
+
+def test_every_interval_has_a_reason_and_no_ours_has_a_verdict_of_others() -> None:
+    for name, claim in claims():
+        assert claim["because"] != "not stated yet", f"{name}: {claim['claim']}"
+        assert "otherwise" not in claim or "published" in claim or "reference" in claim
