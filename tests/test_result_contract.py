@@ -37,7 +37,9 @@ class Table:
     metrics: dict[str, Any] = field(default_factory=dict)
 
 
-GOOD = Table(np.zeros((4, 2)), np.zeros(7), np.zeros((4, 3)), np.arange(5), np.array([np.nan, 1.0]), {"a": np.float64(1)})
+GOOD = Table(
+    np.zeros((4, 2)), np.zeros(7), np.zeros((4, 3)), np.arange(5), np.array([np.nan, 1.0]), {"a": np.float64(1)}
+)
 
 
 def test_shapes_are_read_from_the_docstring() -> None:
@@ -84,7 +86,7 @@ def test_arrays_inside_parts_of_a_result_count() -> None:
     broken = object.__new__(TriangleMesh)
     object.__setattr__(broken, "vertices", vertices)
     object.__setattr__(broken, "faces", surface.mesh.faces)
-    with pytest.raises(ValueError, match="mesh.vertices has 1 of 126 values that are not finite"):
+    with pytest.raises(ValueError, match=r"mesh\.vertices has 1 of 126 values that are not finite"):
         check_result(replace(surface, mesh=broken), Surface)
     with pytest.raises(TypeError, match="returned Table, a plugin of this kind returns Surface"):
         check_result(GOOD, Surface)

@@ -155,7 +155,9 @@ def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None
     assert codes == [0, 1]
     key = plan.leaves[0].key
     assert not store.is_done(tmp_path, "pairing", key)
-    assert outcome.read_event(tmp_path, "pairing", key)["failure"].startswith("pairing/toy_failure: surface has area 0.5")
+    assert outcome.read_event(tmp_path, "pairing", key)["failure"].startswith(
+        "pairing/toy_failure: surface has area 0.5"
+    )
 
 
 def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
