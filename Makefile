@@ -4,7 +4,7 @@ BIN := .venv/bin
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-# One after the other; what is finished is not computed again. The verdicts on published claims follow from the results.
+# One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
 .PHONY: run test test-all test-optional optional lint bench mutate reproduction ui lock clean
@@ -30,6 +30,7 @@ lint: .venv/ready
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
+	$(BIN)/python -m surfexp.report.stamp check
 
 bench: optional # the rivals come with it
 	$(BIN)/python -m benchmarks
@@ -38,9 +39,16 @@ mutate: .venv/ready
 	$(BIN)/python -m mutation planted
 	$(BIN)/python -m mutation random
 
+# In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.
 reproduction: .venv/ready
-	for name in $(EXPERIMENTS); do echo "== $$name"; $(BIN)/surfexp run experiment=$$name || exit 1; done
-	$(BIN)/surfexp report --claims $(EXPERIMENTS) > docs/reproduction.md
+	results=results/reproduction/$$($(BIN)/python -m surfexp.report.stamp state) && failed="" && \
+	for name in $(EXPERIMENTS); do \
+		echo "== $$name"; $(BIN)/surfexp run experiment=$$name results=$$results || \
+			{ [ $$? -eq 1 ] || exit; failed="$$failed $$name"; }; \
+	done && \
+	$(BIN)/surfexp report --claims --results $$results $(EXPERIMENTS) > $$results/reproduction.md && \
+	mv $$results/reproduction.md docs/reproduction.md && \
+	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
 
 ui: .venv/ready
 	$(BIN)/surfexp ui

@@ -1,11 +1,11 @@
-"""The picture of figure 2.2: clean, noisy, denoised, residual."""
+"""A denoised image as figure 2.2 shows one: clean, noisy, denoised, residual."""
 
 from dataclasses import replace
 
 from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -20,6 +20,7 @@ class Denoising(Options):
 
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")
+    reference: str = Field("", description="figure of the dissertation that this one answers")
     width: int = Field(1800, ge=200, le=8000, description="pixels across")
 
 
@@ -27,19 +28,19 @@ class Denoising(Options):
 def denoising_figure(
     options: Denoising, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
-    """Clean, noisy and denoised image and the residual, from one side (figure 2.2)."""
+    """Clean, noisy and denoised image and the residual, from one side, on the scale of the data."""
     view = (options.azimuth, options.elevation)
-    grey = ColorScale(label="grey level", colormap="gray", limits=(0.0, 255.0))
+    shown = ColorScale(label=image.name, unit=image.unit, colormap="gray", percentiles=(0.0, 100.0))
+    # one scale for all panels, that of the least noisy image; noise beyond it is black and white
+    shown = shown.fitted(solver.values if image.clean is None else image.clean)
     spread = 2.5 * image.noise if image.noise else None
-    signed = ColorScale(label="residual", colormap="RdBu_r", limits=(-spread, spread) if spread else None)
+    signed = ColorScale("residual", image.unit, "RdBu_r", (-spread, spread) if spread else None)
     residual = image.values - solver.values
-    panels = [("noisy", image.values, grey), ("denoised", solver.values, grey), ("residual", residual, signed)]
+    panels = [("noisy", image.values, shown), ("denoised", solver.values, shown), ("residual", residual, signed)]
     if image.clean is not None:
-        panels.insert(0, ("clean", image.clean, grey))
+        panels.insert(0, ("clean", image.clean, shown))
     views = [SurfaceView(surface.mesh, values, view, scale, (), name) for name, values, scale in panels]
-    caption = (
-        f"The {image.name} on a {surface.name}, standing in for the Lena image of figure 2.2 of the dissertation: "
-        f"noise of standard deviation {image.noise:g} of 0..255, {operator.name.replace('_', ' ')} operator."
-    )
+    noise = f"noise of standard deviation {image.noise:g} {image.unit}".rstrip() if image.noise else "noise unknown"
+    caption = f"{image.name} on {surface.name}: {noise}, {operator.name.replace('_', ' ')} operator.{compare(options.reference)}"
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver))
     return replace(surface_panel(views, width=options.width, caption=caption), title=title)

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.rim import INSIDE, barycentric, without_rim
@@ -53,7 +53,7 @@ def eigenfunctions_figure(options: Eigenfunctions, *, surface: Surface, eigensol
         views.append(SurfaceView(mesh, values, (options.azimuth, options.elevation), scale, lines, title))
     rows = [views[i : i + options.columns] for i in range(0, len(views), options.columns)]
     unit = f" (λ in 1/{surface.unit}²)" if surface.unit else ""
-    against = f" Compare {options.reference} of the dissertation." if options.reference else ""
+    against = compare(options.reference)
     caption = (
         f"Laplace-Beltrami eigenfunctions of the {surface.name} with their nodal lines{unit}; "
         f"signs are arbitrary.{against}"

@@ -6,7 +6,7 @@ from pydantic import Field
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.figures.camera import VIEWS, view_axes
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -21,6 +21,7 @@ class EmbeddedSurfaces(Options):
     """View and size."""
 
     view: str = Field("left", description="direction of view of the surfaces")
+    reference: str = Field("", description="figure of the dissertation that this one answers")
     width: int = Field(1700, ge=200, le=8000, description="pixels across")
 
 
@@ -47,8 +48,8 @@ def embedded_surfaces_figure(
         rows.append([*views, SurfaceView(image, columns[0][kept], IMAGE_VIEW, scale, (), f"image of the {label}")])
     caption = (
         "The first three eigenfunctions over the square roots of their eigenvalues, on surfaces of area 1, and the images of "
-        "the surfaces with these as coordinates (6.4), in the colours of the first; one scale for all lengths and colours. "
-        "Compare figure 6.1."
+        "the surfaces with these as coordinates (6.4), in the colours of the first; one scale for all lengths and colours."
+        f"{compare(options.reference)}"
     )
     return surface_panel(rows, width=options.width, caption=caption)
 

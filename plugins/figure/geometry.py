@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from pydantic import Field
 
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -18,6 +18,7 @@ class Geometry(Options):
 
     azimuth: float = Field(-60.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(25.0, ge=-90, le=90, description="height of view, degrees")
+    reference: str = Field("", description="figure of the dissertation that this one answers")
     width: int = Field(1500, ge=200, le=8000, description="pixels across")
 
 
@@ -32,7 +33,7 @@ def geometry_figure(options: Geometry, *, clean: Surface, noisy: Surface, solver
         model = f"{model}, coordinate by coordinate"
     caption = (
         f"{clean.name.capitalize()} by {model}: normals off by "
-        f"{numbers['normal_error_before']:.1f} degrees before, {numbers['normal_error']:.1f} after. "
-        "Compare figure 2.7 of the dissertation."
+        f"{numbers['normal_error_before']:.1f} degrees before, {numbers['normal_error']:.1f} after."
+        f"{compare(options.reference)}"
     )
     return replace(surface_panel(views, width=options.width, caption=caption), title=f"{clean.name} · {model}")

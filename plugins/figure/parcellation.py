@@ -6,7 +6,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -22,6 +22,7 @@ class Parcellation(Options):
     views: list[str] = Field(["lateral", "medial"], description="directions of view")
     colormap: str = Field("PuOr_r", description="matplotlib's name of the colour map of the image")
     line_width: float = Field(3.0, gt=0, le=20, description="width of the red line in pixels")
+    reference: str = Field("", description="figure of the dissertation that this one answers")
     width: int = Field(1600, ge=200, le=8000, description="pixels across")
 
 
@@ -38,7 +39,7 @@ def parcellation_figure(
     length = solver.metrics.get("perimeter")
     caption = (
         f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
-        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}. Compare figure 2.8 of the dissertation."
+        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{compare(options.reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
     return replace(surface_panel(views, width=options.width, caption=caption), title=title)

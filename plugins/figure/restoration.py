@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -16,7 +16,7 @@ from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
-LOST = np.array([214.0, 96.0, 77.0])
+LOST = np.array([0.84, 0.38, 0.30])
 
 
 class Restoration(Options):
@@ -33,25 +33,33 @@ def restoration_figure(
     options: Restoration, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
     """Clean, observed and restored image and the error, lost parts in red; three channels as colours."""
-    grey = ColorScale(label="grey level", colormap="gray", limits=(0.0, 255.0))
+    scale = ColorScale(label=image.name, unit=image.unit, colormap="gray", percentiles=(0.0, 100.0))
+    scale = scale.fitted(solver.values if image.clean is None else image.clean)
+    low, high = scale.limits or (0.0, 1.0)
+
+    def colours(values: Floats) -> Floats:
+        shown = np.clip((values - low) / (high - low), 0.0, 1.0)
+        return shown if values.ndim == 2 else np.repeat(shown[:, None], 3, axis=1)
 
     def panel(values: Floats, name: str) -> SurfaceView:
-        shown = np.clip(values / 255.0, 0.0, 1.0) if values.ndim == 2 else values
-        return SurfaceView(surface.mesh, shown, view, ColorScale() if values.ndim == 2 else grey, (), name)
+        flat = values.ndim == 1
+        return SurfaceView(
+            surface.mesh, values if flat else colours(values), view, scale if flat else ColorScale(), (), name
+        )
 
     view = (options.azimuth, options.elevation)
-    observed = image.values
+    observed = panel(image.values, "observed")
     if image.known is not None:
-        levels = observed if observed.ndim == 2 else np.repeat(observed[:, None], 3, axis=1)
-        observed = np.where(image.known[:, None], levels, LOST)
-    panels = [panel(observed, "observed"), panel(solver.values, "restored")]
+        seen = np.where(image.known[:, None], colours(image.values), LOST)
+        observed = SurfaceView(surface.mesh, seen, view, ColorScale(), (), "observed")
+    panels = [observed, panel(solver.values, "restored")]
     if image.clean is not None:
         error = (solver.values - image.clean).reshape(len(image.clean), -1).mean(axis=1)
         bound = max(float(np.percentile(np.abs(error), 99)), 1e-12)
         signed = ColorScale(label="error", colormap="RdBu_r", limits=(-bound, bound))
         panels.insert(0, panel(image.clean, "clean"))
         panels.append(SurfaceView(surface.mesh, error, view, signed, (), "error"))
-    where = f" Compare {options.reference} of the dissertation." if options.reference else ""
+    where = compare(options.reference)
     error_text = f"; error {solver.metrics['rmse']:.3g}" if "rmse" in solver.metrics else ""
     caption = f"{image.name.capitalize()} on a {surface.name}: {solver.model}{error_text}.{where}"
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.model, solver.solver))

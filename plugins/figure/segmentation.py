@@ -7,7 +7,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -57,7 +57,7 @@ def segmentation_figure(
         for view in options.views
     ]
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
-    where = f" Compare {options.reference} of the dissertation." if options.reference else ""
+    where = compare(options.reference)
     caption = (
         f"{image.name.capitalize()} on a {surface.name}, {len(mesh.vertices):,} vertices{noise}; in red the boundary, "
         f"{solver.metrics['perimeter']:.3g} long.{where}"

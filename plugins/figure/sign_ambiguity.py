@@ -9,7 +9,7 @@ from pydantic import Field
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.nearest import mutual_distances
 from surfexp.figures.axes import COLORS
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, compare
 from surfexp.figures.typography import canvas, drawn, points
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
@@ -21,6 +21,7 @@ class SignAmbiguity(Options):
 
     n: int = Field(3, ge=2, le=4, description="eigenfunctions; 2^n panels")
     dots: int = Field(1500, ge=100, le=20000, description="points of each surface that are drawn")
+    reference: str = Field("", description="figure of the dissertation that this one answers")
     width: int = Field(1600, ge=400, le=6000, description="pixels across")
 
 
@@ -87,6 +88,6 @@ def sign_ambiguity_figure(
     times = f", the next best is {following / least:.2f} times as far" if least > 1e-12 * following else ""
     caption = (
         f"{target_surface.name} (blue) over {source_surface.name} (grey) in the first {n} eigenfunctions: all {2**n} choices of "
-        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding{times}. Compare figure 6.2."
+        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding{times}.{compare(options.reference)}"
     )
     return Figure(pixels, caption, f"{2**n} embeddings", {"least": least, "next": following})

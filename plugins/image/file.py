@@ -26,4 +26,5 @@ def file_image(options: File, *, surface: Surface) -> Image:
     values, count = read_scalars(options.path), len(surface.mesh.vertices)
     if len(values) != count:
         raise ValueError(f"image {options.path} has {len(values)} values, the surface has {count} vertices")
-    return add_noise(Image(values, options.path.stem, options.unit), options.noise, options.seed)
+    image = Image(values, options.path.stem, options.unit)
+    return add_noise(image, options.noise, options.seed) if options.noise else image  # a map as it came is not clean

@@ -40,4 +40,4 @@ def picture_image(options: Picture, *, surface: Surface) -> Image:
     )
     if name == "letters":
         painted = replace(painted, labels={"paper": painted.values > 127.5})
-    return add_noise(painted, options.noise, options.seed)
+    return add_noise(replace(painted, unit="grey levels"), options.noise, options.seed)

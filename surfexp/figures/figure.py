@@ -27,3 +27,8 @@ class Figure:
     title: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+
+def compare(reference: str) -> str:
+    """The sentence, after a space, that sends a reader to a figure of the dissertation; nothing where there is none."""
+    return f" Compare {reference} of the dissertation." if reference else ""

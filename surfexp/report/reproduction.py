@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from surfexp.report.claim import read_claims
+from surfexp.report.stamp import stamp
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import Verdict, judge
 from surfexp.workflow.plan import Plan
 
-HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found", "verdict", "cause")
+HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found (least to largest)", "verdict", "cause")
 
 
 def reproduction(plans: Mapping[str, Plan], results: Path) -> str:
@@ -21,7 +22,8 @@ def reproduction(plans: Mapping[str, Plan], results: Path) -> str:
     counts = Counter(verdict.verdict for verdict in every)
     told = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
     sections = [section(name, plans[name].settings.title, group) for name, group in verdicts.items() if group]
-    return "\n".join([f"# Published claims, checked\n\n{len(every)} claims: {told}.\n", *sections]).rstrip()
+    head = f"# Published claims, checked\n\n{len(every)} claims: {told}.\n\n{stamp(plans.values(), results)}\n"
+    return "\n".join([head, *sections]).rstrip()
 
 
 def section(experiment: str, title: str, verdicts: Sequence[Verdict]) -> str:

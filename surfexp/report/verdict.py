@@ -10,8 +10,7 @@ from typing import Any
 
 from surfexp.report.claim import Claim
 from surfexp.report.table import Comparison, Row, format_number
-
-NOT_COMPUTED = "not computed"
+from surfexp.workflow.outcome import NOT_COMPUTED
 
 
 @dataclass(frozen=True)
@@ -111,7 +110,8 @@ def _values(claim: Claim, rows: Sequence[Row]) -> list[float]:
     if not rows:
         raise _Obstacle("no row is selected")
     unusable = {
-        "failed": [row for row in rows if row.failure],
+        "not run": [row for row in rows if row.failure == NOT_COMPUTED],
+        "failed": [row for row in rows if row.failure not in ("", NOT_COMPUTED)],
         f"without {claim.metric}": [row for row in rows if not row.failure and value_of(row, claim.metric) is None],
         "not converged": [] if claim.unconverged or claim.metric == "converged" else [r for r in rows if r.limited],
     }

@@ -65,7 +65,7 @@ def code_digest(file: Path) -> str:
     files, packages = code_closure(file)
     versions = {name: package_version(name) for name in packages}
     data = {name: data_digest(name) for path in files for name in _data_packages(path)}
-    return digest([sorted(_meaning(path) for path in files), versions, *([data] if data else [])])
+    return digest([sorted(meaning(path) for path in files), versions, *([data] if data else [])])
 
 
 @cache
@@ -88,7 +88,7 @@ def edited_since(moment: float, file: Path) -> bool:
 def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
     """Name of the compilation cache of a plugin: digest of every module that compiles and of all that it imports."""
     compiled = [path for path in (*PACKAGE.rglob("*.py"), *code_closure(file)[0]) if _compiles(path)]
-    meanings = sorted({_meaning(part) for path in compiled for part in code_closure(path)[0]})
+    meanings = sorted({meaning(part) for path in compiled for part in code_closure(path)[0]})
     return digest([meanings, package_version("numba"), sys.version_info[:2]])
 
 
@@ -109,7 +109,8 @@ def _compiles(path: Path) -> bool:
 
 
 @cache
-def _meaning(path: Path) -> str:
+def meaning(path: Path) -> str:
+    """Digest of a Python file without comments, layout and docstrings."""
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
         if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:

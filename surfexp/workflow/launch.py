@@ -18,6 +18,7 @@ from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
+from surfexp.own_data import without_foreign_words
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
 from surfexp.workflow.errors import UserError
@@ -45,7 +46,8 @@ class PlanLauncher(Launcher):
         batch, counts = [], []
         for overrides in job_overrides:
             stages, rest = split_overrides(overrides, self.loader.repository)
-            leaves = expand(_plain(self.loader.load_sweep_config(self.config, rest)), stages)
+            composed = _plain(self.loader.load_sweep_config(self.config, rest))
+            leaves = expand(without_foreign_words(composed, overrides), stages)
             batch += leaves
             counts.append(make_plan(leaves))
         plan = make_plan(batch)
@@ -116,8 +118,10 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     prepare_hydra()
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
-        stages, rest = split_overrides([f"{key}={value}" for key, value in config.items()], loader.repository)
-        plan = make_plan(expand(_plain(compose("config", overrides=rest)), stages))
+        overrides = [f"{key}={value}" for key, value in config.items()]
+        stages, rest = split_overrides(overrides, loader.repository)
+        composed = _plain(compose("config", overrides=rest))
+        plan = make_plan(expand(without_foreign_words(composed, overrides), stages))
     return plan.write(Path(plan.settings.results).resolve()), plan
 
 

@@ -99,6 +99,7 @@ GOOD = [row("a", seed=seed, energy=2.0) for seed in range(9)]
     ("spoilt", "reason"),
     [
         (row("a", seed=77, failure="x", energy=2.0), "failed: 77 (1 of 10 rows)"),
+        (row("a", seed=77, failure="not computed"), "not run: 77 (1 of 10 rows)"),
         (row("a", seed=77, other=2.0), "without energy: 77 (1 of 10 rows)"),
         (row("a", seed=77, energy=float("nan")), "without energy: 77 (1 of 10 rows)"),
         (row("a", seed=77, energy=float("inf")), "without energy: 77 (1 of 10 rows)"),

@@ -13,6 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 STATEMENTS: list[dict[str, Any]] = yaml.safe_load((ROOT / "docs" / "claims.yaml").read_text(encoding="utf-8"))[
     "statements"
 ]
+FAULTS: list[dict[str, str]] = yaml.safe_load((ROOT / "mutation" / "claims.yaml").read_text(encoding="utf-8"))["faults"]
 KINDS = ("table", "figure", "section", "equation", "theorem", "lemma", "remark", "definition")
 FIGURES = {"1": 3, "2": 8, "3": 1, "4": 8, "5": 10, "6": 8}
 NUMBERED = (
@@ -74,3 +75,12 @@ def test_every_interval_has_a_reason_and_no_ours_has_a_verdict_of_others() -> No
     for name, claim in claims():
         assert claim["because"] != "not stated yet", f"{name}: {claim['claim']}"
         assert "otherwise" not in claim or "published" in claim or "reference" in claim
+
+
+def test_a_planted_fault_names_one_claim_and_one_place_in_the_code() -> None:
+    stated = [(name, claim["claim"]) for name, claim in claims()]
+    for fault in FAULTS:
+        named = [text for name, text in stated if name == fault["experiment"] and text.startswith(fault["claim"])]
+        assert named, f"{fault['experiment']}: no claim begins with {fault['claim']!r}"
+        count = (ROOT / fault["path"]).read_text(encoding="utf-8").count(fault["old"])
+        assert count == 1 and fault["new"] != fault["old"], f"{fault['path']}: {fault['old']!r} occurs {count} times"

@@ -12,9 +12,11 @@ from surfexp.report.declared import check_names, declared
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import UserError
+from surfexp.workflow.launch import plan_for_snakemake
 from surfexp.workflow.plan import Plan, make_plan
 
 registry.load_all(Path("/nonexistent"))
+ROOT = Path(__file__).resolve().parents[2]
 CLAIM: dict[str, Any] = {
     "claim": "small",
     "quantity": "all",
@@ -94,3 +96,8 @@ def test_misspelt_columns_objectives_and_options_are_refused() -> None:
     sweep = {"name": "sweep", "metric": "rsme", "x_label": "seed", "inputs": {"solvers": {"over": "seeds"}}}
     axes = {"seeds": {"a @ 0": {"image": {"seed": 0}}, "a @ 1": {"image": {"seed": 1}}}}
     assert "unknown metric in figure/sweep.metric 'rsme'; did you mean 'rmse'?" in refusal(axes=axes, figures=[sweep])
+
+
+@pytest.mark.parametrize("name", sorted(file.stem for file in (ROOT / "conf" / "experiment").glob("*.yaml")))
+def test_every_experiment_names_what_exists(name: str, working_folder: Path) -> None:
+    check_names(plan_for_snakemake({"experiment": name})[1])

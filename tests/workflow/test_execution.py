@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from surfexp.report.claims import judge
 
 from surfexp.commands import execution
+from surfexp.report.claim import read_claims
 from surfexp.report.table import rows_of
+from surfexp.report.verdict import judge
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.errors import StageFailure
 from surfexp.workflow.outcome import event_path
@@ -137,16 +138,22 @@ def test_what_is_written_into_an_event_changes_no_number_and_no_verdict(run: Run
     results, leaf = tmp_path / "results", plan.nodes[plan.leaves[0].key]
     run()
     claims = [
-        {"claim": "small", "metric": "distance", "holds": [None, 0.5]},
-        {"claim": "adjoint", "metric": "adjointness_defect", "holds": [None, 1e-12]},
+        {"claim": "small", "metric": "distance", "between": [None, 0.5], "quantity": "all", "because": "half a side"},
+        {
+            "claim": "adjoint",
+            "metric": "adjointness_defect",
+            "between": [None, 1e-12],
+            "quantity": "all",
+            "because": "0",
+        },
     ]
-    verdicts = [item.verdict for item in judge(claims, rows_of(plan, results))]
+    verdicts = [item.verdict for item in judge(read_claims(claims), rows_of(plan, results))]
     file = event_path(results, leaf.kind, leaf.key)
     invented = {"metrics": {"distance": 0.1, "adjointness_defect": 1e-20}, "notes": ["fine"], "failure": "never ran"}
     file.write_text(json.dumps(json.loads(file.read_text()) | invented))
     (row,) = rows_of(plan, results)
     assert row.metrics == {"distance": 1.0} and row.notes == [] and not row.failure
-    assert [item.verdict for item in judge(claims, [row])] == verdicts and verdicts[1] == "not computed"
+    assert [item.verdict for item in judge(read_claims(claims), [row])] == verdicts and verdicts[1] == "not computed"
 
 
 def test_a_store_without_digests_is_made_again_with_a_line_for_each(

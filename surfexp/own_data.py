@@ -1,0 +1,56 @@
+"""What an experiment's file says of its own data, and not of data that the command line puts in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from surfexp.workflow.kinds import KINDS
+
+DATA = {"surface", "image", "axes", "variants", "grid"}
+FIGURE_WORDS = {"title", "caption", "reference"}
+CLAIMS_LEFT_OUT = "The experiment's claims are left out: they are about its own methods and data, as its file has them."
+WORDS_LEFT_OUT = "Titles and captions of the experiment are left out with its claims: they are about its own data."
+
+
+def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    """Return a composed configuration without claims, titles and captions that `overrides` take the ground from.
+
+    Parameters
+    ----------
+    configuration : mapping
+        As composed from the experiment's file.
+    overrides : sequence of str
+        What the command line asks for, "key=value" each. One of a stage, its options, an axis, a variant or a grid
+        leaves the claims out; one of a surface, an image, an axis, a variant, a grid, or the inputs of a stage leaves
+        titles, captions and headings out too.
+    """
+    keys = [text.lstrip("+~").partition("=")[0] for text in overrides]
+    heads = {key.replace("@", ".").partition(".")[0] for key in keys}
+    if not heads & (DATA | set(KINDS) - {"figure"}):
+        return dict(configuration)
+    kept = {**configuration, "claims": []}
+    if not heads & DATA and not any(".inputs" in key for key in keys):
+        return kept | {"description": f"{configuration.get('description', '')} {CLAIMS_LEFT_OUT}".strip()}
+    headings: dict[str, str] = {}
+    variants = [_wordless(variant, headings) for variant in configuration.get("variants") or []]
+    words = {"title": f"{configuration.get('experiment', 'experiment')}, other data", "description": WORDS_LEFT_OUT}
+    return _wordless(kept, headings) | words | {"variants": variants}
+
+
+def _wordless(part: Any, headings: dict[str, str]) -> Any:
+    """A part of a configuration without captions, its figures without theirs, its heading replaced by a number."""
+    if not isinstance(part, Mapping):
+        return part
+    wordless = {key: value for key, value in part.items() if key != "caption"}
+    if part.get("comparison"):
+        wordless["comparison"] = headings.setdefault(part["comparison"], f"Table {len(headings) + 1}")
+    if part.get("figures"):
+        wordless["figures"] = [_figure(figure) for figure in part["figures"]]
+    return wordless
+
+
+def _figure(figure: Any) -> Any:
+    if not isinstance(figure, Mapping):
+        return figure
+    return {key: value for key, value in figure.items() if key not in FIGURE_WORDS}

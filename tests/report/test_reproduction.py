@@ -1,0 +1,80 @@
+"""The page of verdicts says of which state of the code it is, and is called stale when that is another."""
+
+from __future__ import annotations
+
+import platform
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from surfexp.report import reproduction, stamp
+from surfexp.report.reproduction import reproduction as page_of
+from surfexp.workflow import registry, stage
+from surfexp.workflow.configuration import expand
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.plan import Plan, make_plan
+
+registry.load_all(Path("/nonexistent"))
+STATE = "a" * 20, "b" * 20
+CLAIM = {
+    "claim": "the sphere has its area | nearly",
+    "published": {"table": "9.9", "value": "12.57"},
+    "quantity": "all",
+    "metric": "area",
+    "between": [12.5, 12.6],
+    "because": "a polyhedron inside the sphere",
+    "cause": "found",
+}
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Plan:
+    context: dict[str, Any] = {"target": "surface", "experiment": "ball", "title": "A ball", "results": str(tmp_path)}
+    context |= {"surface": {"name": "icosphere", "levels": 4}, "claims": [CLAIM, CLAIM | {"between": [1, 2]}]}
+    plan = make_plan(expand(context))
+    path = plan.write(tmp_path)
+    for key, node in plan.nodes.items():
+        if KINDS[node.kind].stored:
+            assert stage.run_stage(path, key) == 0
+    return plan
+
+
+def test_the_page_has_counts_stamp_and_all_of_a_verdict(
+    plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
+    page = page_of({"ball": plan}, tmp_path)
+    assert "2 claims: 1 not reproduced, 1 reproduced." in page and f"experiments {STATE[1]}" in page
+    assert "1 stages, 0 without result" in page and "processor hours" in page and "peak memory" in page
+    assert platform.node() not in page.split("##")[0]
+    row = next(line for line in page.splitlines() if "**reproduced**" in line)
+    cells = [cell.strip() for cell in row.replace("\\|", "/").strip("|").split("|")]
+    assert cells[1:6] == ["table 9.9: 12.57", "all area", "12.5 to 12.6", CLAIM["because"], "1"]
+    assert len(cells) == len(reproduction.HEADER) and cells[-1] == "found"
+
+
+def test_another_state_makes_the_page_stale(monkeypatch: pytest.MonkeyPatch) -> None:
+    page = f"State: commit 1234, numerics {STATE[0]}, experiments {STATE[1]}."
+    monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
+    assert stamp.staleness(page) == "" and "does not say" in stamp.staleness("# Published claims")
+    monkeypatch.setattr(stamp, "state_of_code", lambda: (STATE[0], "c" * 20))
+    assert stamp.staleness(page) == f"experiments were {'b' * 20}, are {'c' * 20}"
+
+
+def test_lint_warns_of_a_stale_page_and_does_not_fail(
+    working_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
+    assert stamp.main(["check"]) == 0
+    assert capsys.readouterr().out.startswith("warning: docs/reproduction.md is stale")
+    (working_folder / "docs").mkdir()
+    (working_folder / stamp.PAGE).write_text(f"numerics {STATE[0]}, experiments {STATE[1]}")
+    assert stamp.main(["check"]) == 0 and capsys.readouterr().out == ""
+
+
+def test_the_state_follows_the_meaning_of_the_numerics_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = stamp.state_of_code()
+    assert all(len(part) == 20 for part in first) and first == stamp.state_of_code()
+    monkeypatch.setattr(stamp, "meaning", lambda source: str(source))
+    assert stamp.state_of_code()[0] != first[0] and stamp.state_of_code()[1] == first[1]

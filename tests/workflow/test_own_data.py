@@ -1,0 +1,72 @@
+"""On data of one's own nothing is said that an experiment's file says of its own data."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.torus import torus
+from surfexp.mesh.writing import write_mesh
+from surfexp.own_data import CLAIMS_LEFT_OUT, without_foreign_words
+from surfexp.report.page import write_report
+from surfexp.workflow.launch import launch
+from surfexp.workflow.plan import Plan
+
+EXPERIMENT = {
+    "experiment": "cup",
+    "title": "A cup (figure 2.2)",
+    "description": "A cup.",
+    "caption": "On a cup.",
+    "claims": [{"claim": "x"}],
+    "surface": "cup",
+    "figures": ["denoising", {"name": "sweep", "title": "Cup", "caption": "cup", "reference": "2.2", "metric": "rmse"}],
+    "variants": [{"comparison": "The cup", "caption": "A"}, {"comparison": "Its handle"}, {"comparison": "The cup"}],
+}
+METHODS = ["solver=newton", "solver.tolerance=1e-3", "++model.w=1", "eigensolver=slicing,arpack"]
+DATA = ["surface=file", "++surface.levels=3", "image.noise=3", "axes=blobs", "+axes=blobs", "grid.image.seed=[1]"]
+
+
+@pytest.mark.parametrize("override", ["results=x", "cores=2", "timing=true", "title=mine", "columns=[rmse]"])
+def test_what_changes_no_stage_changes_no_word(override: str) -> None:
+    assert without_foreign_words(EXPERIMENT, ["experiment=cup", override]) == EXPERIMENT
+
+
+@pytest.mark.parametrize("override", METHODS)
+def test_another_method_leaves_the_claims_out_and_says_so(override: str) -> None:
+    words = without_foreign_words(EXPERIMENT, [override])
+    assert words == EXPERIMENT | {"claims": [], "description": f"A cup. {CLAIMS_LEFT_OUT}"}
+
+
+@pytest.mark.parametrize("override", [*DATA, "statistic.inputs.template.surface=file"])
+def test_other_data_leave_titles_and_captions_out_too(override: str) -> None:
+    words = without_foreign_words(EXPERIMENT, [override])
+    assert words["claims"] == [] and words["title"] == "cup, other data" and "caption" not in words
+    assert words["figures"] == ["denoising", {"name": "sweep", "metric": "rmse"}]
+    assert words["variants"] == [{"comparison": "Table 1"}, {"comparison": "Table 2"}, {"comparison": "Table 1"}]
+    assert words["surface"] == "cup"  # stages are the business of overrides
+
+
+@pytest.fixture
+def blobs(working_folder: Path) -> Path:
+    members = {}
+    for number in range(4):
+        for name, surface in (("ball", icosphere(1 + number % 2)), ("ring", torus(8 + number, 6))):
+            file = working_folder / f"{name}{number}.ply"
+            write_mesh(file, surface.mesh)
+            members[f"{name} @ {number}"] = {"surface": {"name": "file", "path": str(file)}}
+    axes = working_folder / "conf" / "axes" / "blobs.yaml"
+    axes.parent.mkdir(parents=True)
+    axes.write_text(yaml.safe_dump({"shapes": members}))
+    return working_folder
+
+
+def test_blobs_through_an_experiment_on_animals_show_nothing_of_animals(blobs: Path) -> None:
+    plans: list[Plan] = []
+    launch(["experiment=tosca_classification", "axes=blobs"], plans.append)
+    page = (write_report(plans[0], blobs / "results") / "report.html").read_text()
+    assert len(plans[0].leaves) == 11 and "tosca_classification, other data" in page
+    for foreign in ("figure 4.8", "Animals", ">reproduced<", "centaur", "Lioness", "several poses", 'class="claims"'):
+        assert foreign not in page, foreign
