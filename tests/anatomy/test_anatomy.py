@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.anatomy.articulated import BODIES, articulated_body, posed_bones
+from surfexp.anatomy.articulated import BODIES, articulated_body, carried_body, posed_bones
 from surfexp.anatomy.atrophy import with_atrophy
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import DONORS, LabelVolume, label_of
@@ -115,3 +115,13 @@ def test_planted_atrophy_takes_volume_from_one_end() -> None:
     assert min(moved[x > 2.5].max(), moved[x < -2.5].max()) < 1e-3
     with pytest.raises(ValueError, match="must not be negative"):
         with_atrophy(shape, -1.0)
+
+
+def test_a_skin_carried_along_keeps_its_vertices_and_most_lengths() -> None:
+    rest = articulated_body("biped", 0, vertices=900).mesh
+    assert carried_body("biped", 1, 0.0, 900).mesh.vertices == pytest.approx(rest.vertices, abs=1e-12)
+    posed = carried_body("biped", 1, 1.0, 900).mesh
+    assert (posed.faces == rest.faces).all()
+    assert np.linalg.norm(posed.vertices - rest.vertices, axis=1).max() > 0.2
+    lengths = [np.linalg.norm(np.diff(mesh.vertices[rest.edges], axis=1), axis=2) for mesh in (rest, posed)]
+    assert np.median(np.abs(lengths[1] / lengths[0] - 1.0)) < 0.02
