@@ -18,7 +18,6 @@ from surfexp.baselines.spherical_map import spherical_map
 from surfexp.operators.fem import fem
 from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.separable_quadratic import convex_chan_vese
 from surfexp.variational.solution import Solution
 
 GRID_POINTS = 162
@@ -76,10 +75,8 @@ def _level_set(scene: Scene, points: int, steps: int) -> Solution:
 
 def _excess(scene: Scene, solution: Solution) -> float:
     """Energy above a bound that the intrinsic solver proves to 1e-6 for the same two means."""
-    operator, values = fem(scene.surface.mesh), scene.image.values
-    c1, c2 = solution.metrics["c1"], solution.metrics["c2"]
-    slope = ConvexChanVese().weight((c1, c2), operator) * ((c1 - values) ** 2 - (c2 - values) ** 2)
-    fidelity = convex_chan_vese(operator.mass, slope)
+    operator = fem(scene.surface.mesh)
+    fidelity, _ = ConvexChanVese().fidelity(scene.image, operator, (solution.metrics["c1"], solution.metrics["c2"]))
     bound = primal_dual(fidelity, operator, tolerance=1e-6).lower_bound
     assert bound is not None
     return energy_excess(fidelity, operator, solution.values, bound)
