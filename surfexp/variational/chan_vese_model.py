@@ -70,7 +70,7 @@ class ChanVese:
         descent = _Descent(operator, image.values, model.weight(image, operator))
         means = descent.means(phi)
         energies = [descent.energy(phi, means)]
-        step, reason, moved = 1.0, "iteration limit", 0
+        step, reason, moved = np.inf, "iteration limit", 0
         for iteration in range(1, self.iteration_limit + 1):
             before = phi > 0
             phi, step = descent.step(phi, means, energies[-1], step)
