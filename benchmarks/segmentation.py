@@ -59,7 +59,7 @@ def lines(quick: bool) -> list[Line]:
 
 
 def _labels(solution: Solution) -> np.ndarray:
-    return solution.values > 0.5
+    return np.asarray(solution.segmentation) > 0.5
 
 
 def _until_labels_settle(scene: Scene, operator: SurfaceOperator) -> tuple[int, Solution, tuple[float, float], bool]:

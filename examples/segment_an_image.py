@@ -11,5 +11,5 @@ from surfexp.variational.split_bregman import split_bregman
 mesh = icosphere(4).mesh
 cap = mesh.vertices[:, 2] > 0.4
 noisy = Image(np.where(cap, 255.0, 0.0) + np.random.default_rng(0).normal(0, 100, len(cap)), labels={"cap": cap})
-solution = ConvexChanVese(length=2.0).run(noisy, fem(mesh), split_bregman)
+solution = ConvexChanVese(smoothness=1.0).run(noisy, fem(mesh), split_bregman)
 print(f"dice {solution.metrics['dice cap']:.3f}, boundary {solution.metrics['perimeter']:.2f} (a circle has 5.76)")

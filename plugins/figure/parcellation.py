@@ -32,14 +32,20 @@ def parcellation_figure(
 ) -> Figure:
     """The image in colour with the boundary of the segmented regions in red, from several sides (figure 2.8)."""
     scale = ColorScale(label=image.name, unit=image.unit, colormap=options.colormap)
-    level = solver.metrics.get("threshold", 0.5)
-    field = image.values if solver.model == "threshold" else solver.values
+    field, level = solver.boundary
     contours = (Contours(field, levels=(level,), width=options.line_width),)
     views = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in options.views]
     length = solver.metrics.get("perimeter")
+    gap = solver.metrics.get("labelling_gap")
+    proved = (
+        f" For these two means at least {1.0 - gap:.1%} of what any labelling can gain over the best trivial one "
+        "is gained; nothing is proved about the means."
+        if gap is not None
+        else ""
+    )
     caption = (
         f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
-        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{compare(options.reference)}"
+        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{proved}{compare(options.reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
     return replace(surface_panel(views, width=options.width, caption=caption), title=title)

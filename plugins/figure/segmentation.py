@@ -44,8 +44,8 @@ def segmentation_figure(
     if options.discs:
         distance = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed)
         start = (Contours(distance, width=options.line_width),)
-    level = solver.metrics.get("threshold", 0.0 if solver.model == "Chan-Vese" else 0.5)
-    edges = (Contours(solver.values, levels=(level,), width=options.line_width),)
+    field, level = solver.boundary
+    edges = (Contours(field, levels=(level,), width=options.line_width),)
     inside = np.asarray(solver.segmentation, dtype=float)[:, None]
     regions = inside * LIGHT + (1.0 - inside) * DARK
     rows = [

@@ -10,9 +10,13 @@ from surfexp.workflow.registry import Options, register
 
 
 class MeanCurvature(Options):
-    """Where large curvatures are cut off."""
+    """Where large curvatures are cut off.
 
-    clip: float = Field(99.0, gt=50, le=100, description="percentile of |H| at which outliers are clipped")
+    Curvature has a heavy tail: two means that are not robust follow the few sharpest folds. At the median of |H| what is
+    left is little more than the sign, and the two means are those of sulci and gyri.
+    """
+
+    clip: float = Field(50.0, ge=10, le=100, description="percentile of |H| at which it is clipped; 100: nowhere")
 
 
 @register("image", "mean_curvature")

@@ -14,10 +14,12 @@ from surfexp.workflow.registry import Options, register
 class ConvexChanVeseOptions(Options):
     """The weight of the data, the initial curve, and the updates of the means."""
 
-    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
+    smoothness: float = Field(
+        0.3, gt=0, description="weight of the length of the boundary, without unit; 0: a threshold"
+    )
+    mu: float | None = Field(None, gt=0, description="the weight of the data as published, in place of smoothness")
     updates: int = Field(20, ge=1, le=1000, description="largest number of updates of the two means")
-    divide_by_area: bool = Field(True, description="false: the printed means, integrals not divided by the area")
+    divide_by_area: bool = Field(True, description="false: the means as published, integrals not divided by the area")
     discs: int = Field(0, ge=0, le=10000, description="initial curve: circles about random vertices; 0: where I > mean")
     radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
     seed: int = Field(0, ge=0, description="seed of the initial circles")
@@ -47,4 +49,4 @@ def convex_chan_vese_model(options: ConvexChanVeseOptions, *, surface: Surface) 
     mesh, start = surface.mesh, None
     if options.discs:
         start = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed) > 0
-    return ConvexChanVese(options.length, options.mu, start, options.updates, options.divide_by_area)
+    return ConvexChanVese(options.smoothness, options.mu, start, options.updates, options.divide_by_area)

@@ -12,7 +12,7 @@ class Multiphase(Options):
     """The number of regions, and the weight of the data."""
 
     regions: int = Field(3, ge=2, le=64, description="number of regions")
-    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
+    smoothness: float = Field(0.3, gt=0, description="weight of the length of the boundaries, without unit")
     updates: int = Field(10, ge=1, le=1000, description="largest number of updates of the means")
 
 

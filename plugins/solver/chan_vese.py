@@ -17,8 +17,10 @@ from surfexp.workflow.stage import report_progress
 class ChanVeseOptions(Options):
     """The weight of the data, the initial function, and when to stop."""
 
-    length: float = Field(2.0, gt=0, description="length in edge lengths below which details are given up")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of the length")
+    smoothness: float = Field(
+        0.3, gt=0, description="weight of the length of the boundary, without unit; 0: a threshold"
+    )
+    mu: float | None = Field(None, gt=0, description="the weight of the data as published, in place of smoothness")
     discs: int = Field(0, ge=0, le=10000, description="initial curve: circles about random vertices; 0: where I > mean")
     radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
     seed: int = Field(0, ge=0, description="seed of the initial circles")

@@ -13,7 +13,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.rof_model import ROF
-from surfexp.variational.separable_quadratic import convex_chan_vese
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
@@ -36,9 +35,7 @@ def energy_excess_solver(
 ) -> Solution:
     """Another method's result as it is, with its energy on the surface held against a proved lower bound."""
     if isinstance(model, ConvexChanVese):
-        c1, c2 = result.metrics["c1"], result.metrics["c2"]
-        slope = model.weight((c1, c2), operator) * ((c1 - image.values) ** 2 - (c2 - image.values) ** 2)
-        fidelity = convex_chan_vese(operator.mass, slope)
+        fidelity, _ = model.fidelity(image, operator, (result.metrics["c1"], result.metrics["c2"]))
     elif isinstance(model, ROF):
         fidelity = model.fidelity(image, operator)
     else:

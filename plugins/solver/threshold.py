@@ -35,8 +35,9 @@ def threshold_solver(options: Threshold, *, image: Image, operator: SurfaceOpera
     level = 0.0 if options.rule == "sign" else float(threshold_otsu(image.values))
     region = image.values > level
     length = float(perimeters(operator, image.values, np.array([level]))[0])
-    metrics = segmentation_metrics(image, operator, region) | {"perimeter": length, "threshold": level}
+    share = float(operator.mass @ region / operator.mass.sum())
+    metrics = {"perimeter": length, "threshold": level, "brighter_share": share}
     return Solution(
-        region.astype(float), energy=length, segmentation=region.astype(float), reason="no iteration",
-        model="threshold", solver=options.rule, metrics=metrics,
+        image.values, energy=length, segmentation=region.astype(float), reason="no iteration",
+        model="threshold", solver=options.rule, metrics=metrics | segmentation_metrics(image, operator, region),
     )  # fmt: skip

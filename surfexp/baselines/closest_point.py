@@ -75,7 +75,8 @@ class ClosestPoint:
             tau, sigma, values = tau * momentum, sigma / momentum, new
             if iteration % CHECK_INTERVAL == 0 or iteration == self.iteration_limit:
                 primal = energy.total_variation(values) + problem.value(values)
-                gap = (primal - problem.dual_value(load)) / problem.gap_scale(primal)
+                bound = problem.dual_value(load)
+                gap = (primal - bound) / problem.gap_scale(primal, bound)
                 rows.append((iteration, primal))
                 if self.progress is not None:
                     self.progress(iteration, gap)

@@ -21,4 +21,4 @@ def energy_excess(fidelity: Fidelity, operator: SurfaceOperator, values: Floats,
         Dual energy that an intrinsic solver has proved for the same problem.
     """
     energy = total_variation(operator, values) + fidelity.value(values)
-    return (energy - lower_bound) / fidelity.gap_scale(energy)
+    return (energy - lower_bound) / fidelity.gap_scale(energy, lower_bound)

@@ -74,6 +74,7 @@ class LevelSet:
         step = 1.8 * eps / energy.difference_bound
         duration = spread / float(np.mean(np.abs(problem.slope) + problem.weight * spread))
         interval = math.ceil(self.extension_interval * duration / step)
+        data = float(energy.mass @ np.abs(problem.slope))
         load = np.empty_like(values)
         rows: list[tuple[float, float]] = []
         converged = False
@@ -81,7 +82,7 @@ class LevelSet:
             length = energy.projected_load(values, eps, load)
             if iteration % interval == 0 or iteration == self.step_limit:
                 rows.append((iteration, length + problem.value(values)))
-                fall = (rows[-2][1] - rows[-1][1]) / max(abs(rows[-1][1]), problem.scale) if iteration else np.inf
+                fall = (rows[-2][1] - rows[-1][1]) / max(abs(rows[-1][1]), data) if iteration else np.inf
                 if self.progress is not None:
                     self.progress(iteration, fall)
                 converged = iteration % interval == 0 and abs(fall) <= self.tolerance

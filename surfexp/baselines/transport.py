@@ -28,11 +28,12 @@ def transported(fidelity: SeparableQuadratic, mass: Floats, carry: Callable[[Flo
     """
     if len(fidelity.shape) != 1:
         raise ValueError(f"the image has shape {fidelity.shape}, a baseline takes one channel, of shape (vertices,)")
+    trivial = fidelity.trivial_energy
     return replace(
         fidelity,
         mass=mass,
         weight=carry(fidelity.weight),
         target=carry(fidelity.target),
         slope=carry(fidelity.slope),
-        scale=float(fidelity.scale * mass.sum() / fidelity.mass.sum()),
+        trivial_energy=None if trivial is None else trivial * float(mass.sum() / fidelity.mass.sum()),
     )

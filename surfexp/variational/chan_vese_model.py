@@ -10,10 +10,11 @@ from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.calculus import gradient
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.accuracy import segmentation_metrics
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese, Mask
+from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.face_sweeps import smoothed_normals
 from surfexp.variational.fidelity import Method, Progress
 from surfexp.variational.image import Image
+from surfexp.variational.labellings import Mask
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.separable_quadratic import check_positive
 from surfexp.variational.solution import Solution
@@ -31,8 +32,8 @@ class ChanVese:
 
     Parameters
     ----------
-    length, mu, initial
-        As in `ConvexChanVese`.
+    smoothness, mu, initial
+        As in `ConvexChanVese`. {phi > 0} is the brighter region at the end too: c1 >= c2.
     height : float
         phi starts as +height and -height. A small one lets c1 and c2 start near each other, a large one freezes the curve,
         as the descent is scaled by the derivative of H.
@@ -43,7 +44,7 @@ class ChanVese:
         Steps without a change of {phi > 0} after which the curve counts as at rest; phi itself grows for ever.
     """
 
-    length: float = 2.0
+    smoothness: float = 0.3
     mu: float | None = None
     initial: Mask | None = None
     height: float = 3.0
@@ -62,16 +63,14 @@ class ChanVese:
 
         The descent is the model's own and `method` is not used; `progress` is given the relative fall of the energy.
         """
-        model = ConvexChanVese(self.length, self.mu, self.initial)
+        model = ConvexChanVese(self.smoothness, self.mu, self.initial)
         model.check(image, operator)
         check_positive("height", self.height)
-        start = model.first_region(image, operator) if self.initial is None else self.initial
-        phi = np.where(start, self.height, -self.height)
-        hard, _ = model.means(image.values, operator.mass, start, (image.values.max(), image.values.min()))
-        descent = _Descent(operator, image.values, model.weight(hard, operator))
+        phi = np.where(model.first_region(image, operator), self.height, -self.height)
+        descent = _Descent(operator, image.values, model.weight(image, operator))
         means = descent.means(phi)
         energies = [descent.energy(phi, means)]
-        step, reason, moved = 1.0, "iteration limit", 0
+        step, reason, moved = np.inf, "iteration limit", 0
         for iteration in range(1, self.iteration_limit + 1):
             before = phi > 0
             phi, step = descent.step(phi, means, energies[-1], step)
@@ -87,8 +86,11 @@ class ChanVese:
             if iteration - moved >= self.rest:
                 reason = f"no vertex changed its side in {self.rest} steps"
                 break
+        if means[0] < means[1]:
+            phi, means = -phi, means[::-1]
         region = phi > 0
         metrics = {"energy": energies[-1], "iterations": float(iteration), "c1": means[0], "c2": means[1]}
+        metrics |= {"threshold": 0.0, "brighter_share": float(operator.mass @ region / operator.mass.sum())}
         metrics["perimeter"] = float(perimeters(operator, phi, np.array([0.0]))[0])
         return Solution(
             values=phi,

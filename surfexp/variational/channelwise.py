@@ -27,13 +27,16 @@ def solve_by_channel(fidelity: SeparableQuadratic, operator: SurfaceOperator, me
     bounds = [part.lower_bound for part in parts if part.lower_bound is not None]
     lower_bound = sum(bounds) if len(bounds) == len(parts) else None
     gap = None if lower_bound is None else energy - lower_bound
-    relative_gap = None if gap is None else gap / fidelity.gap_scale(energy)
+    relative_gap = None
+    if gap is not None and lower_bound is not None:
+        relative_gap = gap / fidelity.gap_scale(energy, lower_bound)
     mu = fidelity.strong_convexity
     error_bound = None if gap is None or mu <= 0 else float(np.sqrt(2.0 * max(gap, 0.0) / mu))
     numbers = {
         "energy": energy,
         "iterations": float(max(part.iterations for part in parts)),
         "lower_bound": lower_bound,
+        "gap": gap,
         "relative_gap": relative_gap,
         "error_bound": error_bound,
     }

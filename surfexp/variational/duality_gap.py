@@ -52,7 +52,7 @@ def certify(fidelity: Fidelity, operator: SurfaceOperator, values: Floats, load:
     gap = energy - lower_bound
     mu = fidelity.strong_convexity
     error_bound = float(np.sqrt(2.0 * max(gap, 0.0) / mu)) if mu > 0 else None
-    return Certificate(energy, lower_bound, gap / fidelity.gap_scale(energy), error_bound)
+    return Certificate(energy, lower_bound, gap / fidelity.gap_scale(energy, lower_bound), error_bound)
 
 
 def run_to_gap(
@@ -119,7 +119,8 @@ def with_certificate(solution: Solution, certificate: Certificate) -> Solution:
     bounded = bool(np.isfinite(certificate.lower_bound))
     metrics = {"energy": certificate.energy, "iterations": float(solution.iterations)}
     if bounded:
-        metrics |= {"lower_bound": certificate.lower_bound, "relative_gap": certificate.relative_gap}
+        gap = certificate.energy - certificate.lower_bound
+        metrics |= {"lower_bound": certificate.lower_bound, "gap": gap, "relative_gap": certificate.relative_gap}
     if bounded and certificate.error_bound is not None:
         metrics["error_bound"] = certificate.error_bound
     return replace(

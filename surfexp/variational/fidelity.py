@@ -58,8 +58,8 @@ class Fidelity(Protocol):
         """A point of the domain to start from."""
         ...
 
-    def gap_scale(self, energy: float) -> float:
-        """The positive number by which the gap is divided to give the relative gap, at a field of this energy."""
+    def gap_scale(self, energy: float, lower_bound: float) -> float:
+        """The positive number by which the gap, energy - lower_bound, is divided to give the relative gap."""
         ...
 
 

@@ -87,7 +87,7 @@ class HeatBlur:
         """The blurred image."""
         return self.image
 
-    def gap_scale(self, energy: float) -> float:
+    def gap_scale(self, energy: float, lower_bound: float) -> float:
         """The energy, not less than 1e-12 of that of the zero field."""
         floor = 0.5e-12 * self.mu * float(self.operator.mass @ self.image**2)
         return max(energy, floor, float(np.finfo(float).tiny))

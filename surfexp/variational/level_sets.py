@@ -1,4 +1,4 @@
-"""Polygonal level sets of a piecewise linear function: perimeters and the best threshold."""
+"""Polygonal level sets of a piecewise linear function: their perimeters."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from numba import njit
 from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.operators.calculus import check_length
 from surfexp.operators.surface_operator import SurfaceOperator
-
-THRESHOLD_LIMIT = 256
 
 
 def perimeters(operator: SurfaceOperator, values: Floats, levels: Floats) -> Floats:
@@ -32,31 +30,6 @@ def perimeters(operator: SurfaceOperator, values: Floats, levels: Floats) -> Flo
     values = check_length(operator.vertex_count, "vertices", values)
     _perimeters(operator.faces, operator.hat_gradients, operator.areas, values, np.asarray(levels, float), result)
     return result
-
-
-def best_threshold(operator: SurfaceOperator, values: Floats, slope: Floats) -> tuple[float, float]:
-    """Return the threshold t in (0, 1) with the least Per{phi > t} + sum_i m_i r_i [phi_i > t], and that energy.
-
-    Thresholds lie midway between neighbouring values of phi, thinned to 256. The quadrature is that of the energy, so the
-    least over all of them is at most the energy of phi.
-
-    Parameters
-    ----------
-    operator : SurfaceOperator
-    values : (n,) float64
-        In [0, 1].
-    slope : (n,) float64
-        mu r.
-    """
-    knots = np.unique(np.concatenate([values, [0.0, 1.0]]))
-    levels = 0.5 * (knots[1:] + knots[:-1])
-    if len(levels) > THRESHOLD_LIMIT:
-        levels = levels[np.linspace(0, len(levels) - 1, THRESHOLD_LIMIT).astype(int)]
-    order = np.argsort(values, kind="stable")
-    above = np.concatenate([np.cumsum((operator.mass * slope)[order][::-1])[::-1], [0.0]])
-    energies = perimeters(operator, values, levels) + above[np.searchsorted(values[order], levels, side="right")]
-    best = int(np.argmin(energies))
-    return float(levels[best]), float(energies[best])
 
 
 @njit(cache=True, nogil=True)

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from surfexp.mesh.triangle_mesh import Floats
 
+LEAST_SPREAD = 1e-4
+
 
 @dataclass(frozen=True, eq=False)
 class SeparableQuadratic:
@@ -25,8 +27,9 @@ class SeparableQuadratic:
         a, I and r.
     lower, upper : float
         The box; infinite where there is none.
-    scale : float
-        The relative gap is gap / scale; 0 means gap / energy.
+    trivial_energy : float, optional
+        Energy of the best labelling that needs no optimisation. The relative gap is the gap over the spread from there
+        down to the lower bound; without it, the gap over the energy.
     """
 
     name: str
@@ -36,7 +39,7 @@ class SeparableQuadratic:
     slope: Floats
     lower: float = -np.inf
     upper: float = np.inf
-    scale: float = 0.0
+    trivial_energy: float | None = None
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
@@ -92,17 +95,21 @@ class SeparableQuadratic:
         middle = 0.5 * (self.lower + self.upper) if not self.is_quadratic else 0.0
         return np.clip(np.where(self.weight > 0, self.target, middle), self.lower, self.upper)
 
-    def gap_scale(self, energy: float) -> float:
-        """`scale`, or the energy where scale is 0 (not less than 1e-12 of the energy of the zero field)."""
-        if self.scale > 0:
-            return self.scale
+    def gap_scale(self, energy: float, lower_bound: float) -> float:
+        """The spread from `trivial_energy` to the lower bound, not less than 1e-4 int |r|; without it the energy.
+
+        The energy counts as not less than 1e-12 of that of the zero field.
+        """
+        if self.trivial_energy is not None:
+            floor = LEAST_SPREAD * float(self._mass @ np.abs(self._data[2]))
+            return max(self.trivial_energy - lower_bound, floor, float(np.finfo(float).tiny))
         floor = 1e-12 * _value(self._mass, *self._data, np.zeros(self.target.size))
         return float(max(energy, floor, np.finfo(float).tiny))
 
     def channel(self, index: int) -> SeparableQuadratic:
-        """Return the fidelity of one channel of several, with its own scale."""
+        """Return the fidelity of one channel of several."""
         weight, target, slope = (np.ascontiguousarray(a[:, index]) for a in (self.weight, self.target, self.slope))
-        return SeparableQuadratic(self.name, self.mass, weight, target, slope, self.lower, self.upper, self.scale)
+        return SeparableQuadratic(self.name, self.mass, weight, target, slope, self.lower, self.upper)
 
     def _minimiser(self, load: Floats) -> Floats:
         result = np.empty(self.shape)
@@ -166,18 +173,22 @@ def inpainting(mass: Floats, image: Floats, known: NDArray[np.bool_], mu: float)
     return SeparableQuadratic("inpainting", mass, weight, image, zero, low, high)
 
 
-def convex_chan_vese(mass: Floats, slope: Floats) -> SeparableQuadratic:
-    """Return int phi mu r over 0 <= phi <= 1, (2.19); the relative gap is on the scale of int |mu r|.
+def convex_chan_vese(mass: Floats, slope: Floats, trivial_energy: float = np.inf) -> SeparableQuadratic:
+    """Return int phi mu r over 0 <= phi <= 1, (2.19).
 
     Parameters
     ----------
     mass : (n,) float64
     slope : (n,) float64
         mu r, r = (c1 - I)^2 - (c2 - I)^2.
+    trivial_energy : float
+        Energy of a labelling that needs no optimisation, such as a threshold of the image; the empty and the full field,
+        0 and int mu r, are always considered. The relative gap is the gap over the spread from the least of them down to
+        the lower bound.
     """
     zero = np.zeros(slope.shape)
-    scale = max(float(mass @ np.abs(slope)), float(np.finfo(float).tiny))
-    return SeparableQuadratic("convex Chan-Vese", mass, zero, zero, slope, 0.0, 1.0, scale)
+    trivial = min(0.0, float(mass @ slope), trivial_energy)
+    return SeparableQuadratic("convex Chan-Vese", mass, zero, zero, slope, 0.0, 1.0, trivial)
 
 
 def check_positive(name: str, value: float) -> None:

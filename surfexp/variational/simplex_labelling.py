@@ -9,6 +9,7 @@ import numpy as np
 from numba import njit
 
 from surfexp.mesh.triangle_mesh import Floats
+from surfexp.variational.separable_quadratic import LEAST_SPREAD
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,10 +21,13 @@ class SimplexLabelling:
     mass : (n,) float64
     costs : (n, k) float64
         r, the cost of each label at each vertex.
+    trivial_energy : float
+        Energy of a labelling that needs no optimisation; those with one label everywhere are always considered.
     """
 
     mass: Floats
     costs: Floats
+    trivial_energy: float = np.inf
     name: str = "multi-phase segmentation"
 
     @property
@@ -63,14 +67,18 @@ class SimplexLabelling:
         """The same share of each label."""
         return np.full(self.shape, 1.0 / self.shape[1])
 
-    def gap_scale(self, energy: float) -> float:
-        """sum_i m_i (mean_j r_ij - min_j r_ij): what the even mixture costs more than the best labels."""
-        return self._scale
+    def gap_scale(self, energy: float, lower_bound: float) -> float:
+        """The spread from the best trivial labelling to the lower bound, not less than 1e-4 of the spread of the costs."""
+        return max(self.trivial - lower_bound, self._least_spread, float(np.finfo(float).tiny))
 
     @cached_property
-    def _scale(self) -> float:
-        spread = self.costs.mean(axis=1) - self.costs.min(axis=1)
-        return max(float(self.mass @ spread), float(np.finfo(float).tiny))
+    def trivial(self) -> float:
+        """Energy of the best labelling that needs no optimisation."""
+        return min(self.trivial_energy, float((self.mass @ self.costs).min()))
+
+    @cached_property
+    def _least_spread(self) -> float:
+        return LEAST_SPREAD * float(self.mass @ (self.costs.max(axis=1) - self.costs.min(axis=1)))
 
 
 def project_to_simplex(points: Floats) -> Floats:

@@ -24,7 +24,7 @@ class Solution:
     lower_bound : float, optional
         Dual energy of `dual`: no field has less energy.
     relative_gap : float, optional
-        (energy - lower_bound) / scale, the quantity that the tolerance bounds; the model states its scale.
+        (energy - lower_bound) / scale, the quantity that the tolerance bounds; `Fidelity.gap_scale` is the scale.
     error_bound : float, optional
         sqrt(2 gap / mu), the largest possible mass-norm distance to the exact minimiser; None unless the fidelity is
         strongly convex.
@@ -69,3 +69,18 @@ class Solution:
     def __post_init__(self) -> None:
         """Count `converged` among the metrics: 1 or 0."""
         object.__setattr__(self, "metrics", {**self.metrics, "converged": float(self.converged)})
+
+    @property
+    def boundary(self) -> tuple[Floats, float]:
+        """The field and the level at which its level line bounds the regions: `values` at metric "threshold", where given.
+
+        Raises
+        ------
+        ValueError
+            If there are no regions.
+        """
+        if self.segmentation is None:
+            raise ValueError(f"{self.model} has no regions; take a segmentation")
+        if "threshold" in self.metrics:
+            return self.values, self.metrics["threshold"]
+        return self.segmentation, 0.5

@@ -109,9 +109,9 @@ def test_a_limit_reached_is_told():
 
 def test_a_model_runs_on_them_and_they_start_from_a_solution():
     image = Image(NOISY, labels={"cap": CAP})
-    intrinsic = ConvexChanVese(length=3.0).run(image, OPERATOR, primal_dual)
+    intrinsic = ConvexChanVese(smoothness=0.6).run(image, OPERATOR, primal_dual)
     for method in (closest_point(MESH, 0.1), level_set(MESH, 0.1)):
-        solution = ConvexChanVese(length=3.0).run(image, OPERATOR, method)
+        solution = ConvexChanVese(smoothness=0.6).run(image, OPERATOR, method)
         assert solution.metrics["c1"] == pytest.approx(intrinsic.metrics["c1"], abs=0.02)
         assert solution.metrics["dice cap"] > intrinsic.metrics["dice cap"] - 0.02
         assert solution.metrics["memory_bytes"] > 100 * solution.metrics["node_count"]

@@ -118,7 +118,7 @@ def test_solvers_agree(surface: Surface, image: Image, operator_name: str, model
         solutions.append(solution)
     best = max(s.lower_bound for s in solutions)
     for solution in solutions:
-        assert solution.energy - best <= 2 * TOLERANCE * fidelity.gap_scale(solution.energy)
+        assert solution.energy - best <= 2 * TOLERANCE * fidelity.gap_scale(solution.energy, best)
         if fidelity.strong_convexity > 0:
             difference = operator.mass @ ((solution.values - solutions[0].values) ** 2).reshape(len(image.values), -1)
             assert np.sqrt(difference.sum()) <= solution.error_bound + solutions[0].error_bound

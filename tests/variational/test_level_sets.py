@@ -1,4 +1,4 @@
-"""Co-area formula, perimeters and thresholds."""
+"""Co-area formula and perimeters."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from surfexp.mesh.icosphere import icosphere
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
-from surfexp.variational.level_sets import best_threshold, perimeters
+from surfexp.variational.level_sets import perimeters
 
 OPERATOR = fem(icosphere(3).mesh)
 
@@ -48,13 +48,3 @@ def test_nodal_indicator_overstates_the_perimeter_and_a_ramp_does_not() -> None:
         assert 1.08 < total_variation(operator, (polar < 1.0).astype(float)) / exact < 1.26
         ramp = np.clip(0.5 + (1.0 - polar) / np.sqrt(operator.edge_length), 0, 1)
         assert abs(total_variation(operator, ramp) / exact - 1) < 0.018
-
-
-def test_best_threshold_is_no_worse_than_the_field() -> None:
-    rng = np.random.default_rng(0)
-    values, slope = rng.random(OPERATOR.vertex_count).round(2), 30 * rng.normal(size=OPERATOR.vertex_count)
-    energy = total_variation(OPERATOR, values) + OPERATOR.mass @ (slope * values)
-    level, least = best_threshold(OPERATOR, values, slope)
-    region = perimeters(OPERATOR, values, np.array([level]))[0] + (OPERATOR.mass * slope) @ (values > level)
-    assert least == pytest.approx(region, rel=1e-12)
-    assert least <= energy
