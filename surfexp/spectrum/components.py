@@ -7,46 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from surfexp.mesh.triangle_mesh import Floats, Integers
-from surfexp.spectrum.counting_function import guess_eigenvalue
+from surfexp.spectrum.component_counts import CountedShift, count_at, counted_shift
 from surfexp.spectrum.dense import LARGEST_DENSE_SIZE, dense_pairs
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 
 DENSE_ENTRIES = 4_000_000
-COUNTING_STEPS = 60
-NARROWEST_BRACKET = 1.1
 SHIFT_MOVES, SHIFT_STEP = 4, 1.003
 
-FEW_STEPS = 10
 
 Solver = Callable[[csr_array, csr_array, int], EigenSystem]
-
-
-@dataclass(frozen=True, eq=False)
-class CountedShift:
-    """A shift at which the pivots have counted the eigenvalues of each component.
-
-    Parameters
-    ----------
-    shift : float
-    counts : (c,) int64
-        Eigenvalues of each component below the shift.
-    doubts : (c,) float64
-        How near to the shift an eigenvalue of each has to lie to have been counted on the wrong side.
-    """
-
-    shift: float
-    counts: Integers
-    doubts: Floats
-
-    @property
-    def total(self) -> int:
-        """Eigenvalues of all components below the shift."""
-        return int(self.counts.sum())
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,17 +48,6 @@ class ComponentPairs:
     above: float
     complete: bool
     method: str
-
-
-def component_labels(stiffness: csr_array, mass: csr_array) -> tuple[int, Integers]:
-    """Return how many components the graph of both matrices has, and (n,) the component of each row.
-
-    Stored zeros couple nothing.
-    """
-    coupling = abs(stiffness) + abs(mass)
-    coupling.eliminate_zeros()
-    count, labels = connected_components(coupling, directed=False)
-    return int(count), labels.astype(np.int64)
 
 
 def solve_components(
@@ -120,13 +82,13 @@ def solve_components(
         Complete where each component has delivered exactly the pairs that it owes, all clearly below s.
     """
     pencil = ShiftedPencil(stiffness, mass)
-    counted = _counted_shift(pencil, labels, k)
+    counted = counted_shift(pencil, labels, k)
     for _ in range(SHIFT_MOVES):
         parts = _lowest_of_each(stiffness, mass, labels, counted, solve, dense_size, tolerance)
         delivered = _all_delivered(parts, counted)
         if delivered:
             break
-        counted = _count(pencil, labels, SHIFT_STEP * counted.shift)
+        counted = count_at(pencil, labels, SHIFT_STEP * counted.shift)
     spacing = counted.shift / max(counted.total, 1)
     values, vectors = _merged(parts, k, len(labels))
     methods = {part.method for part in parts} - {"dense"}
@@ -136,40 +98,6 @@ def solve_components(
         complete=delivered and len(values) >= k,
         metrics={"factorisations": float(len(pencil.counts)), "components": float(len(counted.counts))},
         notes=_cluster_note(values, k, spacing),
-    )
-
-
-def _count(pencil: ShiftedPencil, labels: Integers, shift: float) -> CountedShift:
-    shift, factors = pencil.factor(shift)
-    owners = labels[pencil.order]
-    counts = np.bincount(owners, factors.negative)
-    perturbations = np.sqrt(np.bincount(owners, factors.row_errors**2) / np.bincount(owners, factors.row_sizes**2))
-    mean_masses = np.bincount(owners, pencil.mass.sum(axis=1)) / np.bincount(owners)
-    return CountedShift(shift, counts.astype(np.int64), 10.0 * perturbations / mean_masses)
-
-
-def _counted_shift(pencil: ShiftedPencil, labels: Integers, k: int) -> CountedShift:
-    """Find a shift with at least k eigenvalues below it, and few more unless a cluster lies there."""
-    area = float(pencil.mass.sum())
-    allowed = k + max(8, k // 8) + int(labels.max())
-    low, step = 0.0, 2.0
-    best: CountedShift | None = None
-    for attempt in range(COUNTING_STEPS):
-        shift = guess_eigenvalue(k + 0.5 * (allowed - k), area, pencil.counts)
-        if best is None:
-            shift, step = max(shift, step * low), 1.3 * step
-        elif not low < shift < best.shift or attempt > FEW_STEPS // 2:
-            shift = float(np.sqrt(low * best.shift)) if low else 0.25 * best.shift
-        counted = _count(pencil, labels, shift)
-        if counted.total < k:
-            low = max(low, counted.shift)
-        elif best is None or counted.shift < best.shift:
-            best = counted
-        if best is not None and (best.total <= allowed or best.shift < NARROWEST_BRACKET * low or attempt >= FEW_STEPS):
-            return best
-    raise EigensolverError(
-        f"only {counted.total} eigenvalues lie below {counted.shift:.1e}, k = {k} are wanted: the mass or the stiffness "
-        "is not that of a surface (is one of them singular?)"
     )
 
 
@@ -195,8 +123,9 @@ def _lowest_of_each(
     for size in np.unique(sizes[small]):
         members = np.flatnonzero(small & (sizes == size))
         for chunk in np.array_split(members, int(np.ceil(len(members) * size**2 / DENSE_ENTRIES))):
-            blocks = (_dense_blocks(matrix, labels, local, chunk, int(size)) for matrix in (stiffness, mass))
-            values, vectors = dense_pairs(*blocks, tolerance, spacing)
+            energies = _dense_blocks(stiffness, labels, local, chunk, int(size))
+            masses = _dense_blocks(mass, labels, local, chunk, int(size))
+            values, vectors = dense_pairs(energies, masses, tolerance, spacing)
             for i, member in enumerate(chunk):
                 rows, owed = order[starts[member] : starts[member + 1]], int(counted.counts[member])
                 above = float(values[i, owed]) if owed < size else np.inf

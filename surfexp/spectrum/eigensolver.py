@@ -8,7 +8,8 @@ import numpy as np
 from scipy.sparse import csr_array, sparray
 
 from surfexp.spectrum.arpack import arpack
-from surfexp.spectrum.components import component_labels, solve_components
+from surfexp.spectrum.component_counts import component_labels
+from surfexp.spectrum.components import solve_components
 from surfexp.spectrum.dense import LARGEST_DENSE_SIZE, dense
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem
