@@ -16,7 +16,7 @@ from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
 from surfexp.operators.elements_lagrange import triangle_quadrature
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.smooth_shapes import rectangle_spectrum, sphere_spectrum
+from surfexp.mesh.exact_spectra import rectangle_spectrum, sphere_spectrum
 
 Shape = Literal["rectangle", "sphere"]
 WIDTH, HEIGHT = 1.5, 1.0
