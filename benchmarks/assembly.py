@@ -12,7 +12,7 @@ from scipy.sparse import sparray
 from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import measure_both
 from benchmarks.scenes import cortex_scene
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem

@@ -6,13 +6,13 @@ from functools import partial
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Method
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 
 class Recorded:

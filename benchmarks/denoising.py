@@ -12,11 +12,11 @@ from benchmarks.scenes import Scene, cup_scene
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
 from surfexp.variational.fidelity import Method
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_split_bregman import published_split_bregman
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.published.split_bregman import published_split_bregman
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 CHECKPOINTS = (5, 10, 20, 40, 80, 160, 320)
 ENERGY_SLACK = 1e-2

@@ -5,7 +5,7 @@ from __future__ import annotations
 from benchmarks.line import Line
 from benchmarks.scenes import cortex_scene
 from benchmarks.spectra import LAPY, RESIDUAL, has_cholmod, lapy, ours, race, without_cholmod
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 
 COUNT = 300
 SIZES = (10000, 39994, 160000)

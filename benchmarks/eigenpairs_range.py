@@ -16,8 +16,8 @@ from benchmarks.spectra import (
     tuned,
     without_cholmod,
 )
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 
 # vertices, pairs, least ratio to LaPy, least ratio to the tuned eigsh
 RACES = ((39994, 50, 2.5, 1.5), (160000, 50, 2.5, 1.5), (39994, 1000, 15.0, None))

@@ -9,29 +9,29 @@ from scipy.spatial import cKDTree
 
 from benchmarks.line import Line, not_installed, race, within
 from benchmarks.measurement import Cost, measure, measure_both
-from surfexp.anatomy.articulated import articulated_body, carried_body
+from surfexp.anatomy.fsaverage5 import fsaverage5
+from surfexp.arrays import Floats, Integers
 from surfexp.embedding.block_alignment import block_distance
-from surfexp.embedding.disguise import disguise
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.functional_map import functional_map, vertex_map
 from surfexp.embedding.geodesic_error import geodesic_errors
 from surfexp.embedding.labels import ORIGIN, desikan_killiany, label_accuracy
-from surfexp.embedding.population import synthetic_subject
 from surfexp.embedding.sign_search import Signs, SignSearch, branch_and_bound
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.surface_map import Pair, embedding_map, zoomout_map
-from surfexp.embedding.template_distances import template_distances
 from surfexp.embedding.zoomout import zoomout
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
-from surfexp.mesh.fsaverage5 import fsaverage5
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.studies.distances.template_distances import template_distances
+from surfexp.studies.populations.articulated import articulated_body, carried_body
+from surfexp.studies.populations.disguise import disguise
+from surfexp.studies.sulci.population import synthetic_subject
 
 
 def warm_up() -> None:

@@ -11,13 +11,13 @@ from benchmarks.denoising import CHECKPOINTS, published, solve
 from benchmarks.interior_point import InteriorPoint
 from benchmarks.measurement import measure
 from benchmarks.scenes import cup_scene
+from surfexp.arrays import Floats
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.figures.figure import Figure
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.fem import fem
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 Points = list[tuple[float, float]]
 PRIMAL_DUAL = tuple(10.0**-k for k in range(1, 7))

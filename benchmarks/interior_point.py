@@ -10,8 +10,8 @@ from scipy.sparse import diags_array
 from surfexp.operators.calculus import adjoint_gradient, gradient_matrix
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import certify
+from surfexp.variational.published.vector_pair import project_to_ball
 from surfexp.variational.separable_quadratic import SeparableQuadratic
-from surfexp.variational.vector_pair import project_to_ball
 
 
 class InteriorPoint:

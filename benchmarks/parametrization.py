@@ -18,11 +18,11 @@ from surfexp.baselines.parameter_domain import Parametrized, conformal_domain
 from surfexp.baselines.spherical_map import spherical_map
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.fidelity import Method
-from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 GRID_POINTS = 162
 STEPS, QUICK_STEPS = (60, 125, 250, 500, 1000), (10, 20)

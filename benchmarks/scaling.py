@@ -8,11 +8,11 @@ import numpy as np
 
 from benchmarks.line import Line
 from benchmarks.measurement import Cost, apart, measure_with_memory
-from surfexp.mesh.torus import periodic_grid_faces, torus_points
+from surfexp.mesh.shapes.torus import periodic_grid_faces, torus_points
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import rof
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 SIZES = ((158, 64), (316, 128), (632, 256), (1264, 512), (1580, 640))
 ITERATIONS = 100

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from surfexp.mesh.cortex import cortex
-from surfexp.mesh.cup import cup
+from surfexp.mesh.shapes.cortex import cortex
+from surfexp.mesh.shapes.cup import cup
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise, paint
-from surfexp.variational.pictures import picture
+from surfexp.variational.images.painting import add_noise, paint
+from surfexp.variational.images.pictures import picture
 
 
 @dataclass(frozen=True, eq=False)

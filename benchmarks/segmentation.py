@@ -13,11 +13,11 @@ from benchmarks.scenes import Scene, torus_scene
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.fidelity import Fidelity
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_split_bregman import published_split_bregman
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.published.split_bregman import published_split_bregman
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 ITERATIONS = (5, 10, 20, 40, 80, 160)
 LABELS_SETTLED = 1e-4

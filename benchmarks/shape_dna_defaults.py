@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.anatomy.articulated import articulated_body
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 from surfexp.operators.fem import fem
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.studies.populations.articulated import articulated_body
 
 BODIES = ("biped", "heavy_biped", "quadruped", "long_neck", "octopod", "worm")
 POSES = range(1, 7)

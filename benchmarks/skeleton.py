@@ -10,16 +10,17 @@ import numpy as np
 from benchmarks.line import Line, not_installed, race, within
 from benchmarks.measurement import measure, measure_both
 from benchmarks.scenes import cortex_scene
-from surfexp.mesh.genus_surface import genus_surface
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
-from surfexp.skeleton.callosum import callosum
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.shapes.genus_surface import genus_surface
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.exact_reeb_graph import ReebGraph, exact_reeb_graph
 from surfexp.skeleton.fast_marching import fast_marching
-from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.simplification import simplified
-from surfexp.skeleton.study import eigenmap_skeleton
+from surfexp.studies.callosum.callosum import callosum
+from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
 
 
 def warm_up() -> None:

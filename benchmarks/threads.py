@@ -10,8 +10,8 @@ from benchmarks.line import Line
 from benchmarks.measurement import measure_both
 from benchmarks.scenes import torus_scene
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 SIDES = (160, 1000)
 ITERATIONS = 50

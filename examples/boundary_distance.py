@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.skeleton.boundary_distance import boundary_distance
 
 mesh = rectangle(61, 25, 2.5, 1.0).mesh

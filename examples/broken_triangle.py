@@ -1,10 +1,10 @@
 """Three surfaces on which the printed spectral distance breaks the triangle inequality, and a distance that does not."""
 
-from surfexp.embedding.counterexamples import named_revolution
-from surfexp.embedding.pairwise import Pairing, pairwise_distances, triangle_metrics
+from surfexp.embedding.distance_methods import Pairing, pairwise_distances, triangle_metrics
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.distances.counterexamples import named_revolution
 
 embeddings = {}
 for name in ("cigar", "needle_ball", "two_balls"):

@@ -1,9 +1,9 @@
 """The skeleton of a corpus callosum whose midline is known, by uniform levels and by levels at equal distances."""
 
-from surfexp.skeleton.callosum import callosum
-from surfexp.skeleton.midline import midline_errors
 from surfexp.skeleton.polyline import trunk_contours
-from surfexp.skeleton.study import eigenmap_skeleton
+from surfexp.studies.callosum.callosum import callosum
+from surfexp.studies.callosum.midline import midline_errors
+from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
 
 patch = callosum(seed=0)
 for levels in ("uniform", "arc_length"):

@@ -1,8 +1,8 @@
 """The names of gyri carried from the left to the right hemisphere by ZoomOut, without pose."""
 
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.embedding.labels import desikan_killiany, label_accuracy
 from surfexp.embedding.surface_map import Pair, zoomout_map
-from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 

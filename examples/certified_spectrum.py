@@ -1,6 +1,6 @@
 """The 300 lowest Laplace-Beltrami eigenvalues of a sphere, with the proof that none is missing."""
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 

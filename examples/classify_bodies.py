@@ -1,11 +1,11 @@
 """Which kind of body is it? Spectra of poses against nodal counts, each pose judged by the other poses."""
 
-from surfexp.anatomy.articulated import articulated_body
 from surfexp.member import Member
 from surfexp.operators.fem import fem
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.statistics.classifiers import classify
 from surfexp.statistics.signature_distances import signature_distances
+from surfexp.studies.populations.articulated import articulated_body
 
 signatures = {}
 for body in ("biped", "quadruped", "worm"):

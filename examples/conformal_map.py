@@ -6,7 +6,7 @@ from surfexp.baselines.conformal_flow import conformal_flow
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import image_mesh
 from surfexp.baselines.spherical_map import spherical_map
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 for levels in (2, 3, 4):

@@ -1,7 +1,7 @@
 """Remove noise from a cube and keep its edges, by the total variation of its normals."""
 
-from surfexp.mesh.cube import cube
 from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.cube import cube
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.variational.normal_filtering import NormalFiltering, normal_deviation
 

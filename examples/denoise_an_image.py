@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 surface = torus(80, 40)
 clean = 255.0 * (np.sin(3 * surface.coordinates[:, 0]) > 0)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from surfexp.spectrum.drum_values import drum_values
-from surfexp.spectrum.isospectral_drums import RIGHT_ISOSCELES
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.drum_values import drum_values
+from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 found = drum_values(GORDON_WEBB_WOLPERT.first, RIGHT_ISOSCELES, 10, divisions=(16, 20, 28))
 print(" ".join(f"{value:.8f}" for value in found.values))

@@ -1,12 +1,12 @@
 """Three families of ellipsoids in the plane, by classical scaling of their spectra."""
 
 from surfexp.member import Member
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.spectrum.spectral_signature import spectral_signature
-from surfexp.statistics.embeddings import classical_scaling
+from surfexp.statistics.multidimensional_scaling import classical_scaling
 from surfexp.statistics.signature_distances import signature_distances
 
 ball, signatures = icosphere(3).mesh, {}

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from surfexp.mesh.spherical_cap import capped_sphere
+from surfexp.mesh.shapes.spherical_cap import capped_sphere
 from surfexp.operators.fem import fem
-from surfexp.variational.newton import newton
 from surfexp.variational.separable_quadratic import rof
+from surfexp.variational.solvers.newton import newton
 
 surface, mu = capped_sphere(1.0, rings=24), 12.0
 operator, angle = fem(surface.mesh), surface.coordinates[:, 0]

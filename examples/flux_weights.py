@@ -2,9 +2,9 @@
 
 from surfexp.operators.fem import fem
 from surfexp.skeleton.boundary_distance import boundary_distance
-from surfexp.skeleton.callosum import callosum
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
+from surfexp.studies.callosum.callosum import callosum
 
 mesh = callosum(seed=0).mesh
 outflow = flux(mesh, boundary_distance(mesh))

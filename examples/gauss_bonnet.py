@@ -3,7 +3,7 @@
 import igl
 import numpy as np
 
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.anatomy.fsaverage5 import fsaverage5
 
 cortex = fsaverage5("left", "white")
 curvature = igl.gaussian_curvature(cortex.mesh.vertices, np.array(cortex.mesh.faces))

@@ -1,9 +1,9 @@
 """Thinning against the Reeb graph of the eigenmap: branches of the one, a chain of the other, on a strip with jagged edges."""
 
+from surfexp.mesh.shapes.strip import strip
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
-from surfexp.skeleton.strip import strip
-from surfexp.skeleton.study import eigenmap_skeleton
+from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
 
 mesh = strip(jag=0.4).mesh
 thinned = hamilton_jacobi_skeleton(mesh, boundary_distance(mesh))

@@ -2,10 +2,10 @@
 
 from surfexp.operators.elements_surface import SurfaceElements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
 from surfexp.spectrum.nodal_domains import filtered_nodal_counts, nodal_thresholds
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 
 def listen(elements: SurfaceElements) -> None:

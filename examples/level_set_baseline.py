@@ -4,10 +4,10 @@ import numpy as np
 
 from surfexp.baselines.closest_point import closest_point
 from surfexp.baselines.energy_excess import energy_excess
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import convex_chan_vese
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 mesh = icosphere(4).mesh
 image = (mesh.vertices[:, 2] > 0.6) + np.random.default_rng(0).normal(0, 0.3, len(mesh.vertices))

@@ -4,7 +4,7 @@ import numpy as np
 
 from surfexp.figures.level_set import level_set
 from surfexp.figures.order_plot import convergence_order
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 
 meshes = [icosphere(levels).mesh for levels in range(2, 7)]
 lengths = np.array([level_set(mesh, mesh.vertices[:, 2], 0.3).length for mesh in meshes])

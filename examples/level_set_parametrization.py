@@ -1,7 +1,7 @@
 """A map over corpora callosa read off on one grid, u along the skeleton and v across, and tested at every point of it."""
 
-from surfexp.skeleton.callosum import callosum
-from surfexp.skeleton.patch_grid import compare_on_grid, region_found
+from surfexp.studies.callosum.callosum import callosum
+from surfexp.studies.skeletons.patch_grid import compare_on_grid, region_found
 
 raised = {f"raised {i}": callosum(seed=100 + i, edge_length=1.0, signal=4.0) for i in range(8)}
 plain = {f"plain {i}": callosum(seed=i, edge_length=1.0, signal=0.0) for i in range(8)}

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.repair import repair
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.validate import validate
 
 sphere = icosphere(3).mesh

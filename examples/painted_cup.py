@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from surfexp.mesh.cup import cup
-from surfexp.variational.painting import add_noise, paint
-from surfexp.variational.pictures import picture
+from surfexp.mesh.shapes.cup import cup
+from surfexp.variational.images.painting import add_noise, paint
+from surfexp.variational.images.pictures import picture
 
 surface = cup(4000)
 image = paint(surface, picture("cameraman"), "cylindrical")

@@ -1,6 +1,6 @@
 """Area of an ellipsoid from vertices alone: facets against cubic patches across the normals (PN triangles)."""
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
 from surfexp.operators.elements_patches import patch_positions

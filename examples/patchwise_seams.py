@@ -4,10 +4,10 @@ import numpy as np
 
 from surfexp.baselines.parameter_domain import Parametrized
 from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import rof
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 mesh = torus(96, 40).mesh
 image = np.sin(3 * mesh.vertices[:, 0]) + np.random.default_rng(0).normal(0, 0.3, len(mesh.vertices))

@@ -1,8 +1,8 @@
 """Which signs of twenty eigenfunctions bring two cortices together, and the proof that no others do better."""
 
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.mesh.fsaverage5 import fsaverage5
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 

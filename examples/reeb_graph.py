@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from surfexp.mesh.genus_surface import genus_surface
+from surfexp.mesh.shapes.genus_surface import genus_surface
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
-from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 
 mesh = genus_surface(genus=2, count=4000).mesh

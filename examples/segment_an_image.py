@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 mesh = icosphere(4).mesh
 cap = mesh.vertices[:, 2] > 0.4

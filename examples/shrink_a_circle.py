@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.surface_flows import geodesic_curvature_flow

@@ -3,10 +3,10 @@
 from pathlib import Path
 from tempfile import mkdtemp
 
-from surfexp.embedding.label_files import read_labels, write_labels
-from surfexp.embedding.sulcal_lines import sulcal_line
-from surfexp.embedding.sulcal_regions import sulcal_regions
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.anatomy.fsaverage5 import fsaverage5
+from surfexp.io.label_files import read_labels, write_labels
+from surfexp.studies.sulci.sulcal_lines import sulcal_line
+from surfexp.studies.sulci.sulcal_regions import sulcal_regions
 
 mesh = fsaverage5("left", "pial").mesh
 regions = sulcal_regions(mesh)

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
 from surfexp.figures.encode import encode_png
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.mesh.fsaverage5 import fsaverage5
 
 brain = fsaverage5("left", "pial")
 scale, border = ColorScale("mean curvature", "1/mm", "RdBu_r"), Contours(brain.scalars["sulc"])

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
 from surfexp.variational.image import Image
-from surfexp.variational.rof_model import ROF
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 mesh = icosphere(4).mesh
 clean = 255.0 * (np.sin(6 * mesh.vertices[:, 0]) * mesh.vertices[:, 2] > 0)

@@ -27,21 +27,21 @@ WELCH = "skeleton/test_width_test.py::test_welch_by_hand"
 GEOMETRY_FAULTS = (
     Fault(
         "signed ranks corrected with the p of t",
-        "embedding/paired_tests.py",
+        "statistics/paired_tests.py",
         "p_w, holm[1],",
         "p_w, holm[0],",
         (HOLM,),
     ),
     Fault(
         "interval of the effect over the root of n - 1",
-        "embedding/paired_tests.py",
+        "statistics/paired_tests.py",
         "/ np.sqrt(count)",
         "/ np.sqrt(count - 1)",
         (INTERVAL,),
     ),
     Fault(
         "Welch's variance over n",
-        "skeleton/width_test.py",
+        "studies/skeletons/positionwise_comparison.py",
         "second.var(axis=0, ddof=1)",
         "second.var(axis=0, ddof=0)",
         (WELCH,),
@@ -90,7 +90,7 @@ GEOMETRY_FAULTS = (
     ),
     Fault(
         "double centring with the other sign",
-        "statistics/embeddings.py",
+        "statistics/multidimensional_scaling.py",
         "eigh(-0.5 * centring",
         "eigh(0.5 * centring",
         (PLANE,),

@@ -10,8 +10,8 @@ import pytest
 from pydantic import ValidationError
 from pydantic_core import PydanticUndefined
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.writing import write_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.metric import find_metric
 from surfexp.report.declared import declared
 from surfexp.workflow import registry, stage, store

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.result_contract import check_result, documented_shapes

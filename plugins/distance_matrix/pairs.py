@@ -5,7 +5,13 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
+from surfexp.embedding.distance_methods import (
+    Pairing,
+    gap_metrics,
+    pairwise_distances,
+    triangle_metrics,
+    unproved_pairs,
+)
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.member import Member
 from surfexp.mesh.surface import Surface

@@ -4,7 +4,7 @@ from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.embeddings import (
+from surfexp.statistics.multidimensional_scaling import (
     classical_scaling,
     manifold_embedding,
     neighbour_embedding,

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
+from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.workflow.registry import Options, register
 
 

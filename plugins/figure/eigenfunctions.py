@@ -4,12 +4,12 @@ from dataclasses import replace
 
 from pydantic import Field
 
+from surfexp.figures.boundary_line import INSIDE, barycentric, without_rim
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.figures.rim import INSIDE, barycentric, without_rim
 from surfexp.figures.typography import INK, QUIET
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem

@@ -6,13 +6,14 @@ import numpy as np
 from matplotlib.colors import hsv_to_rgb
 from pydantic import Field
 
+from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.sulcal_regions import OUTSIDE, names_by_majority
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.studies.sulci.sulcal_regions import OUTSIDE, names_by_majority
 from surfexp.workflow.registry import Options, register
 
 # widest extent of each cortex and of the larger embedding in the figure

@@ -5,9 +5,9 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.arrays import Floats
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow.registry import Options, register
 

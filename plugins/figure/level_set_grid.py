@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.drawings.patch_grid_drawing import grid_panel
 from surfexp.figures.figure import Figure
 from surfexp.mesh.surface import Surface
-from surfexp.skeleton.grid_drawing import grid_panel
-from surfexp.skeleton.patch_grid import patch_grid
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.skeletons.patch_grid import patch_grid
 from surfexp.workflow.registry import Options, register
 
 

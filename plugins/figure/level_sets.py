@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.drawings.skeleton_drawing import SkeletonView, skeleton_panel
 from surfexp.figures.figure import Figure
 from surfexp.mesh.surface import Surface
-from surfexp.skeleton.drawing import SkeletonView, skeleton_panel
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.workflow.registry import Options, register

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
+from surfexp.arrays import Floats
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution

@@ -13,7 +13,7 @@ from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
-from surfexp.variational.initial_curves import disc_distance
+from surfexp.variational.images.initial_curves import disc_distance
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 

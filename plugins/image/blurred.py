@@ -7,7 +7,7 @@ from pydantic import Field
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.heat_blur import HeatBlur
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise
+from surfexp.variational.images.painting import add_noise
 from surfexp.workflow.registry import Options, register
 
 

@@ -6,7 +6,7 @@ from pydantic import Field
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.variational.image import Image
-from surfexp.variational.initial_curves import angular_distance
+from surfexp.variational.images.initial_curves import angular_distance
 from surfexp.workflow.registry import Options, register
 
 

@@ -4,8 +4,8 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise
-from surfexp.variational.two_phase import coloured_cells
+from surfexp.variational.images.painting import add_noise
+from surfexp.variational.images.two_phase import coloured_cells
 from surfexp.workflow.registry import Options, register
 
 

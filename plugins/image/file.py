@@ -4,10 +4,10 @@ from pathlib import Path
 
 from pydantic import Field
 
-from surfexp.mesh.reading import read_scalars
+from surfexp.io.reading import read_scalars
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise
+from surfexp.variational.images.painting import add_noise
 from surfexp.workflow.registry import Options, register
 
 

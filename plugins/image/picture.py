@@ -8,8 +8,8 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise, paint
-from surfexp.variational.pictures import picture, read_picture
+from surfexp.variational.images.painting import add_noise, paint
+from surfexp.variational.images.pictures import picture, read_picture
 from surfexp.workflow.registry import Options, register
 
 

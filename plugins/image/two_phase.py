@@ -6,9 +6,9 @@ from pydantic import Field
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.variational.image import Image
-from surfexp.variational.initial_curves import angular_distance
-from surfexp.variational.painting import add_noise
-from surfexp.variational.two_phase import two_phase
+from surfexp.variational.images.initial_curves import angular_distance
+from surfexp.variational.images.painting import add_noise
+from surfexp.variational.images.two_phase import two_phase
 from surfexp.workflow.registry import Options, register
 
 

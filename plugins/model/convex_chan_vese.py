@@ -4,10 +4,10 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.variational.accuracy import SEGMENTATION_METRICS
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
-from surfexp.variational.initial_curves import disc_distance
+from surfexp.variational.images.initial_curves import disc_distance
 from surfexp.variational.model import Model
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.truth_metrics import SEGMENTATION_METRICS
 from surfexp.workflow.registry import Options, register
 
 

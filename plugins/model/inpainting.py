@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
-from surfexp.variational.accuracy import RESTORATION_METRICS
-from surfexp.variational.inpainting_model import Inpainting
 from surfexp.variational.model import Model
+from surfexp.variational.models.inpainting import Inpainting
+from surfexp.variational.truth_metrics import RESTORATION_METRICS
 from surfexp.workflow.registry import Options, register
 
 

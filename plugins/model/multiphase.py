@@ -4,7 +4,7 @@ from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.variational.model import Model
-from surfexp.variational.multiphase_model import MultiphaseSegmentation
+from surfexp.variational.models.multiphase import MultiphaseSegmentation
 from surfexp.workflow.registry import Options, register
 
 

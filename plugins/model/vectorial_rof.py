@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.variational.accuracy import RESTORATION_METRICS
 from surfexp.variational.model import Model
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.truth_metrics import RESTORATION_METRICS
 from surfexp.workflow.registry import Options, register
 
 

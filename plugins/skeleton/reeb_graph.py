@@ -8,11 +8,11 @@ from pydantic import Field
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.skeleton.feature import Feature
-from surfexp.skeleton.lengths import skeleton_lengths
-from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.skeleton.skeleton_length import skeleton_lengths
 from surfexp.workflow.registry import Options, register
 
 

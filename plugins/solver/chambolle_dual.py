@@ -6,11 +6,11 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.chambolle_dual import chambolle_dual
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
-from surfexp.variational.published_chambolle import published_chambolle
+from surfexp.variational.published.chambolle import published_chambolle
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.chambolle_dual import chambolle_dual
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

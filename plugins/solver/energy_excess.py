@@ -8,12 +8,12 @@ from pydantic import Field
 from surfexp.baselines.energy_excess import energy_excess
 from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.rof import ROF
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

@@ -6,10 +6,10 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
 from surfexp.operators.fem import fem
-from surfexp.variational.accuracy import restoration_metrics
 from surfexp.variational.image import Image
 from surfexp.variational.normal_filtering import normal_deviation
 from surfexp.variational.solution import Solution
+from surfexp.variational.truth_metrics import restoration_metrics
 from surfexp.workflow.registry import Options, register
 
 

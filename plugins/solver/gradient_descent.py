@@ -5,10 +5,10 @@ from functools import partial
 from pydantic import Field
 
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.gradient_descent import gradient_descent
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.gradient_descent import gradient_descent
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

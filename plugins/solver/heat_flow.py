@@ -7,10 +7,10 @@ from pydantic import Field
 from surfexp.metric import Metric
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.accuracy import RESTORATION_METRICS, restoration_metrics
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.variational.surface_flows import heat_flow
+from surfexp.variational.truth_metrics import RESTORATION_METRICS, restoration_metrics
 from surfexp.workflow.registry import Options, register
 
 

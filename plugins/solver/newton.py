@@ -7,8 +7,8 @@ from pydantic import Field
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
-from surfexp.variational.newton import newton
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.newton import newton
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

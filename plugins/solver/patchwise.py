@@ -12,8 +12,8 @@ from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

@@ -7,10 +7,10 @@ from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.accuracy import SEGMENTATION_METRICS, segmentation_metrics
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
+from surfexp.variational.truth_metrics import SEGMENTATION_METRICS, segmentation_metrics
 from surfexp.workflow.registry import Options, register
 
 

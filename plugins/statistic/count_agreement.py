@@ -4,8 +4,8 @@ from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
-from surfexp.statistics.count_agreement import count_agreement, largest_change
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.count_agreement import count_agreement, largest_change
 from surfexp.workflow.registry import Options, register
 
 

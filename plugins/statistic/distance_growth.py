@@ -6,9 +6,9 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
-from surfexp.embedding.distance_growth import distance_brackets, logarithmic_slope, squared_norms
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
 from surfexp.workflow.registry import Options, register
 
 

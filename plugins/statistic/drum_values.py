@@ -4,11 +4,11 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.metric import Metric
-from surfexp.spectrum.drum_values import drum_values
-from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
-from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.drums.drum_values import drum_values
+from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
+from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 from surfexp.workflow.registry import Options, register
 
 # modes 9 and 21 are those of the tile itself, reflected: 5 pi^2 / 4 and twice that

@@ -9,8 +9,8 @@ from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
-from surfexp.skeleton.levels import choose_levels
-from surfexp.skeleton.printed_rule import printed_loops
+from surfexp.skeleton.level_selection import choose_levels
+from surfexp.skeleton.published_reeb_graph import printed_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import arc_components
 from surfexp.statistics.statistic import Statistic

@@ -3,8 +3,8 @@
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.heat_expansion import heat_expansion
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.heat_expansion import heat_expansion
 from surfexp.workflow.registry import Options, register
 
 

@@ -5,9 +5,9 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.skeleton.patch_grid import compare_on_grid, region_found
-from surfexp.skeleton.width_test import false_positive_share
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.skeletons.patch_grid import compare_on_grid, region_found
+from surfexp.studies.skeletons.positionwise_comparison import false_positive_share
 from surfexp.workflow.registry import Options, register
 
 

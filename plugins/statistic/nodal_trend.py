@@ -6,8 +6,8 @@ from pydantic import Field
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
-from surfexp.statistics.nodal_trend import nodal_trend
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.nodal_trend import nodal_trend
 from surfexp.workflow.registry import Options, register
 
 

@@ -7,8 +7,8 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.skeleton.study import compactness, group_skeletons, miss_metrics, topology_metrics
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.skeletons.skeleton_study import compactness, group_skeletons, miss_metrics, topology_metrics
 from surfexp.workflow.registry import Options, register
 
 

@@ -6,8 +6,8 @@ from pydantic import Field
 from surfexp.metric import Metric
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.skeleton.study import topology_metrics
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.skeletons.skeleton_study import topology_metrics
 from surfexp.workflow.registry import Options, register
 
 

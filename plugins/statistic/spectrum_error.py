@@ -8,8 +8,8 @@ from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.spectrum_error import convergence_orders, spectrum_error
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
 from surfexp.workflow.registry import Options, register
 
 

@@ -3,15 +3,15 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.length_table import length_columns
-from surfexp.embedding.population import Side
-from surfexp.embedding.population_study import SIDES
-from surfexp.embedding.sulcal_measurement import DEFAULT, TRUE, measure_sulci
-from surfexp.embedding.sulcal_template import make_template
 from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.sulci.length_table import length_columns
+from surfexp.studies.sulci.population import Side
+from surfexp.studies.sulci.population_study import SIDES
+from surfexp.studies.sulci.sulcal_measurement import DEFAULT, TRUE, measure_sulci
+from surfexp.studies.sulci.sulcal_template import make_template
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

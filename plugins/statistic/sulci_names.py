@@ -3,12 +3,12 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.population import synthetic_subject
-from surfexp.embedding.population_study import name_regions
-from surfexp.embedding.sulcal_template import make_template
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.sulci.population import synthetic_subject
+from surfexp.studies.sulci.population_study import name_regions
+from surfexp.studies.sulci.sulcal_template import make_template
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

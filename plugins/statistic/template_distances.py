@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.population import synthetic_subject
-from surfexp.embedding.population_study import SIDES
-from surfexp.embedding.template_distances import template_distances
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.distances.template_distances import template_distances
+from surfexp.studies.sulci.population import synthetic_subject
+from surfexp.studies.sulci.population_study import SIDES
 from surfexp.workflow.registry import Options, register
 from surfexp.workflow.stage import report_progress
 

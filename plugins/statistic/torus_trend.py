@@ -4,8 +4,8 @@ from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.spectrum.torus_modes import torus_modes
-from surfexp.statistics.nodal_trend import nodal_trend
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.nodal_trend import nodal_trend
 from surfexp.workflow.registry import Options, register
 
 

@@ -5,9 +5,9 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.skeleton.study import group_skeletons
-from surfexp.skeleton.width_test import false_positive_share, pointwise_test, widths_along
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
+from surfexp.studies.skeletons.skeleton_study import group_skeletons
 from surfexp.workflow.registry import Options, register
 
 

@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.anatomy.articulated import articulated_body
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
+from surfexp.studies.populations.articulated import articulated_body
 from surfexp.workflow.registry import Options, register
 
 

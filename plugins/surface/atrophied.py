@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
-from surfexp.anatomy.atrophy import with_atrophy
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
+from surfexp.studies.populations.atrophy import with_atrophy
 from surfexp.workflow.registry import Options, register
 
 

@@ -4,7 +4,7 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.skeleton.callosum import callosum
+from surfexp.studies.callosum.callosum import callosum
 from surfexp.workflow.registry import Options, register
 
 

@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.mesh.surface import Surface
-from surfexp.skeleton.cingulate import cingulate
+from surfexp.studies.cingulate.average_cingulate import cingulate
 from surfexp.workflow.registry import Options, register
 
 

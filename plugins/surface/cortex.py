@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.mesh.cortex import cortex
+from surfexp.mesh.shapes.cortex import cortex
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.cube import cube
+from surfexp.mesh.shapes.cube import cube
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

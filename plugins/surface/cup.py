@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.cup import cup
+from surfexp.mesh.shapes.cup import cup
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

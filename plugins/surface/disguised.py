@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
-from surfexp.embedding.disguise import disguise
 from surfexp.mesh.surface import Surface
+from surfexp.studies.populations.disguise import disguise
 from surfexp.workflow.registry import Options, register
 
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.disk import disk
+from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
-from surfexp.skeleton.donor_cingulate import donor_cingulate
+from surfexp.studies.cingulate.donor_cingulate import donor_cingulate
 from surfexp.workflow.registry import Options, register
 
 

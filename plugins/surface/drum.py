@@ -10,9 +10,9 @@ from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.smooth_shape import Polygon
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
-from surfexp.spectrum.isospectral_drums import glued_drum, tile_mesh
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
+from surfexp.studies.drums.isospectral_drums import glued_drum, tile_mesh
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 from surfexp.workflow.registry import Options, register
 
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -5,9 +5,9 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
-from surfexp.mesh.reading import read_mesh
+from surfexp.io.reading import read_mesh
+from surfexp.io.tosca import shape_files
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.tosca import shape_files
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import require_valid
 from surfexp.workflow.registry import Options, register

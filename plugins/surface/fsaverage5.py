@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.genus_surface import half_double_torus
+from surfexp.mesh.shapes.genus_surface import half_double_torus
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.hand import hand
+from surfexp.mesh.shapes.hand import hand
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -6,9 +6,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.embedding.label_files import read_labels
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.embedding.labels import desikan_killiany
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.io.label_files import read_labels
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from surfexp.mesh.point_cloud import read_points, reconstruct
+from surfexp.io.point_cloud import read_points, reconstruct
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.workflow.registry import Options, register
 

@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.embedding.counterexamples import clover, named_revolution
 from surfexp.mesh.surface import Surface
+from surfexp.studies.distances.counterexamples import clover, named_revolution
 from surfexp.workflow.registry import Options, register
 
 

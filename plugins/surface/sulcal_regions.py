@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.sulcal_regions import sulcal_regions
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
+from surfexp.studies.sulci.sulcal_regions import sulcal_regions
 from surfexp.workflow.registry import Options, register
 
 

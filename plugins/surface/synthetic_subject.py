@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.embedding.population import synthetic_subject
 from surfexp.mesh.surface import Surface
+from surfexp.studies.sulci.population import synthetic_subject
 from surfexp.workflow.registry import Options, register
 
 

@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.workflow.registry import Options, register
 
 

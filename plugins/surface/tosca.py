@@ -5,11 +5,11 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
-from surfexp.mesh.reading import read_mesh
+from surfexp.io.reading import read_mesh
+from surfexp.io.tosca import read_mat, shape_files
 from surfexp.mesh.repair import repair
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.tosca import read_mat, shape_files
 from surfexp.metric import Metric
 from surfexp.workflow.registry import Options, register
 

@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
+from surfexp.mesh.shapes.strip import y_patch
 from surfexp.mesh.surface import Surface
-from surfexp.skeleton.strip import y_patch
 from surfexp.workflow.registry import Options, register
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 DONORS = ("9861", "10021", "12876", "14380", "15496", "15697")
 STRUCTURES = ("caudate", "putamen", "hippocampus", "thalamus", "amygdala", "pallidum", "accumbens")

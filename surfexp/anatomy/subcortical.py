@@ -7,10 +7,11 @@ from numpy.typing import NDArray
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume, label_of, label_volume
+from surfexp.arrays import Floats
 from surfexp.mesh.remeshing import remesh
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 MARGIN = 6
 LEVEL = 0.5

@@ -7,7 +7,8 @@ from typing import Literal
 import igl
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 def disk_map(mesh: TriangleMesh, boundary: Literal["free", "circle"] = "free") -> Floats:

@@ -12,7 +12,8 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Indices = NDArray[np.int32]
 LARGEST_GRID = 10**9

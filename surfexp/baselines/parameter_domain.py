@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse import csr_array, eye_array
 
-from surfexp.baselines.transport import transported
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.arrays import Floats
+from surfexp.baselines.data_term_transfer import transported
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator

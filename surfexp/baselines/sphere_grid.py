@@ -6,8 +6,9 @@ import igl
 import numpy as np
 from scipy.sparse import csr_array
 
+from surfexp.arrays import Floats, Integers
 from surfexp.baselines.parameter_domain import ParameterDomain, image_mesh, reweighted
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 
 

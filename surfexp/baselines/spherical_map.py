@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
+from surfexp.arrays import Floats
 from surfexp.baselines.moebius import centred
 from surfexp.linalg.factorisation import factorise
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
 

@@ -36,8 +36,8 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def _export(plan: Plan, node: Node, results: Path, folder: Path, suffix: str) -> list[Path]:
-    from surfexp.embedding.length_table import KEYS
-    from surfexp.embedding.sulcal_export import write_length_table
+    from surfexp.studies.sulci.length_table import KEYS
+    from surfexp.studies.sulci.sulcal_export import write_length_table
 
     statistic = _result(results, node, plan)
     folder.mkdir(parents=True, exist_ok=True)
@@ -55,9 +55,9 @@ def _export(plan: Plan, node: Node, results: Path, folder: Path, suffix: str) ->
 
 
 def _sulci(plan: Plan, node: Node, results: Path, folder: Path) -> list[Path]:
-    from surfexp.embedding.sulcal_export import export_sulci
-    from surfexp.embedding.sulcal_measurement import name_sulci
-    from surfexp.embedding.sulcal_template import make_template
+    from surfexp.studies.sulci.sulcal_export import export_sulci
+    from surfexp.studies.sulci.sulcal_measurement import name_sulci
+    from surfexp.studies.sulci.sulcal_template import make_template
 
     template, surfaces = node.inputs["template"], node.inputs["surfaces"]
     assert isinstance(template, str) and isinstance(surfaces, dict)

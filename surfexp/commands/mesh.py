@@ -18,10 +18,10 @@ def command(name: str, arguments: list[str]) -> int:
     )
     parser.add_argument("--largest-component", action="store_true", help="keep the largest component only")
     given = parser.parse_args(arguments)
-    from surfexp.mesh.reading import read_mesh
+    from surfexp.io.reading import read_mesh
+    from surfexp.io.writing import write_mesh
     from surfexp.mesh.repair import repair
     from surfexp.mesh.validate import validate
-    from surfexp.mesh.writing import write_mesh
 
     try:
         vertices, faces, _ = read_mesh(given.file)

@@ -13,7 +13,7 @@ def command(name: str, arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
     parser.add_argument("file", type=Path)
     given = parser.parse_args(arguments)
-    from surfexp.mesh.reading import read_mesh
+    from surfexp.io.reading import read_mesh
 
     try:
         vertices, faces, _ = read_mesh(given.file)

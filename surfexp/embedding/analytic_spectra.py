@@ -6,9 +6,9 @@ import numpy as np
 from scipy.linalg import eigh_tridiagonal
 from scipy.special import sph_harm_y
 
+from surfexp.arrays import Floats
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
 
 
 def _embedding(values: Floats, functions: Floats, weights: Floats, n: int, weighting: Weighting) -> SpectralEmbedding:

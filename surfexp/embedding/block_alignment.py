@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import Blocks
 from surfexp.embedding.functional_map import orthogonal_map, vertex_map
 from surfexp.embedding.nearest import mutual_distances
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
-from surfexp.mesh.triangle_mesh import Floats
 
 STAGE_ITERATIONS, LAST_ITERATIONS = 10, 40
 

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 from surfexp.metric import Metric
 
 

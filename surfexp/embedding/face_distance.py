@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.arrays import Floats, Integers
 from surfexp.embedding.mean_hausdorff import Summary, summarised
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 def distance_to_faces(points: Floats, vertices: Floats, faces: Integers) -> Floats:

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfexp.arrays import Floats, Integers
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 def nearest_orthogonal(matrix: Floats) -> Floats:

@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.mesh.gifti import read_gifti_arrays
+from surfexp.arrays import Floats, Integers
+from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 def desikan_killiany(hemisphere: Literal["left", "right"]) -> Integers:

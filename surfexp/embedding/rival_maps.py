@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.embedding.functional_map import functional_map, vertex_map
 from surfexp.embedding.mean_hausdorff import HausdorffObjective
 from surfexp.embedding.sign_search import Signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.eigensystem import EigenSystem
 
 KEPT, SEARCH_SAMPLES = 10, 300

@@ -6,12 +6,12 @@ from typing import Literal
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Signs, SignSearch, greedy_signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
-from surfexp.mesh.triangle_mesh import Floats
 
 Reading = Literal["inf_of_max", "max_of_inf"]
 READINGS: dict[str, tuple[Direction, ...]] = {"inf_of_max": ("both",), "max_of_inf": ("forward", "backward")}

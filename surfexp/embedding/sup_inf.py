@@ -6,11 +6,11 @@ from itertools import product
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.embedding.eigenvalue_blocks import Blocks
 from surfexp.embedding.mean_hausdorff import Summary
 from surfexp.embedding.nearest import mutual_distances
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
-from surfexp.mesh.triangle_mesh import Floats
 
 
 def block_group(blocks: Blocks, angles: int = 24, seed: int = 0, limit: int = 20_000) -> list[Floats]:

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from surfexp.arrays import Floats, Integers
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.functional_map import spectral_icp, vertex_map
 from surfexp.embedding.labels import map_metrics
@@ -16,7 +17,6 @@ from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.heat_kernel import heat_kernel_signature
 from surfexp.spectrum.pointwise_signatures import wave_kernel_signature

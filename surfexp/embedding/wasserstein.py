@@ -7,11 +7,11 @@ from typing import Literal
 import numpy as np
 from scipy.spatial.distance import cdist
 
+from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import Signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
-from surfexp.mesh.triangle_mesh import Floats
 
 Transport = Literal["exact", "sinkhorn"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import block_diag
 
+from surfexp.arrays import Floats, Integers
 from surfexp.embedding.functional_map import functional_map, vertex_map
-from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
 
 

@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.optimize import isotonic_regression
 
+from surfexp.arrays import Floats
 from surfexp.figures.typography import points
-from surfexp.mesh.triangle_mesh import Floats
 
 # Okabe and Ito (2008) without the yellow, which is too light for lines; told apart in every common colour blindness
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")

@@ -11,11 +11,11 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
+from surfexp.arrays import Floats
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.panel_layout import Grid, Layout
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import QUIET, points
-from surfexp.mesh.triangle_mesh import Floats
 
 # longest bar as a share of the panel's width; the rest in multiples of the text's size
 LONGEST, THICKNESS, DISTANCE, OUTLINE, TICK_FONT = 0.26, 0.75, 0.22, 0.045, 0.92

@@ -8,7 +8,7 @@ from difflib import get_close_matches
 import matplotlib
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 # matplotlib's diverging maps: their middle means zero
 DIVERGING = frozenset(

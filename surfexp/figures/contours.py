@@ -8,10 +8,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from surfexp.arrays import Floats
 from surfexp.figures.camera import Camera
 from surfexp.figures.level_set import level_set
 from surfexp.figures.rasterizer import Raster
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 RED = "#d7191c"
 # slopes of the surface against the screen between which a line is taken to lie on the surface behind it

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from surfexp.arrays import Floats
 from surfexp.figures.axes import COLORS, FONT, add_axes
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import QUIET, canvas, drawn, points
-from surfexp.mesh.triangle_mesh import Floats
 
 ROW = 2.2
 

@@ -7,7 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from surfexp.arrays import Floats, Integers
 from surfexp.figures.camera import Camera
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # inclusive edges: a pixel centre on a shared edge may round to either side, and must not fall between both faces
 EDGE_TOLERANCE = -1e-9

@@ -9,13 +9,14 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
+from surfexp.arrays import Floats
 from surfexp.figures.ambient_occlusion import ambient_occlusion
 from surfexp.figures.camera import Camera, View, fit_camera
 from surfexp.figures.colormap import MISSING, ColorScale
 from surfexp.figures.contours import RED, Contours, contour_coverage
 from surfexp.figures.rasterizer import rasterize
 from surfexp.figures.shading import shade, to_display, to_linear
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Pixels = NDArray[np.uint8]
 

@@ -8,9 +8,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from surfexp.arrays import Floats, Integers
 from surfexp.figures.camera import Camera
 from surfexp.figures.rasterizer import Raster
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # unit directions to the lights in camera coordinates (right, up, toward the eye) and their strengths
 KEY, KEY_STRENGTH = (-0.450, 0.620, 0.643), 0.66

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh, solve_triangular
 
+from surfexp.arrays import Floats
 from surfexp.linalg.block_products import gram, multiply_right, subtract_product, subtract_two
-from surfexp.mesh.triangle_mesh import Floats
 
 BLOCK = 8
 ROWS_AT_ONCE = 4096

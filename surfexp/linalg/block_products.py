@@ -6,8 +6,8 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_array
 
+from surfexp.arrays import Floats, Integers
 from surfexp.linalg.lanes import LANES, load, minus_product, plus_product, store, zero
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 def multiply_lanes(matrix: csr_array, block: Floats, result: Floats | None = None) -> Floats:

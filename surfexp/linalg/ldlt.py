@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, sparray
 
+from surfexp.arrays import Floats
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve import solve_lanes
 from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
-from surfexp.mesh.triangle_mesh import Floats
 
 SMALLEST_PIVOT = 1e-14
 

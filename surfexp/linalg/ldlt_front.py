@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.arrays import Floats
 from surfexp.linalg.lanes import LANES, load, load_part, minus_product, store, store_part
-from surfexp.mesh.triangle_mesh import Floats
 
 COLUMNS_AT_ONCE = 32
 ROWS_AT_ONCE = 96

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.arrays import Floats, Integers
 from surfexp.linalg.ldlt_front import eliminate_front, padded
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 @njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from surfexp.arrays import Integers
 from surfexp.linalg.ldlt_bisection import SEPARATOR
-from surfexp.mesh.triangle_mesh import Integers
 
 HEAVIEST = 0.6
 PASSES = 6

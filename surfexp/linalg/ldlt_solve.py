@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from numba import njit
 
+from surfexp.arrays import Floats, Integers
 from surfexp.linalg.lanes import load, minus_product, quotient, store
-from surfexp.mesh.triangle_mesh import Floats, Integers
 
 
 @njit(cache=True, nogil=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 
 
 @njit(cache=True, nogil=True, fastmath={"contract", "reassoc"})

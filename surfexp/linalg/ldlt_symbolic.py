@@ -8,8 +8,8 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_array, sparray
 
+from surfexp.arrays import Integers
 from surfexp.linalg.ldlt_ordering import nested_dissection
-from surfexp.mesh.triangle_mesh import Integers
 
 
 @dataclass(frozen=True, eq=False)

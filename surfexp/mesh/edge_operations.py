@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 from surfexp.mesh.vertex_star import (
     Vector,
     across,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 
 def read_npy(path: Path) -> Floats:

@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
+from surfexp.arrays import Floats, Integers
 from surfexp.mesh.edge_operations import collapse_edges, flip_edges, split_edges
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import boundary_edges
 
 Implicit = Callable[[Floats], Floats]

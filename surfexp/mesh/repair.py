@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from surfexp.arrays import Integers
 from surfexp.mesh.face_repair import drop_bad_faces, drop_faces_at_crowded_edges, flip_zero_area_faces
 from surfexp.mesh.orientation import (
     corner_fans,
@@ -15,7 +16,7 @@ from surfexp.mesh.orientation import (
     inside_out_components,
     turn_over,
 )
-from surfexp.mesh.triangle_mesh import Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
 
 SHIFT = 1e-3

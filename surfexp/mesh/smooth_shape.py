@@ -7,9 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
 from surfexp.mesh.flat_domain import boundary_angles, is_flat
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 TOLERANCE = 1e-9
 Vector = tuple[float, float, float]

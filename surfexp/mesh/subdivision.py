@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.arrays import Floats
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 def subdivide(mesh: TriangleMesh, project: Callable[[Floats], Floats] | None = None, levels: int = 1) -> TriangleMesh:

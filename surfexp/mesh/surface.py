@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from surfexp.arrays import Floats, Integers
 from surfexp.mesh.smooth_shape import SmoothShape
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
 
 

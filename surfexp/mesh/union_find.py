@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Integers
+from surfexp.arrays import Integers
 
 
 @njit(cache=True, nogil=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.mesh.triangle_mesh import Integers
+from surfexp.arrays import Integers
 
 Indices = NDArray[np.int32]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 
 
 @njit(cache=True, nogil=True)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.arrays import Floats
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.edge_flips import flip_to_delaunay, triangle_areas, twin_sides
 from surfexp.operators.fem import check_mesh
 from surfexp.operators.surface_operator import SurfaceOperator

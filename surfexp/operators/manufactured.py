@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import diags_array
 
+from surfexp.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.mesh.smooth_shape import UP, Sphere, Torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.calculus import divergence, gradient
 from surfexp.operators.surface_operator import SurfaceOperator

@@ -6,7 +6,8 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import boundary_edges
 from surfexp.skeleton.fast_marching import fast_marching
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import vertex_stars
 from surfexp.skeleton.adjacency import Flags, opposite_sides, pinched_vertices
 from surfexp.skeleton.feature import checked_feature

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

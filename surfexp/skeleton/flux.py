@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import gradient
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, Integers, TriangleMesh
+from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.contour_geometry import representatives
+from surfexp.skeleton.contour_junctions import hub_nodes
 from surfexp.skeleton.hidden_handles import hidden_handles
-from surfexp.skeleton.hubs import hub_nodes
+from surfexp.skeleton.interlevel_components import Slabs, slab_components
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.skeleton import CONTOUR, Skeleton, graph_metrics
-from surfexp.skeleton.slabs import Slabs, slab_components
 
 
 def reeb_graph(mesh: TriangleMesh, values: Floats, levels: Floats, name: str = "surface") -> Skeleton:

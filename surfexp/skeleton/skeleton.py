@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.mesh.triangle_mesh import Floats, Integers
+from surfexp.arrays import Floats, Integers
 from surfexp.metric import Metric
 
 if TYPE_CHECKING:

@@ -9,14 +9,15 @@ from typing import Literal
 import numpy as np
 from scipy.special import sph_harm_y
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
+from surfexp.arrays import Floats
+from surfexp.mesh.exact_spectra import rectangle_spectrum, sphere_spectrum
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.subdivision import subdivide
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_lagrange import triangle_quadrature
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.mesh.exact_spectra import rectangle_spectrum, sphere_spectrum
 
 Shape = Literal["rectangle", "sphere"]
 WIDTH, HEIGHT = 1.5, 1.0

@@ -8,9 +8,9 @@ from typing import ClassVar
 import numpy as np
 from scipy.sparse import csr_array
 
+from surfexp.arrays import Floats, Integers
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
-from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.metric import Metric
 
 SMALLEST_GAP = 1e-6

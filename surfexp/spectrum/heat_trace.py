@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 Condition = Literal["closed", "dirichlet", "neumann"]
 SIGNS = {"closed": 0.0, "dirichlet": -1.0, "neumann": 1.0}

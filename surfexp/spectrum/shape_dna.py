@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 Normalisation = Literal["raw", "area", "volume", "first", "slope"]
 NORMALISATIONS = ("raw", "area", "volume", "first", "slope")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
+from surfexp.arrays import Floats
 from surfexp.linalg.block_products import multiply_lanes
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt import LDLT
 from surfexp.linalg.ldlt_symbolic import analyse, permuted
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.eigensolver_error import EigensolverError
 
 # a shift that solves worse than this lies on an eigenvalue, and another nearby is taken where there is one

@@ -9,9 +9,9 @@ from scipy.linalg import eigh
 from scipy.sparse import sparray
 from threadpoolctl import threadpool_limits
 
+from surfexp.arrays import Floats
 from surfexp.linalg.block_lanczos import BLOCK
 from surfexp.linalg.ldlt import LDLT
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.counting_function import guess_eigenvalue
 from surfexp.spectrum.eigensystem import EigenSystem, Measurement, mean_spacing, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil

@@ -6,8 +6,8 @@ from typing import Literal
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from surfexp.arrays import Floats
 from surfexp.linalg.block_lanczos import BLOCK, BlockLanczos
 from surfexp.linalg.ldlt import LDLT
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.spectrum.eigensystem import SMALLEST_GAP
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 

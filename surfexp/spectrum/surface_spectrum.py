@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfexp.arrays import Floats, Integers
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import Floats, Integers
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
 from surfexp.operators.elements_patches import patch_positions
 from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements, assemble_elements, surface_elements

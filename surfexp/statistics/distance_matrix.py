@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 from surfexp.metric import Metric
 
 

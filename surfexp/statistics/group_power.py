@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Integers
+from surfexp.arrays import Integers
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.permutation_test import p_value
+from surfexp.statistics.energy_distance_test import p_value
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic
 

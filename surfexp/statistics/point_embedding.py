@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 from surfexp.metric import Metric
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Integers
+from surfexp.arrays import Integers
 
 BOOTSTRAPS = 2000
 CENTRAL = (2.5, 97.5)

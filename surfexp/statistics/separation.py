@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats
+from surfexp.arrays import Floats
 
 
 def separation(distances: Floats, classes: Sequence[str]) -> dict[str, float]:

@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.arrays import Floats
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 def level_line_length(mesh: TriangleMesh, values: Floats, level: float) -> float:

@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
+from surfexp.arrays import Floats
 from surfexp.linalg.factorisation import Factorisation, factorise
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import diags_array
 
+from surfexp.arrays import Floats
 from surfexp.linalg.factorisation import factorise
-from surfexp.mesh.triangle_mesh import Floats
 from surfexp.operators.assembly import assemble, stiffness
 from surfexp.operators.calculus import gradient
 from surfexp.operators.surface_operator import SurfaceOperator

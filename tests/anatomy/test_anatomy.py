@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.anatomy.articulated import BODIES, articulated_body, carried_body, posed_bones
-from surfexp.anatomy.atrophy import with_atrophy
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import DONORS, LabelVolume, label_of
 from surfexp.anatomy.subcortical import largest_piece, subcortical_surface, surface_of_label
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
+from surfexp.studies.populations.articulated import BODIES, articulated_body, carried_body, posed_bones
+from surfexp.studies.populations.atrophy import with_atrophy
 
 
 def ball(radius: float = 12.0, size: int = 40) -> LabelVolume:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from surfexp.baselines.band_energy import WEIGHTED_RADIUS, BandEnergy
 from surfexp.baselines.narrow_band import narrow_band
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.variational.separable_quadratic import convex_chan_vese, rof
 
 FINE = icosphere(5).mesh

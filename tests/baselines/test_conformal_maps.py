@@ -11,9 +11,9 @@ from surfexp.baselines.distortion import corner_angles, distortion, length_scale
 from surfexp.baselines.moebius import centre_of_mass
 from surfexp.baselines.parameter_domain import image_mesh
 from surfexp.baselines.spherical_map import spherical_map
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 ORIGIN = np.zeros(3)

@@ -7,7 +7,7 @@ import pytest
 
 from surfexp.baselines.grid_interpolation import grid_interpolation
 from surfexp.baselines.narrow_band import interpolation_radius, narrow_band
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 
 MESH = icosphere(2).mesh
 

@@ -12,12 +12,12 @@ from surfexp.baselines.energy_excess import energy_excess
 from surfexp.baselines.grid_interpolation import GridInterpolation
 from surfexp.baselines.level_set import LevelSet, level_set
 from surfexp.baselines.level_set_chan_vese import LevelSetChanVese
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
-from surfexp.variational.primal_dual import primal_dual
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
 from surfexp.variational.separable_quadratic import convex_chan_vese, rof
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 MESH = icosphere(4).mesh
 OPERATOR = fem(MESH)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.moebius import centre_of_mass, centred, invert
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 MESH = icosphere(3).mesh

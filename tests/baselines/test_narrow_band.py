@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from surfexp.baselines.narrow_band import grid_step, interpolation_radius, narrow_band
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 
 
 def distance_to_triangles(points, mesh):

@@ -18,15 +18,15 @@ from surfexp.baselines.parameter_domain import (
 from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error, seam_vertices
 from surfexp.baselines.sphere_grid import grid_separation, longitude_latitude_mesh, sphere_grid_domain
 from surfexp.baselines.spherical_map import spherical_map
-from surfexp.mesh.cup import cup
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.cup import cup
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import convex_chan_vese, rof
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 
 def ellipsoid(levels):

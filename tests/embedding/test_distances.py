@@ -10,19 +10,19 @@ from embedded_clouds import cloud
 from scipy.spatial.distance import cdist
 
 from surfexp.embedding.block_alignment import block_distance
-from surfexp.embedding.disguise import disguise
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks, size_at_gap
 from surfexp.embedding.nearest import mutual_distances, nearest
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.wasserstein import transport_cost, wasserstein_distance
-from surfexp.mesh.ellipsoid import ellipsoid
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.populations.disguise import disguise
 
 
 def embed(surface: Surface, n: int) -> SpectralEmbedding:

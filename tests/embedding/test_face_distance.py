@@ -8,16 +8,16 @@ import pytest
 from embedded_clouds import cloud
 from scipy.optimize import nnls
 
-from surfexp.embedding.disguise import disguise
 from surfexp.embedding.face_distance import distance_on_faces, distance_to_faces
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.mesh.ellipsoid import ellipsoid
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.populations.disguise import disguise
 
 
 def by_programme(point: np.ndarray, corners: np.ndarray) -> float:

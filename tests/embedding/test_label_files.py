@@ -8,11 +8,11 @@ import nibabel
 import numpy as np
 import pytest
 
-from surfexp.embedding.label_files import label_colors, read_labels, write_labels
-from surfexp.embedding.sulcal_export import export_sulci, sulcus_names, write_length_table
-from surfexp.embedding.sulcal_measurement import NamedSulci
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.vtk import write_vtk
+from surfexp.io.label_files import label_colors, read_labels, write_labels
+from surfexp.io.vtk import write_vtk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.studies.sulci.sulcal_export import export_sulci, sulcus_names, write_length_table
+from surfexp.studies.sulci.sulcal_measurement import NamedSulci
 
 NAMES = ("unknown", "central", "calcarine", "superior temporal")
 

@@ -7,21 +7,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surfexp.embedding.disguise import disguise
 from surfexp.embedding.functional_map import functional_map, nearest_orthogonal, spectral_icp
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
 from surfexp.embedding.labels import desikan_killiany, label_accuracy, map_metrics
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.surface_map import Pair, contested, embedding_map, icp_map, vertex_index_map, zoomout_map
-from surfexp.embedding.template_distances import embedded, template_distances
 from surfexp.embedding.zoomout import refine_with_field, zoomout
-from surfexp.mesh.ellipsoid import ellipsoid
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.distances.template_distances import embedded, template_distances
+from surfexp.studies.populations.disguise import disguise
 
 
 def system_of(surface: Surface, k: int = 31):

@@ -9,15 +9,21 @@ import pytest
 from scipy.spatial.distance import cdist
 
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
-from surfexp.embedding.counterexamples import clover, named_revolution
-from surfexp.embedding.distance_growth import distance_brackets, logarithmic_slope, squared_norms
-from surfexp.embedding.pairwise import Pairing, gap_metrics, pairwise_distances, triangle_metrics, unproved_pairs
+from surfexp.embedding.distance_methods import (
+    Pairing,
+    gap_metrics,
+    pairwise_distances,
+    triangle_metrics,
+    unproved_pairs,
+)
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.sup_inf import block_group, refines, sup_inf_distance
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.distances.counterexamples import clover, named_revolution
+from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
 
 
 def embed(surface: Surface, n: int) -> SpectralEmbedding:
@@ -148,7 +154,7 @@ def test_analytic_embeddings_agree_with_each_other_and_with_elements() -> None:
         gram = (embedding.points * embedding.weights[:, None]).T @ embedding.points
         assert gram * np.sqrt(np.outer(embedding.values, embedding.values)) == pytest.approx(np.eye(24), abs=0.02)
     assert torus_embedding(1.0, 4).values == pytest.approx(4.0 * np.pi**2)
-    from surfexp.mesh.ellipsoid import ellipsoid
+    from surfexp.mesh.shapes.ellipsoid import ellipsoid
 
     meshed = embed(ellipsoid(4, (1.0, 1.0, 0.8)), 8)
     assert meshed.values == pytest.approx(spheroid_embedding(0.8, 8).values, rel=0.01)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from surfexp.embedding.paired_tests import paired_tests
+from surfexp.statistics.paired_tests import paired_tests
 
 
 def test_holm_corrects_each_kind_of_p_by_itself() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from surfexp.embedding.spectral_embedding import mode_weights, spectral_embedding
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs

@@ -6,29 +6,29 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from surfexp.embedding.asymmetry import asymmetry_study, measured, power_study
-from surfexp.embedding.fresh_populations import fresh_study, fresh_tests
-from surfexp.embedding.length_table import chosen, length_columns, table_of
-from surfexp.embedding.paired_tests import paired_tests, power_by_subjects, rate_in_halves
-from surfexp.embedding.population import random_displacement, stretch, synthetic_subject
-from surfexp.embedding.population_study import measure_population, name_regions
-from surfexp.embedding.sulcal_lengths import carried_ends, closed_region, geodesic_length, region_ends
-from surfexp.embedding.sulcal_lines import sulcal_line
-from surfexp.embedding.sulcal_measurement import measure_sulci
-from surfexp.embedding.sulcal_regions import (
+from surfexp.anatomy.fsaverage5 import fsaverage5
+from surfexp.io.reading import read_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.statistics.paired_tests import paired_tests, power_by_subjects, rate_in_halves
+from surfexp.studies.sulci.asymmetry import asymmetry_study, measured, power_study
+from surfexp.studies.sulci.fresh_populations import fresh_study, fresh_tests
+from surfexp.studies.sulci.length_table import chosen, length_columns, table_of
+from surfexp.studies.sulci.population import random_displacement, stretch, synthetic_subject
+from surfexp.studies.sulci.population_study import measure_population, name_regions
+from surfexp.studies.sulci.sulcal_lengths import carried_ends, closed_region, geodesic_length, region_ends
+from surfexp.studies.sulci.sulcal_lines import sulcal_line
+from surfexp.studies.sulci.sulcal_measurement import measure_sulci
+from surfexp.studies.sulci.sulcal_regions import (
     components,
     names_by_distance,
     names_by_majority,
     naming_accuracy,
     sulcal_regions,
 )
-from surfexp.embedding.sulcal_template import make_template
-from surfexp.mesh.fsaverage5 import fsaverage5
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.reading import read_mesh
-from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.writing import write_mesh
+from surfexp.studies.sulci.sulcal_template import make_template
 
 
 @pytest.fixture(scope="module")

@@ -9,8 +9,8 @@ from scipy.ndimage import label
 from surfexp.figures.camera import Camera, fit_camera
 from surfexp.figures.contours import Contours, contour_coverage
 from surfexp.figures.rasterizer import rasterize
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
-from surfexp.variational.painting import add_noise
+from surfexp.variational.images.painting import add_noise
 from surfexp.variational.solution import Solution
 from surfexp.workflow import registry
 

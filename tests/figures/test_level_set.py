@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfexp.figures.level_set import level_set
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 TORUS = torus(24, 12).mesh

@@ -13,7 +13,7 @@ from surfexp.figures.panel import surface_panel
 from surfexp.figures.panel_layout import arrange
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 SPHERE = icosphere(2).mesh

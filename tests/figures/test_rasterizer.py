@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from surfexp.figures.camera import Camera, fit_camera
 from surfexp.figures.rasterizer import rasterize
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # looks down the z axis: x to the right, y up

@@ -15,8 +15,8 @@ from surfexp.figures.colormap import MISSING
 from surfexp.figures.rasterizer import rasterize
 from surfexp.figures.render import SurfaceView, draw, render
 from surfexp.figures.shading import illumination, shade
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 SPHERE = icosphere(3).mesh
@@ -26,7 +26,7 @@ SMALL = (60, 50)
 
 def test_bytes_are_the_same_in_another_process() -> None:
     code = (
-        "import hashlib; from surfexp.figures.render import render; from surfexp.mesh.icosphere import icosphere;"
+        "import hashlib; from surfexp.figures.render import render; from surfexp.mesh.shapes.icosphere import icosphere;"
         "mesh = icosphere(3).mesh; z = mesh.vertices[:, 2];"
         "print(hashlib.sha256(render(mesh, z, contour_field=z, size=(60, 50)).tobytes()).hexdigest())"
     )

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from surfexp.figures.boundary_line import INSIDE, barycentric, without_rim
 from surfexp.figures.level_set import level_set
-from surfexp.figures.rim import INSIDE, barycentric, without_rim
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
 
 
 def test_finer_mesh_is_the_same_surface() -> None:

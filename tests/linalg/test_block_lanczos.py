@@ -18,7 +18,7 @@ from surfexp.linalg.block_products import (
     subtract_two,
 )
 from surfexp.linalg.ldlt import ldlt
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem

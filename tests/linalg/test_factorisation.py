@@ -7,7 +7,7 @@ from scipy.sparse import csr_array, diags_array
 from surfexp.linalg import factorisation as module
 from surfexp.linalg.factorisation import factorise
 from surfexp.linalg.gauss_seidel import gauss_seidel
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
 

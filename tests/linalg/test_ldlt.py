@@ -12,8 +12,8 @@ from scipy.sparse import block_diag, coo_array, csr_array, diags_array, eye_arra
 from surfexp.linalg.ldlt import ldlt
 from surfexp.linalg.ldlt_ordering import nested_dissection
 from surfexp.linalg.ldlt_symbolic import analyse, permuted
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 

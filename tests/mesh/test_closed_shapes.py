@@ -7,17 +7,17 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from surfexp.mesh.cube import cube, rotation_matrix
-from surfexp.mesh.disk import disk
-from surfexp.mesh.ellipsoid import ellipsoid
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import flat_torus, rectangle
-from surfexp.mesh.spherical_cap import capped_sphere, spherical_cap
+from surfexp.mesh.shapes.cube import cube, rotation_matrix
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import flat_torus, rectangle
+from surfexp.mesh.shapes.spherical_cap import capped_sphere, spherical_cap
+from surfexp.mesh.shapes.surface_of_revolution import surface_of_revolution
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.subdivision import subdivide
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_of_revolution import surface_of_revolution
-from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
 

@@ -6,14 +6,14 @@ import igl
 import numpy as np
 import pytest
 
-from surfexp.mesh.cortex import cortex
-from surfexp.mesh.cup import cup, cup_function
-from surfexp.mesh.disk import disk
 from surfexp.mesh.edge_operations import collapse_edges, flip_edges, split_edges
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
-from surfexp.mesh.genus_surface import genus_surface, half_double_torus, row_of_tori
-from surfexp.mesh.hand import hand, hand_function
-from surfexp.mesh.implicit_surface import mesh_implicit, smooth_intersection, smooth_union
+from surfexp.mesh.shapes.cortex import cortex
+from surfexp.mesh.shapes.cup import cup, cup_function
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.shapes.genus_surface import genus_surface, half_double_torus, row_of_tori
+from surfexp.mesh.shapes.hand import hand, hand_function
+from surfexp.mesh.shapes.implicit_surface import mesh_implicit, smooth_intersection, smooth_union
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
 

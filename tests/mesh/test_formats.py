@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.mesh import open3d_files
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.point_cloud import read_points
-from surfexp.mesh.reading import read_mesh, read_scalars
-from surfexp.mesh.stl import weld
+from surfexp.io import open3d_files
+from surfexp.io.point_cloud import read_points
+from surfexp.io.reading import read_mesh, read_scalars
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.writing import write_mesh
+from surfexp.mesh.welding import weld
 
 MESH = TriangleMesh(
     icosphere(1).mesh.vertices + 0.1 * np.random.default_rng(0).random((42, 3)), icosphere(1).mesh.faces

@@ -9,7 +9,7 @@ import igl
 import numpy as np
 import pytest
 
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.mesh.validate import validate
 
 
@@ -48,7 +48,5 @@ def test_unknown_names_are_refused() -> None:
 
 
 def test_nilearn_is_not_imported() -> None:
-    code = (
-        "import sys; from surfexp.mesh.fsaverage5 import fsaverage5; fsaverage5(); assert 'nilearn' not in sys.modules"
-    )
+    code = "import sys; from surfexp.anatomy.fsaverage5 import fsaverage5; fsaverage5(); assert 'nilearn' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)

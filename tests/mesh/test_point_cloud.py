@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.point_cloud import read_points, reconstruct
-from surfexp.mesh.reading import read_mesh
+from surfexp.io.point_cloud import read_points, reconstruct
+from surfexp.io.reading import read_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.validate import validate
 
 POINTS = icosphere(4).mesh.vertices

@@ -9,31 +9,31 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.anatomy.atrophy import with_atrophy
-from surfexp.embedding.counterexamples import named_revolution
-from surfexp.embedding.disguise import disguise
 from surfexp.embedding.labels import map_metrics
-from surfexp.embedding.population import synthetic_subject
-from surfexp.mesh.disk import disk
-from surfexp.mesh.ellipsoid import ellipsoid
 from surfexp.mesh.exact_spectra import lattice_spectrum, rectangle_spectrum
-from surfexp.mesh.fibonacci_sphere import fibonacci_sphere
 from surfexp.mesh.flat_domain import boundary_angles
-from surfexp.mesh.genus_surface import genus_surface
-from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.noise import add_vertex_noise
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.ellipsoid import ellipsoid
+from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
+from surfexp.mesh.shapes.genus_surface import genus_surface
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.spherical_cap import capped_sphere, spherical_cap
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.smooth_shape import Disk, FlatTorus, Polygon, Rectangle, Sphere, SphericalCap, Torus
-from surfexp.mesh.spherical_cap import capped_sphere, spherical_cap
 from surfexp.mesh.surface import Surface, Truth
-from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface
 from surfexp.operators.fem import fem
 from surfexp.operators.manufactured import manufactured
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
-from surfexp.statistics.heat_expansion import heat_expansion
-from surfexp.statistics.spectrum_error import spectrum_error
+from surfexp.studies.distances.counterexamples import named_revolution
+from surfexp.studies.populations.atrophy import with_atrophy
+from surfexp.studies.populations.disguise import disguise
+from surfexp.studies.spectra.heat_expansion import heat_expansion
+from surfexp.studies.spectra.spectrum_error import spectrum_error
+from surfexp.studies.sulci.population import synthetic_subject
 
 SHAPED = {
     "sphere": icosphere(2, 1.5),

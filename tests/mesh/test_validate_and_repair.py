@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.repair import repair
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import require_valid, validate
 

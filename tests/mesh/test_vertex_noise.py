@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.cube import cube
-from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.cube import cube
+from surfexp.mesh.shapes.icosphere import icosphere
 
 
 def test_noise_has_its_standard_deviation_and_seed() -> None:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import assemble, mass_matrix, stiffness
 from surfexp.operators.assembly_pattern import assembly_pattern
 from surfexp.operators.fem import fem

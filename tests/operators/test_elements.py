@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.special import jn_zeros, jnp_zeros
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import flat_torus, rectangle
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import flat_torus, rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.elements_lagrange import lagrange_element

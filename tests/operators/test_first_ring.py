@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surfexp.mesh.disk import disk
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.operators.first_ring import ring_divergence, ring_gradient
 from surfexp.operators.vertex_averaged import vertex_averaged
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.cube import cube
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.cube import cube
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.fem import fem
 from surfexp.operators.manufactured import manufactured, operator_errors
 from surfexp.operators.vertex_averaged import vertex_averaged

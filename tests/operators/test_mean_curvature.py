@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.spherical_cap import spherical_cap
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.spherical_cap import spherical_cap
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.mean_curvature import mean_curvature
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.embedding.disguise import disguise
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_lagrange import lagrange_nodes
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
@@ -17,7 +16,8 @@ from surfexp.operators.elements_periodic import periodic_operator, periodic_surf
 from surfexp.operators.elements_surface import assemble_elements
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.statistics.spectrum_error import spectrum_error
+from surfexp.studies.populations.disguise import disguise
+from surfexp.studies.spectra.spectrum_error import spectrum_error
 
 
 def squeezed(levels: int) -> TriangleMesh:

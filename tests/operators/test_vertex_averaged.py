@@ -3,9 +3,9 @@
 import numpy as np
 from scipy.sparse import diags_array
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import flat_torus
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import flat_torus
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.assembly import assemble
 from surfexp.operators.diagnostics import adjointness_defect
 from surfexp.operators.vertex_averaged import vertex_averaged

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import yaml
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
 from surfexp.report.claim import read_claims

@@ -6,7 +6,7 @@ import networkx
 import numpy as np
 import pytest
 
-from surfexp.mesh.genus_surface import genus_surface
+from surfexp.mesh.shapes.genus_surface import genus_surface
 from surfexp.skeleton.export import write_skeleton
 from surfexp.skeleton.reeb_graph import reeb_graph
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.strip import strip, y_patch
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
@@ -23,7 +24,6 @@ from surfexp.skeleton.flux import (
     weighted_operator,
 )
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
-from surfexp.skeleton.strip import strip, y_patch
 
 FLAT = rectangle(61, 25, 2.5, 1.0).mesh
 H = FLAT.edge_length

@@ -9,24 +9,24 @@ import numpy as np
 import pytest
 
 from surfexp.anatomy.label_volume import LabelVolume
-from surfexp.mesh.reading import read_mesh
+from surfexp.io.reading import read_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.planar_patch import clean_mask, triangulate_mask
+from surfexp.mesh.shapes.strip import strip, y_patch
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
-from surfexp.mesh.writing import write_mesh
 from surfexp.operators.fem import fem
 from surfexp.skeleton.agreement import same_graph
-from surfexp.skeleton.callosum import callosum, callosum_shape
-from surfexp.skeleton.cingulate import cingulate
-from surfexp.skeleton.donor_cingulate import donor_cingulate, medial_face
 from surfexp.skeleton.eigenmap import eigenmap
-from surfexp.skeleton.group import align, bootstrap_shares, principal_components, rigid_fit
-from surfexp.skeleton.midline import midline_errors
-from surfexp.skeleton.planar_patch import clean_mask, triangulate_mask
 from surfexp.skeleton.polyline import distance_from_line, evenly_resampled, polyline_length, trunk_contours
 from surfexp.skeleton.skeleton import chain_order
-from surfexp.skeleton.strip import strip, y_patch
-from surfexp.skeleton.study import eigenmap_skeleton, miss_metrics, topology_metrics
-from surfexp.skeleton.width_test import false_positive_share, pointwise_test, widths_along
+from surfexp.studies.callosum.callosum import callosum, callosum_shape
+from surfexp.studies.callosum.midline import midline_errors
+from surfexp.studies.cingulate.average_cingulate import cingulate
+from surfexp.studies.cingulate.donor_cingulate import donor_cingulate, medial_face
+from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
+from surfexp.studies.skeletons.skeleton_alignment import align, bootstrap_shares, principal_components, rigid_fit
+from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton, miss_metrics, topology_metrics
 
 
 @pytest.mark.parametrize("seed", [0, 7, 15])

@@ -7,17 +7,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.strip import strip
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.feature import Feature
-from surfexp.skeleton.lengths import skeleton_lengths
 from surfexp.skeleton.level_contours import level_contours
-from surfexp.skeleton.levels import area_below, choose_levels
+from surfexp.skeleton.level_selection import area_below, choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
-from surfexp.skeleton.strip import strip
-from surfexp.skeleton.study import eigenmap_skeleton
+from surfexp.skeleton.skeleton_length import skeleton_lengths
+from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
 from surfexp.workflow import registry
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh

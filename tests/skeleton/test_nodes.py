@@ -6,24 +6,24 @@ import networkx
 import numpy as np
 import pytest
 
-from surfexp.mesh.genus_surface import genus_surface
-from surfexp.mesh.reading import read_mesh
-from surfexp.mesh.torus import torus
+from surfexp.io.reading import read_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.genus_surface import genus_surface
+from surfexp.mesh.shapes.strip import strip, y_patch
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.writing import write_mesh
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.branches import branch_graph, branch_paths
-from surfexp.skeleton.callosum import callosum
 from surfexp.skeleton.export import write_skeleton
 from surfexp.skeleton.level_contours import level_contours
-from surfexp.skeleton.levels import choose_levels
-from surfexp.skeleton.midline import midline_errors
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.nearest_point import nearest_on_triangles
 from surfexp.skeleton.polyline import trunk_contours
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import CONTOUR, JUNCTION
-from surfexp.skeleton.strip import strip, y_patch
-from surfexp.skeleton.study import compactness, eigenmap_skeleton
+from surfexp.studies.callosum.callosum import callosum
+from surfexp.studies.callosum.midline import midline_errors
+from surfexp.studies.skeletons.skeleton_study import compactness, eigenmap_skeleton
 
 JAGGED = strip(jag=0.5, arch=1.5, bend=1.2, seed=3).mesh
 

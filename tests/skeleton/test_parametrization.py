@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.rectangle import rectangle
-from surfexp.skeleton.callosum import callosum, callosum_shape
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.strip import strip
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.parametrization import level_set_parametrization
-from surfexp.skeleton.patch_grid import GridComparison, compare_on_grid, map_on, patch_grid, region_found
-from surfexp.skeleton.planted_map import PLACE, midline_coordinates, planted_map
-from surfexp.skeleton.strip import strip
-from surfexp.skeleton.width_test import PointwiseTest
+from surfexp.studies.callosum.callosum import callosum, callosum_shape
+from surfexp.studies.callosum.planted_map import PLACE, midline_coordinates, planted_map
+from surfexp.studies.skeletons.patch_grid import GridComparison, compare_on_grid, map_on, patch_grid, region_found
+from surfexp.studies.skeletons.positionwise_comparison import PointwiseTest
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh
 

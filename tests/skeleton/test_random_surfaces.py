@@ -12,7 +12,7 @@ from skimage.measure import marching_cubes
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
-from surfexp.skeleton.levels import choose_levels
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import arc_components
 

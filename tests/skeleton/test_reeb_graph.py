@@ -8,23 +8,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.mesh.genus_surface import genus_surface
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.genus_surface import genus_surface
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
+from surfexp.skeleton.interlevel_components import slab_components
 from surfexp.skeleton.level_contours import level_contours
-from surfexp.skeleton.levels import choose_levels
-from surfexp.skeleton.printed_rule import printed_loops
+from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.pruning import pruned
+from surfexp.skeleton.published_reeb_graph import printed_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.simplification import contracted, simplified
 from surfexp.skeleton.skeleton import arc_components
-from surfexp.skeleton.slabs import slab_components
 
 SURFACES = {
     0: icosphere(3).mesh,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from surfexp.skeleton.width_test import pointwise_test
+from surfexp.studies.skeletons.positionwise_comparison import pointwise_test
 
 
 def test_welch_by_hand() -> None:

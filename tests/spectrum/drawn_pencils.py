@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 from scipy.linalg import eigh
 from scipy.sparse import block_diag, csr_array
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
-from surfexp.mesh.triangle_mesh import Floats, TriangleMesh
+from surfexp.arrays import Floats
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.spectrum.drum_values import drum_values, extrapolated
-from surfexp.spectrum.isospectral_comparison import TILE_SHAPES
-from surfexp.spectrum.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.drum_values import drum_values, extrapolated
+from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
+from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 TILE = TILE_SHAPES["right_isosceles"]
 KNOWN = np.array(GORDON_WEBB_WOLPERT_VALUES)

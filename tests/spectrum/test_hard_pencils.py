@@ -10,8 +10,8 @@ from drawn_pencils import Pencil, dense_values, pencil_of, pencils_and_counts, w
 from hypothesis import HealthCheck, given, settings
 from scipy.sparse import csr_array, diags_array
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum import components, dense, eigensolver
 from surfexp.spectrum.eigensolver import eigenpairs

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.special import jn_zeros, jnp_zeros
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.heat_kernel import diffuse, heat_embedding, heat_kernel, heat_kernel_signature, heat_times

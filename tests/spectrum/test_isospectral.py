@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.isospectral_drums import (
+from surfexp.studies.drums.isospectral_drums import (
     GORDON_WEBB_WOLPERT_VALUES,
     RIGHT_ISOSCELES,
     drum_elements,
@@ -16,9 +16,9 @@ from surfexp.spectrum.isospectral_drums import (
     tile_layout,
     tile_mesh,
 )
-from surfexp.spectrum.isospectral_graphs import compare_graphs
-from surfexp.spectrum.transplantation import transplant, transplantation_matrix
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT, TransplantationPair, transplantation_pairs
+from surfexp.studies.drums.isospectral_graphs import compare_graphs
+from surfexp.studies.drums.transplantation import transplant, transplantation_matrix
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, TransplantationPair, transplantation_pairs
 
 TRIANGLES = {
     "isosceles": RIGHT_ISOSCELES,

@@ -10,13 +10,12 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.special import jn_zeros
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
 from surfexp.spectrum.nodal_domains import (
     cluster_averaged_counts,
     courant_violations,
@@ -27,7 +26,8 @@ from surfexp.spectrum.nodal_domains import (
 )
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.soft_nodal_counts import soft_nodal_counts
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 WIDTH = float(np.sqrt(2.1))
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 from surfexp.spectrum.counting_function import guess_eigenvalue

@@ -7,8 +7,8 @@ import sys
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.operators.fem import fem

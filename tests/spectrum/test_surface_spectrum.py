@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 
 from surfexp.member import Member
-from surfexp.mesh.disk import disk
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.smooth_shape import Rectangle
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.spectrum.surface_spectrum import elements_of, graph_of, surface_spectrum
-from surfexp.spectrum.transplantation_pairs import GORDON_WEBB_WOLPERT
-from surfexp.statistics.heat_expansion import heat_expansion
-from surfexp.statistics.spectrum_error import convergence_orders, spectrum_error
+from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
+from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.spectra.heat_expansion import heat_expansion
+from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
 
 
 def spectrum(surface: Surface, count: int = 25, **options):

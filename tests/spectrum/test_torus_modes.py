@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.fem import fem
 from surfexp.spectrum.nodal_signature import counted_domains
 from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum

@@ -14,9 +14,9 @@ from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.classifiers import METHODS, classify
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.embeddings import classical_scaling
+from surfexp.statistics.energy_distance_test import energy_distance, p_value
 from surfexp.statistics.group_power import group_power
-from surfexp.statistics.permutation_test import energy_distance, p_value
+from surfexp.statistics.multidimensional_scaling import classical_scaling
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.separation import retrieval, separation
 from surfexp.statistics.signature_distances import euclidean, signature_distances

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.embeddings import (
+from surfexp.statistics.multidimensional_scaling import (
     classical_scaling,
     manifold_embedding,
     neighbour_embedding,

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from surfexp.spectrum.signature import Signature
-from surfexp.statistics.count_agreement import count_agreement, largest_change, moving_mean
-from surfexp.statistics.nodal_trend import RECTANGLE_MEAN, nodal_trend, rectangle_trend
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.spectra.count_agreement import count_agreement, largest_change, moving_mean
+from surfexp.studies.spectra.nodal_trend import RECTANGLE_MEAN, nodal_trend, rectangle_trend
 
 
 def test_agreement_is_counted() -> None:

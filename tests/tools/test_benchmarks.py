@@ -13,10 +13,10 @@ from benchmarks.convex_problem import Excess, Recorded
 from benchmarks.line import Line, race
 from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
 from benchmarks.table import page
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import convex_chan_vese
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 ROOT = Path(__file__).resolve().parents[2]
 GROUPS = ("denoising", "segmentation", "parametrization", "scaling", "threads", "nodal_domains", "assembly", "skeleton")

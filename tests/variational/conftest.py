@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.variational.image import Image
 
 

@@ -11,19 +11,19 @@ from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.operators.libigl_operator import libigl_operator
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.chambolle_dual import chambolle_dual
 from surfexp.variational.duality_gap import recertify
 from surfexp.variational.fidelity import Fidelity, Method
-from surfexp.variational.fista_dual import fista_dual
 from surfexp.variational.heat_blur import HeatBlur
 from surfexp.variational.image import Image
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_split_bregman import published_split_bregman
+from surfexp.variational.published.split_bregman import published_split_bregman
 from surfexp.variational.separable_quadratic import SeparableQuadratic, convex_chan_vese, inpainting, rof
 from surfexp.variational.simplex_labelling import SimplexLabelling
 from surfexp.variational.solution import Solution
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.solvers.chambolle_dual import chambolle_dual
+from surfexp.variational.solvers.fista_dual import fista_dual
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 from . import independent_certificate as independent
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.variational.coarea import (

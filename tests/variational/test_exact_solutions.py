@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from surfexp.mesh.disk import disk
-from surfexp.mesh.spherical_cap import capped_sphere
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.spherical_cap import capped_sphere
+from surfexp.mesh.shapes.surface_of_revolution import surface_of_revolution
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_of_revolution import surface_of_revolution
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.variational.fidelity import Method
-from surfexp.variational.fista_dual import fista_dual
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import rof
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.solvers.fista_dual import fista_dual
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 
 @pytest.mark.parametrize(

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from surfexp.mesh.cube import cube
-from surfexp.mesh.icosphere import icosphere
 from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.cube import cube
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
+from surfexp.variational.models.rof import ROF
 from surfexp.variational.normal_filtering import NormalFiltering, normal_deviation, update_vertices
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import geodesic_curvature_flow, heat_flow
 
 SPHERE = icosphere(4).mesh

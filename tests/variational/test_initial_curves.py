@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.variational.initial_curves import angular_distance, disc_distance
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.variational.images.initial_curves import angular_distance, disc_distance
 
 
 def test_one_disc_on_the_sphere_has_the_area_of_its_cap() -> None:

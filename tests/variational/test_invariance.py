@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 SETTINGS = settings(deadline=None, max_examples=5)
 

@@ -7,15 +7,15 @@ from hypothesis import strategies as st
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import maximum_flow
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.labellings import best_threshold, edge_cut
 from surfexp.variational.level_sets import perimeters
-from surfexp.variational.primal_dual import primal_dual
 from surfexp.variational.separable_quadratic import convex_chan_vese
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 OPERATOR = fem(torus(24, 12, jitter=0.2, seed=1).mesh)
 UNITS = 10**7

@@ -6,25 +6,25 @@ from functools import partial
 import numpy as np
 import pytest
 
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
-from surfexp.variational.chan_vese_model import ChanVese
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
-from surfexp.variational.deblurring_model import Deblurring
 from surfexp.variational.fidelity import Method
 from surfexp.variational.heat_blur import HeatBlur
 from surfexp.variational.image import Image
-from surfexp.variational.inpainting_model import Inpainting
+from surfexp.variational.images.painting import add_noise
+from surfexp.variational.images.two_phase import coloured_cells
 from surfexp.variational.level_sets import perimeters
-from surfexp.variational.multiphase_model import MultiphaseSegmentation
-from surfexp.variational.newton import newton
-from surfexp.variational.painting import add_noise
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.rof_model import ROF
-from surfexp.variational.split_bregman import split_bregman
-from surfexp.variational.two_phase import coloured_cells
+from surfexp.variational.models.chan_vese import ChanVese
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.deblurring import Deblurring
+from surfexp.variational.models.inpainting import Inpainting
+from surfexp.variational.models.multiphase import MultiphaseSegmentation
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 METHODS: list[Method] = [primal_dual, split_bregman]
 

@@ -6,7 +6,7 @@ import pytest
 from surfexp.mesh.surface import Surface
 from surfexp.operators.assembly import assemble
 from surfexp.operators.fem import fem
-from surfexp.variational.newton_system import NewtonSystem
+from surfexp.variational.solvers.newton_system import NewtonSystem
 
 
 def test_solves_one_matrix_after_another(surface: Surface) -> None:

@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from surfexp.mesh.cup import cup
-from surfexp.mesh.disk import disk
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.rectangle import rectangle
-from surfexp.mesh.spherical_cap import spherical_cap
+from surfexp.mesh.shapes.cup import cup
+from surfexp.mesh.shapes.disk import disk
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.spherical_cap import spherical_cap
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
-from surfexp.variational.letters import GLYPHS, letters
-from surfexp.variational.painting import add_noise, paint
-from surfexp.variational.pictures import PACKAGED, picture, read_picture
-from surfexp.variational.projections import project, view_frame
-from surfexp.variational.two_phase import coloured_cells, two_phase
+from surfexp.variational.images.letters import GLYPHS, letters
+from surfexp.variational.images.painting import add_noise, paint
+from surfexp.variational.images.pictures import PACKAGED, picture, read_picture
+from surfexp.variational.images.projections import project, view_frame
+from surfexp.variational.images.two_phase import coloured_cells, two_phase
 
 # brighter to the right and, four times as much, upward
 RAMP = np.add.outer(400.0 * np.linspace(1, 0, 64), 100.0 * np.linspace(0, 1, 64))

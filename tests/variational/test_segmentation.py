@@ -8,22 +8,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.mesh.icosphere import icosphere
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.variational.chan_vese_model import ChanVese
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
 from surfexp.variational.image import Image
 from surfexp.variational.mean_updates import MeanUpdates
-from surfexp.variational.multiphase_model import MultiphaseSegmentation
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_split_bregman import published_split_bregman
+from surfexp.variational.models.chan_vese import ChanVese
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.multiphase import MultiphaseSegmentation
+from surfexp.variational.published.split_bregman import published_split_bregman
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 FACTORS = st.floats(-3.0, 3.0).map(lambda exponent: 10.0**exponent)
 SOLVE = partial(primal_dual, tolerance=1e-3)

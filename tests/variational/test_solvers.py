@@ -9,19 +9,19 @@ import pytest
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.variational.chambolle_dual import chambolle_dual
-from surfexp.variational.conic import conic
 from surfexp.variational.duality_gap import certify
-from surfexp.variational.fista_dual import fista_dual
-from surfexp.variational.gradient_descent import gradient_descent
 from surfexp.variational.image import Image
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_chambolle import published_chambolle
-from surfexp.variational.published_split_bregman import published_split_bregman
+from surfexp.variational.published.chambolle import published_chambolle
+from surfexp.variational.published.split_bregman import published_split_bregman
+from surfexp.variational.published.vector_pair import VectorPair, shrink
 from surfexp.variational.separable_quadratic import SeparableQuadratic, convex_chan_vese, inpainting, rof
-from surfexp.variational.split_bregman import split_bregman
-from surfexp.variational.vector_pair import VectorPair, shrink
+from surfexp.variational.solvers.chambolle_dual import chambolle_dual
+from surfexp.variational.solvers.conic import conic
+from surfexp.variational.solvers.fista_dual import fista_dual
+from surfexp.variational.solvers.gradient_descent import gradient_descent
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 from . import independent_certificate as independent
 

@@ -8,21 +8,21 @@ import pytest
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.variational.chambolle_dual import chambolle_dual
-from surfexp.variational.convex_chan_vese_model import ConvexChanVese
-from surfexp.variational.deblurring_model import Deblurring
-from surfexp.variational.fista_dual import fista_dual
-from surfexp.variational.gradient_descent import gradient_descent
 from surfexp.variational.image import Image
-from surfexp.variational.inpainting_model import Inpainting
-from surfexp.variational.multiphase_model import MultiphaseSegmentation
-from surfexp.variational.newton import newton
-from surfexp.variational.primal_dual import primal_dual
-from surfexp.variational.published_chambolle import published_chambolle
-from surfexp.variational.published_split_bregman import published_split_bregman
-from surfexp.variational.rof_model import ROF
-from surfexp.variational.solvers import SOLVABLE_MODELS, check_combination
-from surfexp.variational.split_bregman import split_bregman
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.deblurring import Deblurring
+from surfexp.variational.models.inpainting import Inpainting
+from surfexp.variational.models.multiphase import MultiphaseSegmentation
+from surfexp.variational.models.rof import ROF
+from surfexp.variational.published.chambolle import published_chambolle
+from surfexp.variational.published.split_bregman import published_split_bregman
+from surfexp.variational.requirements import SOLVABLE_MODELS, check_combination
+from surfexp.variational.solvers.chambolle_dual import chambolle_dual
+from surfexp.variational.solvers.fista_dual import fista_dual
+from surfexp.variational.solvers.gradient_descent import gradient_descent
+from surfexp.variational.solvers.newton import newton
+from surfexp.variational.solvers.primal_dual import primal_dual
+from surfexp.variational.solvers.split_bregman import split_bregman
 
 SOLVERS = [
     *(primal_dual, split_bregman, gradient_descent, chambolle_dual, fista_dual, newton),

@@ -16,10 +16,10 @@ import yaml
 from pydantic import ValidationError
 
 from surfexp.commands.command_line import main
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.writing import write_mesh
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.plan import make_plan

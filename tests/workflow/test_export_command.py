@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.commands.command_line import main
-from surfexp.embedding.label_files import read_labels
-from surfexp.mesh.fsaverage5 import fsaverage5
+from surfexp.io.label_files import read_labels
 from surfexp.statistics.statistic import Statistic
 from surfexp.workflow import registry
 from surfexp.workflow.plan import make_plan

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.reading import read_scalars
-from surfexp.mesh.writing import write_mesh
+from surfexp.io.reading import read_scalars
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.workflow import fingerprint, outcome, registry, stage, store
 from surfexp.workflow.plan import Plan, make_plan
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from surfexp.mesh.icosphere import icosphere
-from surfexp.mesh.torus import torus
-from surfexp.mesh.writing import write_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.own_data import CLAIMS_LEFT_OUT, without_foreign_words
 from surfexp.report.page import write_report
 from surfexp.workflow.launch import launch

@@ -1,0 +1,61 @@
+"""The average human cortex fsaverage5, from the files that nilearn carries in its own package."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal
+
+from surfexp.arrays import Floats
+from surfexp.io.gifti import read_gifti_arrays
+from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+Hemisphere = Literal["left", "right"]
+SURFACES = {"pial": "pial", "white": "white", "inflated": "infl", "sphere": "sphere"}
+MAPS = {"sulc": "sulc", "curv": "curv", "thickness": "thick", "area": "area"}
+
+
+def fsaverage5(hemisphere: Hemisphere = "left", surface: str = "pial") -> Surface:
+    """One hemisphere of fsaverage5 (Fischl et al. 1999): 10,242 vertices, closed, genus 0, in mm.
+
+    Parameters
+    ----------
+    hemisphere : "left" or "right"
+    surface : "pial", "white", "inflated" or "sphere"
+        All four share their faces, so maps carry over.
+
+    Returns
+    -------
+    Surface
+        With the scalar maps "sulc" (positive in sulci), "curv" (mean curvature, 1/mm, positive in sulci),
+        "thickness" (mm) and "area" (mm^2).
+
+    Raises
+    ------
+    ValueError
+        If hemisphere or surface is unknown, or nilearn's files are not there.
+    """
+    if hemisphere not in ("left", "right"):
+        raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left or right")
+    if surface not in SURFACES:
+        raise ValueError(f"fsaverage5 surface {surface!r} is unknown, choose one of {', '.join(SURFACES)}")
+    vertices, faces = read_gifti_arrays(_packaged(f"{SURFACES[surface]}_{hemisphere}"))
+    scalars = {name: _map(f"{stem}_{hemisphere}") for name, stem in MAPS.items()}
+    return with_metrics(Surface(TriangleMesh(vertices, faces), f"fsaverage5 {surface}, {hemisphere}", "mm", scalars))
+
+
+def _map(stem: str) -> Floats:
+    return read_gifti_arrays(_packaged(stem))[0].astype(float)
+
+
+def _packaged(stem: str) -> Path:
+    # found without importing nilearn, whose import takes seconds
+    package = find_spec("nilearn")
+    if package is None or package.origin is None:
+        raise ValueError("fsaverage5 comes with the package nilearn, which is not installed: pip install nilearn")
+    path = Path(package.origin).parent / "datasets" / "data" / "fsaverage5" / f"{stem}.gii.gz"
+    if not path.is_file():
+        raise ValueError(f"nilearn's file {path.name} is missing from {path.parent}: reinstall nilearn 0.13.1")
+    return path

@@ -1,0 +1,163 @@
+"""Stanford PLY files, ASCII and binary."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.arrays import Floats, Integers
+from surfexp.io.polygons import triangulate
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+TYPES = {
+    **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
+    **{"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
+    **{"float": "f4", "double": "f8", "float32": "f4", "float64": "f8"},
+}
+ORDERS = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+@dataclass
+class Element:
+    """One element of the header: its count, and (name, type, type of a list's length or None) of each property."""
+
+    name: str
+    count: int
+    properties: list[tuple[str, str, str | None]] = field(default_factory=list)
+
+
+def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
+    """Vertices, faces and the vertices' other scalar properties.
+
+    Raises
+    ------
+    ValueError
+        If the header is not PLY's or the data end early.
+    """
+    data = path.read_bytes()
+    order, elements, offset = _header(data)
+    text = data[offset:].split() if order == "=" else None
+    columns: dict[str, dict[str, Any]] = {}
+    offset = 0 if text is not None else offset
+    for element in elements:
+        if text is not None:
+            columns[element.name], offset = _ascii_element(text, offset, element)
+        else:
+            columns[element.name], offset = _binary_element(data, offset, element, order)
+    vertex, face = columns.get("vertex", {}), columns.get("face", {})
+    polygons = face.get("vertex_indices", face.get("vertex_index"))
+    if not {"x", "y", "z"} <= set(vertex) or polygons is None:
+        raise ValueError("it has no element 'vertex' with x, y, z or no element 'face' with vertex_indices")
+    positions = np.stack([np.asarray(vertex.pop(axis), dtype=np.float64) for axis in "xyz"], axis=1)
+    scalars = {
+        name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)
+    }
+    faces = polygons.astype(np.int64) if isinstance(polygons, np.ndarray) else triangulate(polygons)
+    return positions, faces, scalars
+
+
+def _header(data: bytes) -> tuple[str, list[Element], int]:
+    end = data.find(b"end_header")
+    if not data.startswith(b"ply") or end < 0:
+        raise ValueError("it has no PLY header")
+    order, elements = "", list[Element]()
+    for line in data[:end].decode("ascii", "replace").splitlines():
+        words = line.split()
+        if words[:1] == ["format"] and len(words) > 1 and words[1] in ORDERS:
+            order = ORDERS[words[1]]
+        elif words[:1] == ["element"] and len(words) == 3:
+            elements.append(Element(words[1], int(words[2])))
+        elif words[:1] == ["property"] and elements:
+            if any(word not in TYPES for word in (words[2:4] if words[1:2] == ["list"] else words[1:2])):
+                raise ValueError(f"header line {line!r} has an unknown type")
+            is_list = words[1] == "list"
+            elements[-1].properties.append((words[-1], TYPES[words[-2]], TYPES[words[2]] if is_list else None))
+    if not order:
+        raise ValueError("its header names no format")
+    return order, elements, data.index(b"\n", end) + 1 if b"\n" in data[end:] else len(data)
+
+
+def _ascii_element(words: list[bytes], at: int, element: Element) -> tuple[dict[str, Any], int]:
+    width = len(element.properties)
+    if all(length is None for _, _, length in element.properties):
+        block = words[at : at + width * element.count]
+        if len(block) < width * element.count:
+            raise ValueError(
+                f"it ends after {len(block) // max(width, 1)} of {element.count} entries of {element.name!r}"
+            )
+        table = np.array(block, dtype=np.float64).reshape(element.count, width)
+        return {name: table[:, k] for k, (name, _, _) in enumerate(element.properties)}, at + len(block)
+    lists: dict[str, list[list[int]]] = {name: [] for name, _, _ in element.properties}
+    for index in range(element.count):
+        for name, _, length in element.properties:
+            size = int(words[at]) if length and at < len(words) else 1
+            at += bool(length)
+            if at + size > len(words):
+                raise ValueError(f"it ends after {index} of {element.count} entries of {element.name!r}")
+            lists[name].append([int(float(word)) for word in words[at : at + size]])
+            at += size
+    return dict(lists), at
+
+
+def _binary_element(data: bytes, at: int, element: Element, order: str) -> tuple[dict[str, Any], int]:
+    """Columns of one element; rows whose lists all have the length of the first are read at once."""
+    fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    position, lengths = at, {}
+    for name, kind, length in element.properties:
+        if length is None:
+            fields.append((name, order + kind))
+            position += np.dtype(kind).itemsize
+            continue
+        first = data[position : position + np.dtype(length).itemsize]
+        size = int(np.frombuffer(first, order + length)[0]) if element.count and len(first) else 0
+        fields += [(f"{name} length", order + length), (name, order + kind, (size,))]
+        lengths[name] = size
+        position += np.dtype(length).itemsize + size * np.dtype(kind).itemsize
+    row = np.dtype(fields)
+    if at + row.itemsize * element.count <= len(data):
+        table = np.frombuffer(data, row, element.count, at)
+        if all((table[f"{name} length"] == size).all() for name, size in lengths.items()):
+            columns = {name: _column(table[name], name in lengths) for name, _, _ in element.properties}
+            return columns, at + row.itemsize * element.count
+    if not lengths:
+        raise ValueError(
+            f"it ends after {(len(data) - at) // row.itemsize} of {element.count} entries of {element.name!r}"
+        )
+    return _mixed_element(data, at, element, order)
+
+
+def _column(values: NDArray[Any], is_list: bool) -> Any:
+    return values.tolist() if is_list and values.shape[1] != 3 else values
+
+
+def _mixed_element(data: bytes, at: int, element: Element, order: str) -> tuple[dict[str, Any], int]:
+    lists: dict[str, list[list[int]]] = {name: [] for name, _, _ in element.properties}
+    for index in range(element.count):
+        for name, kind, length in element.properties:
+            try:
+                size = 1
+                if length is not None:
+                    size = int(np.frombuffer(data, order + length, 1, at)[0])
+                    at += np.dtype(length).itemsize
+                lists[name].append(np.frombuffer(data, order + kind, size, at).tolist())
+            except ValueError as error:
+                raise ValueError(f"it ends after {index} of {element.count} entries of {element.name!r}") from error
+            at += size * np.dtype(kind).itemsize
+    return dict(lists), at
+
+
+def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
+    """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name."""
+    maps = {"_".join(name.split()): values for name, values in (scalars or {}).items()}
+    names = ["x", "y", "z", *maps]
+    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
+    head += [f"property double {name}" for name in names]
+    head += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
+    vertices = np.column_stack([mesh.vertices, *maps.values()]).astype("<f8")
+    faces = np.empty(len(mesh.faces), dtype=[("length", "u1"), ("corners", "<i4", (3,))])
+    faces["length"], faces["corners"] = 3, mesh.faces
+    path.write_bytes("\n".join(head).encode("ascii", "replace") + vertices.tobytes() + faces.tobytes())

@@ -1,0 +1,50 @@
+"""Total variation deblurring, (2.7), of an image blurred by heat diffusion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.fidelity import Method
+from surfexp.variational.heat_blur import HeatBlur
+from surfexp.variational.image import Image
+from surfexp.variational.models.rof import weight_of
+from surfexp.variational.separable_quadratic import check_positive
+from surfexp.variational.solution import Solution
+from surfexp.variational.truth_metrics import restoration_metrics
+
+
+@dataclass(frozen=True)
+class Deblurring:
+    """min TV(phi) + mu/2 |K phi - I|^2, K an implicit step of heat diffusion.
+
+    Parameters
+    ----------
+    width : float
+        Standard deviation sqrt(2 time) of the blur in units of the edge length h.
+    w : float
+        mu sigma h, as in `ROF`.
+    mu : float, optional
+        The printed weight, in place of w.
+    """
+
+    width: float = 2.0
+    w: float = 0.9
+    mu: float | None = None
+
+    def fidelity(self, image: Image, operator: SurfaceOperator) -> HeatBlur:
+        """Return the data term.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is not positive or the image has several channels.
+        """
+        check_positive("width", self.width)
+        mu = weight_of(self.w, self.mu, image, operator)
+        return HeatBlur(operator, image.values, mu, 0.5 * (self.width * operator.edge_length) ** 2)
+
+    def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
+        """Return the sharpened image, with rmse and psnr where the clean one is known."""
+        solution = method(self.fidelity(image, operator), operator)
+        return replace(solution, metrics=solution.metrics | restoration_metrics(image, operator, solution.values))

@@ -1,0 +1,69 @@
+"""Total variation denoising: the model of Rudin, Osher and Fatemi, (2.6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.fidelity import Method
+from surfexp.variational.image import Image
+from surfexp.variational.models.channelwise import solve_by_channel
+from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive, rof
+from surfexp.variational.solution import Solution
+from surfexp.variational.truth_metrics import restoration_metrics
+
+
+@dataclass(frozen=True)
+class ROF:
+    """min TV(phi) + mu/2 |phi - I|^2; several channels share the norm |D phi|_F of a face.
+
+    Parameters
+    ----------
+    w : float
+        Weight without unit, w = mu sigma h with the noise sigma of the image and the edge length h; the error is least
+        near 1, the residual is as large as the noise near 0.55.
+    mu : float, optional
+        The printed weight, in 1 / (unit of the image * unit of length), in place of w.
+    by_channel : bool
+        Denoise the channels one by one, as printed, in place of the rotation-invariant |D phi|_F.
+    """
+
+    w: float = 0.9
+    mu: float | None = None
+    by_channel: bool = False
+
+    def fidelity(self, image: Image, operator: SurfaceOperator) -> SeparableQuadratic:
+        """Return the data term.
+
+        Raises
+        ------
+        ValueError
+            If a weight is not positive, or w is to be used and the noise of the image is not known.
+        """
+        return rof(operator.mass, image.values, weight_of(self.w, self.mu, image, operator))
+
+    def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
+        """Return the denoised image, with rmse and psnr where the clean one is known."""
+        fidelity = self.fidelity(image, operator)
+        separate = self.by_channel and len(fidelity.shape) > 1
+        solution = solve_by_channel(fidelity, operator, method) if separate else method(fidelity, operator)
+        return replace(solution, metrics=solution.metrics | restoration_metrics(image, operator, solution.values))
+
+
+def weight_of(w: float, mu: float | None, image: Image, operator: SurfaceOperator) -> float:
+    """Return mu, or w / (sigma h) where it is None.
+
+    Raises
+    ------
+    ValueError
+        If a weight is not positive, or w is to be used and the noise of the image is not known.
+    """
+    if mu is not None:
+        check_positive("mu", mu)
+        return mu
+    check_positive("w", w)
+    if image.noise <= 0:
+        raise ValueError(
+            f"image {image.name!r} has noise {image.noise}, w = mu sigma h needs sigma > 0: give mu instead"
+        )
+    return w / (image.noise * operator.edge_length)
