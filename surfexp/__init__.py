@@ -1,1 +1,57 @@
-"""Intrinsic surface processing on triangle meshes: numerics, and a workflow that compares methods."""
+"""Intrinsic surface processing: total variation and Laplace-Beltrami eigen-geometry on triangle meshes, with certificates."""
+
+from __future__ import annotations
+
+import importlib
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from surfexp.mesh.surface import Surface as Surface
+    from surfexp.tasks.denoising import denoise as denoise
+    from surfexp.tasks.denoising import smooth as smooth
+    from surfexp.tasks.distances import align as align
+    from surfexp.tasks.distances import distance as distance
+    from surfexp.tasks.files import read as read
+    from surfexp.tasks.files import write as write
+    from surfexp.tasks.pictures import plot as plot
+    from surfexp.tasks.shapes import shape as shape
+    from surfexp.tasks.skeletons import geodesic as geodesic
+    from surfexp.tasks.skeletons import mean_curvature as mean_curvature
+    from surfexp.tasks.skeletons import reeb_graph as reeb_graph
+    from surfexp.tasks.spectra import eigenpairs as eigenpairs
+    from surfexp.tasks.spectra import eigsh as eigsh
+
+try:
+    __version__ = version("surfexp")
+except PackageNotFoundError:
+    __version__ = "0"
+
+# imported when it is asked for: `import surfexp` loads none of the numerical libraries
+_FACE = {
+    "Surface": "surfexp.mesh.surface",
+    "align": "surfexp.tasks.distances",
+    "denoise": "surfexp.tasks.denoising",
+    "distance": "surfexp.tasks.distances",
+    "eigenpairs": "surfexp.tasks.spectra",
+    "eigsh": "surfexp.tasks.spectra",
+    "geodesic": "surfexp.tasks.skeletons",
+    "mean_curvature": "surfexp.tasks.skeletons",
+    "plot": "surfexp.tasks.pictures",
+    "read": "surfexp.tasks.files",
+    "reeb_graph": "surfexp.tasks.skeletons",
+    "shape": "surfexp.tasks.shapes",
+    "smooth": "surfexp.tasks.denoising",
+    "write": "surfexp.tasks.files",
+}
+__all__ = ["__version__", *_FACE]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _FACE:
+        raise AttributeError(f"module 'surfexp' has no attribute {name!r}")
+    return getattr(importlib.import_module(_FACE[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

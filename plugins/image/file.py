@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from surfexp.io.reading import read_scalars
+from surfexp.io.map_files import read_scalars
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise

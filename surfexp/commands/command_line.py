@@ -14,6 +14,16 @@ from surfexp.commands import processes
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
+    "modes": ("surface_commands", "eigenpairs of a surface: surfexp modes SURFACE -k 400 --to modes.npz"),
+    "denoise": ("surface_commands", "a map without its noise: surfexp denoise SURFACE MAP --to clean.shape.gii"),
+    "smooth": ("surface_commands", "a map smoothed by heat flow: surfexp smooth SURFACE MAP --width 6mm --to FILE"),
+    "skeleton": ("surface_commands", "the Reeb graph of a map: surfexp skeleton SURFACE [MAP] --to skeleton.vtk"),
+    "distance": ("surface_commands", "spectral distance with proof: surfexp distance A B -n 20"),
+    "align": ("surface_commands", "modes of B in correspondence with A's: surfexp align A B -k 50 --to FILE"),
+    "geodesic": ("surface_commands", "distances from vertices: surfexp geodesic SURFACE VERTEX ... --to FILE"),
+    "curvature": ("surface_commands", "mean curvature: surfexp curvature SURFACE --to FILE"),
+    "convert": ("surface_commands", "another format: surfexp convert FILE FILE"),
+    "plot": ("surface_commands", "a picture: surfexp plot SURFACE [MAP] --to FILE.png"),
     "run": (
         "run",
         "run an experiment or a sweep, e.g. surfexp run experiment=quickstart solver=primal_dual,split_bregman",

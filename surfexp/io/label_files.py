@@ -1,15 +1,18 @@
-"""Labels of vertices as files that other tools open: GIFTI labels (.label.gii) and FreeSurfer annotations (.annot)."""
+"""Labels of vertices as files: GIFTI labels (.label.gii), FreeSurfer annotations (.annot) and label lists (.label)."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from xml.parsers.expat import ExpatError
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Integers
+from surfexp.io.cifti import is_cifti, read_cifti_labels
+from surfexp.io.foreign import parsing
+from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels
+from surfexp.mesh.label_map import LabelMap
 
 
 def label_colors(count: int) -> NDArray[np.int64]:
@@ -37,60 +40,62 @@ def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> No
     if len(labels) and (labels.min() < 0 or labels.max() >= len(names)):
         given = f"labels go from {labels.min()} to {labels.max()}"
         raise ValueError(f"{given}, the {len(names)} names are of 0..{len(names) - 1}")
-    if len(set(names)) < len(names):
-        twice = next(name for name in names if list(names).count(name) > 1)
-        raise ValueError(f"the name {twice!r} stands for two labels, each needs its own")
+    table = LabelMap(labels, dict(enumerate(names)))
     if path.suffix == ".gii":
-        _write_gifti(path, labels, names)
+        write_gifti_labels(path, labels, dict(table.names), label_colors(len(names)))
     elif path.suffix == ".annot":
         _write_annotation(path, labels, names)
     else:
         raise ValueError(f"{path} has an unknown format of labels, choose one of .label.gii, .annot")
 
 
-def read_labels(path: Path | str) -> tuple[Integers, tuple[str, ...]]:
-    """Return the labels of a file by `write_labels`, or of another's, and their names; -1 where there is none.
-
-    Labels are renumbered from 0 in the order of the file's table.
+def read_label_map(path: Path | str, hemisphere: str = "") -> LabelMap:
+    """Return the labels of a .label.gii, .annot or .dlabel.nii (its first map) as they stand in the file.
 
     Raises
     ------
     ValueError
-        If the file is not there, is of another format or cannot be read.
+        If the file is not there, is of another format or cannot be read; the message begins with its name.
     """
-    import nibabel
-    from nibabel.filebasedimages import ImageFileError
-
     path = Path(path)
     if not path.is_file():
         raise ValueError(f"label file {path} is not there")
     try:
         if path.suffix == ".annot":
-            with np.errstate(over="ignore"):
-                found, _, entries = nibabel.freesurfer.read_annot(path)
-            return np.asarray(found, dtype=np.int64), tuple(entry.decode() for entry in entries)
-        image = nibabel.load(path)
-        table = image.labeltable.get_labels_as_dict()
-        values = np.asarray(image.darrays[0].data, dtype=np.int64)
-    except (ExpatError, OSError, ValueError, AttributeError, IndexError, MemoryError, ImageFileError) as error:
+            return _read_annotation(path)
+        if is_cifti(path):
+            return next(iter(read_cifti_labels(path, hemisphere).values()))
+        if is_gifti(path):
+            return read_gifti_labels(path)
+    except (OSError, ValueError) as error:
         raise ValueError(f"{path} is not a readable file of labels: {error}") from error
-    keys = sorted(table)
-    places = np.full(max([*keys, int(values.max(initial=0)), 0]) + 1, -1, dtype=np.int64)
-    places[keys] = np.arange(len(keys))
-    return places[values], tuple(table[key] for key in keys)
+    raise ValueError(f"{path} is not a readable file of labels: choose one of .label.gii, .annot, .dlabel.nii")
 
 
-def _write_gifti(path: Path, labels: Integers, names: Sequence[str]) -> None:
+def read_labels(path: Path | str) -> tuple[Integers, tuple[str, ...]]:
+    """Return labels renumbered from 0 in the order of the file's table, -1 where there is none, and their names.
+
+    Raises
+    ------
+    ValueError
+        As `read_label_map`.
+    """
+    found = read_label_map(path)
+    keys = sorted(found.names)
+    if not keys:
+        return np.full(len(found.keys), -1, dtype=np.int64), ()
+    nearest = np.clip(np.searchsorted(keys, found.keys), 0, len(keys) - 1)
+    known = np.asarray(keys)[nearest] == found.keys
+    return np.where(known, nearest, -1), tuple(found.names[key] for key in keys)
+
+
+def _read_annotation(path: Path) -> LabelMap:
     import nibabel
 
-    gifti = nibabel.gifti
-    table = gifti.GiftiLabelTable()
-    for key, (name, color) in enumerate(zip(names, label_colors(len(names)) / 255.0, strict=True)):
-        entry = gifti.GiftiLabel(key, *map(float, color), 1.0)
-        entry.label = name
-        table.labels.append(entry)
-    array = gifti.GiftiDataArray(labels.astype(np.int32), "NIFTI_INTENT_LABEL", datatype="NIFTI_TYPE_INT32")
-    nibabel.save(gifti.GiftiImage(labeltable=table, darrays=[array]), path)
+    with parsing("annotation"), np.errstate(over="ignore"):
+        keys, _, entries = nibabel.freesurfer.read_annot(path)
+    names = {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)}
+    return LabelMap(np.asarray(keys, dtype=np.int64), names)
 
 
 def _write_annotation(path: Path, labels: Integers, names: Sequence[str]) -> None:

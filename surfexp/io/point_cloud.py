@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.io.npz import read_arrays
+from surfexp.io.numbers import real_array
 from surfexp.io.open3d_files import import_open3d
-from surfexp.mesh.npy import read_npy
 from surfexp.mesh.repair import Repaired, repair
 
 
@@ -23,7 +24,7 @@ def read_points(path: Path | str) -> Floats:
     path = Path(path)
     try:
         if path.suffix == ".npy":
-            points = read_npy(path)
+            points = real_array(read_arrays(path)["map"], "the points")
         elif path.suffix in (".xyz", ".xyzn", ".xyzrgb", ".txt"):
             points = np.loadtxt(path, ndmin=2)
         else:

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.welding import weld
 
 
@@ -33,3 +34,10 @@ def read_stl(path: Path) -> tuple[Floats, Integers]:
         raise ValueError(f"it has {len(at)} vertices for {words.count(b'facet')} triangles, three for each are needed")
     coordinates = np.array([words[k + 1 : k + 4] for k in at], dtype=np.float64)
     return weld(coordinates.reshape(-1, 3, 3))
+
+
+def write_stl(path: Path, mesh: TriangleMesh) -> None:
+    """Write binary STL in single precision, with the normal of each face."""
+    records = np.zeros(len(mesh.faces), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    records["normal"], records["corners"] = mesh.face_normals, mesh.vertices[mesh.faces]
+    path.write_bytes(b"surfexp".ljust(80) + len(records).to_bytes(4, "little") + records.tobytes())

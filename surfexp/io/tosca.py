@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.io.numbers import index_array
 
 TABLES = (".vert", ".tri")
 
@@ -29,7 +30,7 @@ def read_vert_tri(path: Path) -> tuple[Floats, Integers]:
         if not rows or any(len(row) != 3 for row in rows):
             raise ValueError(f"{part.name} is empty or has a row without three columns")
         tables.append(np.array(rows, dtype=np.float64))
-    return tables[0], tables[1].astype(np.int64) - 1
+    return tables[0], index_array(tables[1], "the table of faces") - 1
 
 
 def read_mat(path: Path) -> tuple[Floats, Integers]:

@@ -1,21 +1,139 @@
-"""Legacy VTK files, ASCII, for ParaView and its relatives."""
+"""Legacy VTK polygonal data (.vtk, ASCII and binary), for ParaView and its relatives.
+
+By hand: meshio 5.3 reads no POLYDATA and ends the process when it meets one; the vtk package has over 100 MB.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.arrays import Floats
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.arrays import Floats, Integers
+from surfexp.io.polygons import triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+TYPES = {"float": "f4", "double": "f8", "int": "i4", "long": "i8", "vtktypeint64": "i8", "vtktypeint32": "i4"}
+TYPES |= {"unsigned_char": "u1", "char": "i1", "short": "i2", "unsigned_short": "u2", "unsigned_int": "u4"}
 
 
 def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
-    """Write polygonal data with one SCALARS block for each map."""
+    """Write legacy ASCII polygonal data with one SCALARS block for each map (or channel)."""
     n, m = len(mesh.vertices), len(mesh.faces)
     lines = ["# vtk DataFile Version 3.0", path.stem, "ASCII", "DATASET POLYDATA", f"POINTS {n} double"]
     lines += [" ".join(map(repr, row)) for row in mesh.vertices.tolist()]
     lines += [f"POLYGONS {m} {4 * m}", *(f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist())]
     if scalars:
         lines.append(f"POINT_DATA {n}")
-    for name, values in (scalars or {}).items():
+    for name, values in scalar_channels(scalars or {}).items():
         lines += [f"SCALARS {'_'.join(name.split())} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
     path.write_text("\n".join(lines) + "\n")
+
+
+def scalar_channels(maps: dict[str, Floats]) -> dict[str, Floats]:
+    """Return maps of one number a vertex: the channels of others by name and number."""
+    flat: dict[str, Floats] = {}
+    for name, values in maps.items():
+        columns = {name: values} if values.ndim == 1 else {f"{name} {k}": values[:, k] for k in range(values.shape[1])}
+        flat |= columns
+    return flat
+
+
+class _Words:
+    """A legacy file read piece by piece: lines of words, then numbers as text or big-endian bytes."""
+
+    def __init__(self, data: bytes) -> None:
+        self.data, self.at = data, 0
+        head = [self.line() for _ in range(3)]
+        if not head[0].lower().startswith("# vtk datafile") or head[2].upper() not in ("ASCII", "BINARY"):
+            raise ValueError("it has no header of a legacy VTK file")
+        self.binary = head[2].upper() == "BINARY"
+
+    def line(self) -> str:
+        """Return the next line that is not empty, or nothing at the end."""
+        while self.at < len(self.data):
+            stop = self.data.find(b"\n", self.at)
+            stop = len(self.data) if stop < 0 else stop
+            line, self.at = self.data[self.at : stop].decode("latin-1").strip(), stop + 1
+            if line:
+                return line
+        return ""
+
+    def numbers(self, count: int, kind: str) -> NDArray[np.generic]:
+        """Return the next `count` numbers of a type."""
+        if kind.lower() not in TYPES:
+            raise ValueError(f"it has numbers of type {kind[:20]!r}, known are {', '.join(TYPES)}")
+        dtype = np.dtype(TYPES[kind.lower()])
+        if count < 0 or count * (dtype.itemsize if self.binary else 2) > len(self.data) - self.at + 1:
+            raise ValueError(f"it ends before {count} numbers that it announces")
+        if self.binary:
+            found = np.frombuffer(self.data, dtype.newbyteorder(">"), count, self.at)
+            self.at += count * dtype.itemsize
+            return found.astype(dtype)
+        words: list[str] = []
+        while len(words) < count:
+            line = self.line()
+            if not line:
+                raise ValueError(f"it ends after {len(words)} of {count} numbers")
+            words += line.split()
+        if len(words) > count:
+            raise ValueError(f"it has {len(words)} numbers where {count} are announced")
+        return np.array(words, dtype=np.float64).astype(dtype)
+
+
+def read_vtk(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
+    """Points, polygons and point data (SCALARS and FIELD arrays) of legacy polygonal data.
+
+    Raises
+    ------
+    ValueError
+        If it is another data set, or ends early.
+    """
+    words = _Words(path.read_bytes())
+    kind = words.line().split()
+    if [word.upper() for word in kind] != ["DATASET", "POLYDATA"]:
+        raise ValueError(f"it holds {' '.join(kind)[:40]!r}, polygons are needed: DATASET POLYDATA")
+    points, polygons, maps, at_points = np.zeros((0, 3)), np.zeros((0, 3), np.int64), dict[str, Floats](), False
+    while line := words.line().split():
+        key = line[0].upper()
+        if key == "POINTS" and len(line) == 3:
+            points = words.numbers(3 * int(line[1]), line[2]).reshape(-1, 3).astype(np.float64)
+        elif key == "POLYGONS" and len(line) == 3:
+            polygons = _legacy_polygons(words, int(line[1]), int(line[2]))
+        elif key in ("VERTICES", "LINES") and len(line) == 3:
+            words.numbers(int(line[2]), "int")
+        elif key == "TRIANGLE_STRIPS":
+            raise ValueError("it holds triangle strips, which only PLY files may have here: write polygons")
+        elif key in ("POINT_DATA", "CELL_DATA"):
+            at_points = key == "POINT_DATA"
+        elif key == "SCALARS" and len(line) >= 3:
+            width = int(line[3]) if len(line) > 3 else 1
+            words.line()
+            _keep(maps, at_points, line[1], words.numbers(width * len(points), line[2]), width)
+        elif key == "FIELD" and len(line) == 3:
+            for _ in range(int(line[2])):
+                name, channels, count, field_kind = words.line().split()
+                numbers = words.numbers(int(channels) * int(count), field_kind)
+                _keep(maps, at_points, name, numbers, int(channels))
+        elif key not in ("METADATA", "INFORMATION", "NAME", "DATA"):
+            raise ValueError(f"it has the statement {' '.join(line)[:40]!r}, which is not known here")
+    return points, polygons, maps
+
+
+def _keep(maps: dict[str, Floats], at_points: bool, name: str, values: NDArray[np.generic], width: int) -> None:
+    if at_points:
+        columns = values.astype(np.float64).reshape(-1, width)
+        maps[name] = columns[:, 0].copy() if width == 1 else columns
+
+
+def _legacy_polygons(words: _Words, count: int, size: int) -> Integers:
+    flat = words.numbers(size, "int").astype(np.int64).tolist()
+    polygons: list[list[int]] = []
+    at = 0
+    for _ in range(count):
+        if at >= len(flat) or at + 1 + flat[at] > len(flat) or flat[at] < 3:
+            raise ValueError(f"polygon {len(polygons)} is cut short or has under 3 corners")
+        polygons.append(flat[at + 1 : at + 1 + flat[at]])
+        at += 1 + flat[at]
+    return triangulate(polygons)

@@ -2,19 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from surfexp.arrays import Floats
+from surfexp.io.freesurfer import hemisphere_of, write_freesurfer_geometry
 from surfexp.io.gifti import write_gifti
+from surfexp.io.npz import write_npz_mesh
 from surfexp.io.obj import write_obj
 from surfexp.io.off import write_off
 from surfexp.io.ply import write_ply
+from surfexp.io.stl import write_stl
 from surfexp.io.vtk import write_vtk
+from surfexp.io.vtp import write_vtp
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+Writer = Callable[[Path, TriangleMesh], None]
+WriterOfMaps = Callable[[Path, TriangleMesh, dict[str, Floats]], None]
+WITH_MAPS: dict[str, WriterOfMaps] = {".ply": write_ply, ".vtk": write_vtk, ".vtp": write_vtp, ".npz": write_npz_mesh}
+WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".gii": write_gifti, ".stl": write_stl}
+FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness")
 
 
 def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
-    """Write a mesh as .off, .obj, .ply, .gii or .vtk; .ply and .vtk carry scalar maps, .gii keeps single precision.
+    """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
+
+    .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision.
 
     Raises
     ------
@@ -27,16 +40,16 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
             raise ValueError(
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
-    with_maps, without = (
-        {".ply": write_ply, ".vtk": write_vtk},
-        {".off": write_off, ".obj": write_obj, ".gii": write_gifti},
-    )
     suffix = path.suffix.lower()
-    if suffix in with_maps:
-        with_maps[suffix](path, mesh, maps)
-    elif suffix not in without:
-        raise ValueError(f"{path} has an unknown format, choose one of {', '.join([*without, *with_maps])}")
+    freesurfer = suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
+    if suffix in WITH_MAPS:
+        WITH_MAPS[suffix](path, mesh, maps)
+    elif not freesurfer and suffix not in WITHOUT_MAPS:
+        known = ", ".join([*WITHOUT_MAPS, *WITH_MAPS, *FREESURFER])
+        raise ValueError(f"{path} has an unknown format, choose one of {known}")
     elif maps:
-        raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(with_maps)}")
+        raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(WITH_MAPS)}")
+    elif freesurfer:
+        write_freesurfer_geometry(path, mesh)
     else:
-        without[suffix](path, mesh)
+        WITHOUT_MAPS[suffix](path, mesh)

@@ -6,8 +6,10 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
+from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
@@ -58,6 +60,12 @@ class Surface:
         The smooth surface that all vertices lie on; checked. None for every surface whose smooth shape nobody vouches for.
     truth : Truth
         Ground truth, where there is some.
+    mask : (n,) bool, optional
+        The part that methods work on, such as the cortex without its medial wall; None is all of it.
+    hemisphere : {"", "left", "right"}
+        Where the file said so.
+    labels : dict of str to LabelMap
+        Parcellations by name.
 
     Raises
     ------
@@ -74,6 +82,9 @@ class Surface:
     notes: tuple[str, ...] = ()
     shape: SmoothShape | None = None
     truth: Truth = Truth()
+    mask: NDArray[np.bool_] | None = None
+    hemisphere: str = ""
+    labels: dict[str, LabelMap] = field(default_factory=dict)
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),
@@ -91,6 +102,8 @@ class Surface:
                 raise ValueError(f"true {name} have shape {np.shape(numbers)}, the mesh has {n} vertices")
         if self.shape is not None and not self.shape.holds(self.mesh):
             raise ValueError(f"the vertices of {self.name!r} do not lie on a {self.shape.words}: give shape=None")
+        if self.mask is not None and np.shape(self.mask) != (n,):
+            raise ValueError(f"mask has shape {np.shape(self.mask)}, the mesh has {n} vertices")
         for name, values in self.scalars.items():
             if np.shape(values) != (n,):
                 raise ValueError(f"scalar map {name!r} has shape {np.shape(values)}, the mesh has {n} vertices")

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from surfexp.io import open3d_files
+from surfexp.io.map_files import read_scalars
 from surfexp.io.point_cloud import read_points
-from surfexp.io.reading import read_mesh, read_scalars
+from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh

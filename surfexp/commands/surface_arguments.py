@@ -1,0 +1,107 @@
+"""What every command on surfaces shares: its arguments, its progress line, and how its result leaves."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from surfexp.commands.certificate import write_certificate
+from surfexp.mesh.surface import Surface
+
+Command = Callable[..., Any]
+
+
+def surface_options(command: Command) -> Command:
+    """Add the options of a surface: mask, maps, labels, unit, repair."""
+    inside = "part to work on: .label, labels (FILE or FILE:NAME,NAME), or a map that is 0 outside"
+    repaired = "repair a defective mesh and say how, instead of refusing it"
+    options: list[Callable[[Command], Command]] = [
+        click.option("--mask", help=inside),
+        click.option("--map", "maps", multiple=True, metavar="NAME=FILE", help="attach a map; repeatable"),
+        click.option("--unit", default="", help="unit of length, for colour bars and tables"),
+        click.option("--hemisphere", type=click.Choice(["left", "right"]), help="where the file does not say it"),
+        click.option("--repair", is_flag=True, help=repaired),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def result_option(required: bool = True) -> Callable[[Command], Command]:
+    """Add `--to FILE`: the suffix decides about the format."""
+    return click.option(
+        "--to", "target", type=click.Path(path_type=Path), required=required, help="result; the suffix decides"
+    )
+
+
+def opened(
+    path: str, mask: str | None, maps: tuple[str, ...], unit: str, hemisphere: str | None, repair: bool
+) -> tuple[Surface, list[Path]]:
+    """Return the surface that the arguments describe, and the files that went into it."""
+    from surfexp.tasks.files import read
+
+    named = dict(item.partition("=")[::2] for item in maps)
+    if "" in named.values():
+        raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
+    surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
+    for note in surface.notes:
+        click.echo(f"{path}: {note}", err=True)
+    masks = [Path(str(mask).partition(":")[0])] if mask else []
+    return surface, [Path(path), *map(Path, named.values()), *masks]
+
+
+def map_of(surface: Surface, given: str, files: list[Path]) -> Any:
+    """Return a map by the name that the surface carries it under, or from a file, which joins the inputs."""
+    from surfexp.io.map_files import read_scalars
+
+    if given in surface.scalars:
+        return surface.scalars[given]
+    files.append(Path(given))
+    return read_scalars(given, surface.hemisphere)
+
+
+@contextmanager
+def progress_line(label: str) -> Iterator[Callable[[int, float], None]]:
+    """Yield a progress callback that keeps one line of the terminal up to date, with the elapsed time; silent without one."""
+    started, last = time.monotonic(), [0.0]
+    shown = click.get_text_stream("stderr").isatty()
+
+    def report(step: int, rest: float) -> None:
+        now = time.monotonic()
+        if shown and now - last[0] > 0.2:
+            last[0] = now
+            click.echo(f"\r{label}: {step:,}, {rest:.1e} left, {now - started:.0f} s \x1b[K", nl=False, err=True)
+
+    yield report
+    if shown and last[0]:
+        click.echo("\r\x1b[K", nl=False, err=True)
+
+
+def finish(
+    target: Path,
+    result: Any,
+    surface: Surface | None,
+    method: str,
+    options: dict[str, Any],
+    files: list[Path],
+    facts: dict[str, Any],
+    notes: tuple[str, ...] = (),
+) -> None:
+    """Write a result with its certificate, and say both in one line."""
+    from surfexp.tasks.files import write
+
+    write(target, result, surface)
+    certificate = write_certificate(target, method, options, files, facts, notes)
+    for note in notes:
+        click.echo(note, err=True)
+    shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
+    click.echo(f"{target}: {shown} (certificate: {certificate.name})")
+
+
+def _short(value: Any) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,259 @@
+"""Commands that work on files of one's own: file in, file out, certificate beside it."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+
+from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
+
+EXAMPLES = {
+    "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
+    "denoise": ("lh.white lh.thickness --to clean.shape.gii", "scan.ply quality --to clean.ply"),
+    "smooth": ("lh.white lh.thickness --width 6 --to smooth.mgh", "a.surf.gii a.func.gii --width 4mm --to b.func.gii"),
+    "geodesic": ("lh.white 0 --to distance.shape.gii", "bunny.ply 12 40 --to distance.csv"),
+    "curvature": ("lh.white --to curvature.shape.gii", "bunny.ply --to bunny.vtp"),
+    "skeleton": ("patch.ply --to skeleton.vtk", "patch.ply height.csv --to skeleton.graphml"),
+    "distance": ("a.ply b.ply -n 20", "a.ply b.ply --to map.npz"),
+    "align": ("a.ply b.ply -k 50 --to aligned.npz", "lh.white other/lh.white -k 20 --to aligned.npz"),
+    "convert": ("lh.white white.gii", "scan.obj scan.ply"),
+    "plot": ("lh.white lh.thickness --to thickness.png", "bunny.ply --to bunny.png"),
+}
+
+
+def examples(name: str) -> dict[str, Any]:
+    """Arguments of a click command: its name, and two examples below its help."""
+    lines = "\n\n".join(f"surfexp {name} {arguments}" for arguments in EXAMPLES[name])
+    return {"name": name, "epilog": f"Examples:\n\n{lines}"}
+
+
+@click.command(**examples("modes"))
+@click.argument("path")
+@click.option("-k", "count", default=50, show_default=True, help="number of eigenpairs")
+@click.option("--tolerance", default=1e-8, show_default=True, help="largest relative residual")
+@surface_options
+@result_option()
+def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> None:
+    """Laplace-Beltrami eigenpairs of a surface, proved to be the lowest."""
+    from surfexp.tasks.spectra import eigenpairs
+
+    surface, files = opened(path, **given)
+    started = time.perf_counter()
+    with progress_line("modes") as progress:
+        system = eigenpairs(surface, count, tolerance=tolerance, progress=progress)
+    facts = {
+        "complete": system.complete,
+        "residual": float(system.residuals.max()),
+        "seconds": time.perf_counter() - started,
+    }
+    finish(target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes)
+
+
+@click.command(**examples("denoise"))
+@click.argument("path")
+@click.argument("map_name", metavar="MAP")
+@click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
+@click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
+@click.option("--tolerance", default=1e-4, show_default=True, help="largest relative duality gap")
+@surface_options
+@result_option()
+def denoise(
+    path: str, map_name: str, weight: float, noise: float | None, tolerance: float, target: Path, **given: Any
+) -> None:
+    """Remove the noise of a map by total variation, which keeps its edges. MAP is a file, or a map that the surface carries."""
+    from surfexp.tasks.denoising import denoise as task
+
+    surface, files = opened(path, **given)
+    values = map_of(surface, map_name, files)
+    started = time.perf_counter()
+    with progress_line("denoise") as progress:
+        clean = task(surface, values, weight=weight, noise=noise, tolerance=tolerance, progress=progress)
+    facts = clean.certificate | {"seconds": time.perf_counter() - started}
+    finish(target, clean, surface, "rof", {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
+
+
+class Width(click.ParamType[float]):
+    """A width in the unit of the surface: 6 or 6mm."""
+
+    name = "width"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        try:
+            return float(str(value).removesuffix("mm"))
+        except ValueError:
+            self.fail(f"{value!r} is no width: write 6 or 6mm", param, ctx)
+
+
+@click.command(**examples("smooth"))
+@click.argument("path")
+@click.argument("map_name", metavar="MAP")
+@click.option(
+    "--width", type=Width(), required=True, help="full width at half maximum, in the unit of the surface: 6mm"
+)
+@surface_options
+@result_option()
+def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> None:
+    """Smooth a map by heat flow on the surface, as a Gaussian of a given width would."""
+    from surfexp.tasks.denoising import smooth as task
+
+    surface, files = opened(path, **given)
+    values = map_of(surface, map_name, files)
+    started = time.perf_counter()
+    smoothed = task(surface, values, width)
+    facts = smoothed.certificate | {"seconds": time.perf_counter() - started}
+    finish(target, smoothed, surface, "heat", {"width": width}, files, facts, smoothed.notes)
+
+
+@click.command(**examples("geodesic"))
+@click.argument("path")
+@click.argument("sources", nargs=-1, type=int, required=True)
+@surface_options
+@result_option()
+def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) -> None:
+    """Geodesic distance from vertices, by fast marching."""
+    from surfexp.tasks.skeletons import geodesic as task
+
+    surface, files = opened(path, **given)
+    started = time.perf_counter()
+    values = task(surface, sources)
+    facts = {"seconds": time.perf_counter() - started}
+    finish(target, {"distance": values}, surface, "fast marching", {"sources": list(sources)}, files, facts)
+
+
+@click.command(**examples("curvature"))
+@click.argument("path")
+@surface_options
+@result_option()
+def curvature(path: str, target: Path, **given: Any) -> None:
+    """Mean curvature, positive where the surface bulges outward."""
+    from surfexp.tasks.skeletons import mean_curvature
+
+    surface, files = opened(path, **given)
+    finish(target, {"mean curvature": mean_curvature(surface)}, surface, "mean curvature", {}, files, {})
+
+
+@click.command(**examples("skeleton"))
+@click.argument("path")
+@click.argument("map_name", metavar="[MAP]", required=False)
+@click.option("--count", default=50, show_default=True, help="number of levels")
+@surface_options
+@result_option()
+def skeleton(path: str, map_name: str | None, count: int, target: Path, **given: Any) -> None:
+    """Reeb graph of a map, of the first eigenfunction if none is given, as .vtk, .ply or .graphml."""
+    from surfexp.commands.certificate import write_certificate
+    from surfexp.skeleton.export import write_skeleton
+    from surfexp.tasks.skeletons import reeb_graph
+    from surfexp.tasks.spectra import eigenpairs
+
+    surface, files = opened(path, **given)
+    values = map_of(surface, map_name, files) if map_name else eigenpairs(surface, 3).vectors[:, 1]
+    graph = reeb_graph(surface, values, count=count)
+    write_skeleton(target, graph)
+    facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}
+    write_certificate(
+        target, "reeb graph", {"levels": count, "map": map_name or "first eigenfunction"}, files, facts, graph.notes
+    )
+    click.echo(f"{target}: {len(graph.positions)} nodes, {len(graph.arcs)} arcs, {graph.metrics['b1']:.0f} loops")
+
+
+@click.command(**examples("distance"))
+@click.argument("first")
+@click.argument("second")
+@click.option("-n", "count", default=20, show_default=True, help="number of eigenfunctions")
+@result_option(required=False)
+def distance(first: str, second: str, count: int, target: Path | None) -> None:
+    """Spectral distance of two surfaces: value, proved lower bound, signs; the map with --to."""
+    import numpy as np
+
+    from surfexp.tasks.distances import distance as task
+
+    started = time.perf_counter()
+    found = task(first, second, count)
+    signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
+    proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
+    click.echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
+    if target is not None:
+        facts = {
+            "value": found.value,
+            "lower_bound": found.lower_bound,
+            "optimal": found.optimal,
+            "signs": signs,
+            "seconds": time.perf_counter() - started,
+        }
+        maps = {"correspondence": found.correspondence.astype(float)}
+        finish(target, maps, None, found.method, {"n": count}, [Path(first), Path(second)], facts, found.notes)
+
+
+@click.command(**examples("align"))
+@click.argument("first")
+@click.argument("second")
+@click.option("-k", "count", default=50, show_default=True, help="number of modes after the constant")
+@result_option()
+def align(first: str, second: str, count: int, target: Path) -> None:
+    """Bring the modes of the second surface into correspondence with those of the first: signs, order, rotations."""
+    from surfexp.tasks.distances import align as task
+
+    started = time.perf_counter()
+    found = task(first, second, count)
+    facts = {
+        "value": found.value,
+        "lower_bound": found.lower_bound,
+        "optimal": found.optimal,
+        "blocks": len(found.blocks),
+        "seconds": time.perf_counter() - started,
+    }
+    maps = {"vectors": found.vectors, "basis": found.basis}
+    finish(target, maps, None, "mode alignment", {"k": count}, [Path(first), Path(second)], facts, found.notes)
+
+
+@click.command(**examples("convert"))
+@click.argument("path")
+@click.argument("target", type=click.Path(path_type=Path))
+@surface_options
+def convert(path: str, target: Path, **given: Any) -> None:
+    """Write a surface in another format, with its maps where the format has room for them."""
+    from surfexp.tasks.files import write
+
+    surface, _ = opened(path, **given)
+    write(target, surface)
+    click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
+
+
+@click.command(**examples("plot"))
+@click.argument("path")
+@click.argument("map_name", metavar="[MAP]", required=False)
+@click.option("--width", default=1600, show_default=True, help="pixels across")
+@click.option("--label", default="", help="of the colour bar")
+@surface_options
+@result_option()
+def plot(path: str, map_name: str | None, width: int, label: str, target: Path, **given: Any) -> None:
+    """Draw a surface, coloured by a map, as .png or .svg."""
+    from surfexp.tasks.pictures import plot as task
+
+    surface, files = opened(path, **given)
+    values = map_of(surface, map_name, files) if map_name else None
+    task(surface, values, width=width, label=label or Path(map_name or "").name).save(target)
+    click.echo(str(target))
+
+
+ALL = (modes, denoise, smooth, geodesic, curvature, skeleton, distance, align, convert, plot)
+COMMANDS = {command.name: command for command in ALL}
+
+
+def command(name: str, arguments: list[str]) -> int:
+    """Run one of the commands; whatever is wrong with its arguments or files is the user's mistake, in one line."""
+    from surfexp.workflow.errors import UserError
+
+    try:
+        COMMANDS[name].main(arguments, prog_name=f"surfexp {name}", standalone_mode=False)
+    except click.Abort:
+        raise KeyboardInterrupt from None
+    except click.ClickException as error:
+        raise UserError(error.format_message()) from error
+    except ValueError as error:
+        raise UserError(str(error)) from error
+    return 0

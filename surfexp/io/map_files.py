@@ -1,0 +1,169 @@
+"""Maps on a surface as files: the format follows from the file's name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.arrays import Floats
+from surfexp.io import freesurfer
+from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
+from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
+from surfexp.io.label_files import read_label_map
+from surfexp.io.npz import read_arrays
+from surfexp.io.numbers import LARGEST_BYTES, real_array
+from surfexp.io.text_tables import read_table, write_table
+
+TEXT = (".csv", ".txt", ".dat")
+VOLUMES = (".mgh", ".mgz")
+UNNAMED = ("map", "map 1")
+KNOWN = (
+    ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or a FreeSurfer curvature file (lh.sulc)"
+)
+OUTSIDE = {"unknown", "medial_wall", "medial wall", "medialwall", "???", "none", "background"}
+
+
+def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
+    """Return the maps of a file by name, each (n,) or (n, c), NaN where nothing is known.
+
+    GIFTI, CIFTI-2 (one hemisphere), .mgh/.mgz, .npy/.npz, text, FreeSurfer curvature (lh.sulc). A file with one unnamed map
+    names it after itself.
+
+    Raises
+    ------
+    ValueError
+        If the file is missing, broken or cut off, or holds something else than real numbers; the message begins with its name.
+    """
+    path = Path(path)
+    try:
+        if not path.is_file():
+            raise ValueError(f"no such file in {path.parent.absolute()}")
+        if not 0 < path.stat().st_size <= LARGEST_BYTES:
+            raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
+        maps = _read(path, hemisphere)
+    except (ValueError, OSError, EOFError, OverflowError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise ValueError(f"{path} cannot be read as a scalar map: {reason}") from error
+    if len(maps) == 1 and next(iter(maps)) in UNNAMED:
+        return {_stem(path): next(iter(maps.values()))}
+    return maps
+
+
+def _stem(path: Path) -> str:
+    """Name of a map by its file: lh.thickness.mgz is lh.thickness, faithful.npy is faithful."""
+    words = path.name.split(".")
+    return ".".join(words[:2]) if words[0] in ("lh", "rh") and len(words) > 1 else words[0]
+
+
+def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
+    suffix = path.suffix.lower()
+    if suffix in (".npy", ".npz"):
+        return {name: real_array(array, f"array {name!r}") for name, array in read_arrays(path).items()}
+    if suffix in TEXT:
+        return read_table(path)
+    if is_cifti(path):
+        return read_cifti_maps(path, hemisphere)
+    if is_gifti(path):
+        return read_gifti_maps(path)
+    if suffix in VOLUMES:
+        return {"map": freesurfer.read_volume_map(path)}
+    with path.open("rb") as stream:
+        if stream.read(3) != b"\xff\xff\xff":
+            raise ValueError(f"its format is unknown; known are {KNOWN}")
+    return {"map": freesurfer.read_map(path)}
+
+
+def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
+    """Return (n,) or (n, c) values: the one map of a file, or its maps side by side.
+
+    Raises
+    ------
+    ValueError
+        As `read_maps`, or if the maps have different lengths.
+    """
+    maps = read_maps(path, hemisphere)
+    lengths = {len(values) for values in maps.values()}
+    if len(lengths) != 1:
+        raise ValueError(f"{path} cannot be read as a scalar map: its arrays have lengths {sorted(lengths)}")
+    columns = np.column_stack(list(maps.values()))
+    return np.ascontiguousarray(columns[:, 0]) if columns.shape[1] == 1 else columns
+
+
+def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.bool_]:
+    """Return a mask of `count` vertices from a file.
+
+    A FreeSurfer .label lists the vertices inside. Of labels with names (.label.gii, .annot, .dlabel.nii) all but unknown and
+    medial wall are inside, or those named behind a colon: `lh.aparc.annot:insula,precentral`. Of a map what is neither 0 nor NaN.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, has another length, or a name is unknown.
+    """
+    text, _, names = str(path).partition(":") if not Path(path).is_file() else (str(path), "", "")
+    file = Path(text)
+    if file.suffix == ".label":
+        inside = _listed(file, count)
+    elif file.suffix == ".annot" or file.name.endswith((".label.gii", ".label.gii.gz", ".dlabel.nii")):
+        labels = read_label_map(file, hemisphere)
+        wanted = [name.strip() for name in names.split(",") if name.strip()]
+        kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
+        inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
+    else:
+        values = read_scalars(file, hemisphere)
+        inside = np.isfinite(values) & (values != 0)
+    if inside.shape != (count,):
+        raise ValueError(f"{file} has shape {inside.shape} as a mask, the surface has {count} vertices")
+    return inside
+
+
+def _listed(file: Path, count: int) -> NDArray[np.bool_]:
+    try:
+        numbers = freesurfer.read_vertex_list(file)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"{file} cannot be read as a label: {error}") from error
+    if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
+        raise ValueError(f"{file} names vertex {numbers.max()}, the surface has 0..{count - 1}")
+    inside = np.zeros(count, dtype=bool)
+    inside[numbers] = True
+    return inside
+
+
+def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") -> None:
+    """Write maps of one length as .shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or as curvature.
+
+    Raises
+    ------
+    ValueError
+        If the format is unknown, takes a single map, or cannot say NaN where there is one.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix == ".npz":
+        arrays: dict[str, Any] = dict(maps)
+        np.savez_compressed(path, **arrays)
+    elif suffix in TEXT:
+        write_table(path, maps)
+    elif is_cifti(path):
+        write_cifti_maps(path, maps, hemisphere)
+    elif is_gifti(path):
+        write_gifti_maps(path, maps, hemisphere)
+    elif suffix == ".npy":
+        np.save(path, _single(path, maps))
+    elif suffix in VOLUMES:
+        freesurfer.write_volume_map(path, _single(path, maps))
+    elif suffix in (".curv", ".sulc", ".thickness", ".area") or freesurfer.hemisphere_of(path):
+        freesurfer.write_curvature(path, _single(path, maps))
+    else:
+        raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
+
+
+def _single(path: Path, maps: dict[str, Floats]) -> Floats:
+    if len(maps) != 1:
+        raise ValueError(
+            f"{path} takes one map, there are {len(maps)} ({', '.join(maps)}): choose .npz, .func.gii or .csv"
+        )
+    return next(iter(maps.values()))

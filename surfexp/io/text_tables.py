@@ -1,0 +1,65 @@
+"""Maps as numbers in text: .csv with a header of names or without, .txt, .dat."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.io.numbers import real_array
+
+UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
+
+
+def read_table(path: Path) -> dict[str, Floats]:
+    """Return the columns of a text table by name, or by number from 1; empty cells and NA are NaN.
+
+    Raises
+    ------
+    ValueError
+        If a row has another length than the first, or a cell is no number.
+    """
+    text = path.read_text("utf-8-sig")
+    lines = text.splitlines()
+    split = csv.reader(lines) if path.suffix.lower() == ".csv" else map(str.split, lines)
+    rows = [row for row in split if row]
+    rows = [row for row in rows if not row[0].lstrip().startswith("#")]
+    if not rows:
+        raise ValueError("it holds no row")
+    header = [] if all(_is_number(cell) for cell in rows[0]) else [cell.strip() for cell in rows.pop(0)]
+    width = len(header) or len(rows[0])
+    for number, row in enumerate(rows, 1 + bool(header)):
+        if len(row) != width:
+            raise ValueError(f"row {number} has {len(row)} cells, {width} are needed")
+        for cell in row:
+            if not _is_number(cell):
+                raise ValueError(f"row {number} has the cell {cell[:20]!r}, a number is needed")
+    values = np.array([[_number(cell) for cell in row] for row in rows], dtype=np.float64).reshape(len(rows), width)
+    names = header or [f"map {k + 1}" for k in range(width)]
+    if len(set(names)) < len(names):
+        raise ValueError(f"two columns have the name {next(name for name in names if names.count(name) > 1)!r}")
+    return {name: real_array(values[:, k].copy(), f"column {name!r}") for k, name in enumerate(names)}
+
+
+def write_table(path: Path, maps: dict[str, Floats]) -> None:
+    """Write columns with all their digits: .csv with a header, else numbers alone; NaN is written nan."""
+    separator = "," if path.suffix.lower() == ".csv" else " "
+    rows = zip(*(values.tolist() for values in maps.values()), strict=True)
+    lines = [separator.join(map(repr, row)) for row in rows]
+    head = [separator.join(name.replace(",", " ") for name in maps)] if separator == "," else []
+    path.write_text("\n".join([*head, *lines]) + "\n")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        _number(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _number(cell: str) -> float:
+    word = cell.strip()
+    return float("nan") if word.lower() in UNKNOWN else float(word)

@@ -1,0 +1,155 @@
+"""Spectral distance of two surfaces, and how their modes correspond."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.embedding.block_alignment import block_distance
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, eigenvalue_blocks
+from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import SurfacePart
+from surfexp.operators.fem import fem
+from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+
+
+def distance(
+    source: SurfaceLike,
+    target: SurfaceLike,
+    n: int = 20,
+    *,
+    weighting: Weighting = "biharmonic",
+    limit: int = 2000,
+) -> Distance:
+    """Return the spectral distance of two surfaces, least over the signs of their eigenfunctions, with the proof.
+
+    Both surfaces are scaled to area 1, so that size and pose do not matter.
+
+    Parameters
+    ----------
+    source, target : Surface, path, or (vertices, faces)
+        The parts inside their masks are compared.
+    n : int
+        Number of eigenfunctions.
+    weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
+        Biharmonic weights converge with n, those of the global point signature do not.
+    limit : int
+        Most evaluations of the search; where the proof needs more, `lower_bound` says what is left open.
+
+    Returns
+    -------
+    Distance
+        `value`, `lower_bound`, `optimal`, the signs on the diagonal of `basis`, and `correspondence`: for each vertex of the
+        target one of the source, -1 outside the mask.
+
+    Raises
+    ------
+    ValueError
+        If a mesh is unfit or too coarse for n eigenfunctions.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> found = sx.distance(sx.shape("ellipsoid", levels=3), sx.shape("ellipsoid", levels=3), n=5)
+    >>> round(found.value, 9), found.optimal
+    (0.0, True)
+    """
+    (first, first_part), (second, second_part) = _embedded(source, n, weighting), _embedded(target, n, weighting)
+    found = spectral_distance(first, second, limit=limit)
+    correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
+    correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
+    moved = second_part.extend(found.target_points)
+    return replace(
+        found, source_points=first_part.extend(found.source_points), target_points=moved, correspondence=correspondence
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ModeAlignment:
+    """Which combination of the target's modes plays the part of each mode of the source.
+
+    Parameters
+    ----------
+    basis : (n, n) float64
+        Target modes times it correspond to source modes; orthogonal, zero between blocks.
+    blocks : tuple of (int, int)
+        Ranges of modes that are nearly equal in eigenvalue on either surface, from 1; inside them only the span has a meaning.
+    value, lower_bound : float
+        Spectral distance in this basis, and what no choice of signs can go below.
+    optimal : bool
+        Whether the bound proves the signs of single modes best.
+    vectors : (t, n) float64
+        The target's modes, aligned; NaN outside the mask.
+    notes : tuple of str
+    """
+
+    basis: Floats
+    blocks: tuple[tuple[int, int], ...]
+    value: float
+    lower_bound: float
+    optimal: bool
+    vectors: Floats
+    notes: tuple[str, ...] = ()
+
+
+def align(
+    source: SurfaceLike,
+    target: SurfaceLike,
+    count: int = 50,
+    *,
+    weighting: Weighting = "biharmonic",
+    relative_gap: float = RELATIVE_GAP,
+    limit: int = 2000,
+) -> ModeAlignment:
+    """Bring the modes of one surface into correspondence with those of another: signs, order and rotations in clusters.
+
+    Modes whose eigenvalues differ by less than `relative_gap` on either surface may change places between the two: such a
+    block is rotated as a whole. Where all blocks are single the best signs are searched for with proof.
+
+    Parameters
+    ----------
+    source, target : Surface, path, or (vertices, faces)
+    count : int
+        Number of modes after the constant.
+    weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
+    relative_gap : float
+    limit : int
+        Most evaluations of the search over signs.
+
+    Returns
+    -------
+    ModeAlignment
+
+    Raises
+    ------
+    ValueError
+        If a mesh is unfit or too coarse for so many modes.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> body = sx.shape("ellipsoid", levels=3)
+    >>> sx.align(body, body, 5).basis.round(3).diagonal().tolist()
+    [1.0, 1.0, 1.0, 1.0, 1.0]
+    """
+    (first, _), (second, part) = _embedded(source, count, weighting), _embedded(target, count, weighting)
+    blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
+    single = len(blocks) == count
+    found = spectral_distance(first, second, limit=limit) if single else block_distance(first, second, blocks)
+    lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))
+    vectors = part.extend(second.points / lengths @ found.basis)
+    numbered = tuple((start + 1, stop) for start, stop in blocks)
+    return ModeAlignment(found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes)
+
+
+def _embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[SpectralEmbedding, SurfacePart]:
+    owner = as_surface(given)
+    part = part_for(owner)
+    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)
+    return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part

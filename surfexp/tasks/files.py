@@ -1,0 +1,166 @@
+"""Surfaces and results as files: the suffix decides about the format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.io.label_files import read_label_map, write_labels
+from surfexp.io.map_files import read_maps, read_mask, write_maps
+from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.writing import WITH_MAPS, write_mesh
+from surfexp.mesh.repair import repair as repair_mesh
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.validate import require_valid
+
+PathLike = str | Path
+LABEL_SUFFIXES = (".label.gii", ".annot")
+
+
+def read(
+    path: PathLike,
+    *,
+    maps: Mapping[str, PathLike] | None = None,
+    labels: Mapping[str, PathLike] | None = None,
+    mask: PathLike | np.ndarray | None = None,
+    unit: str = "",
+    hemisphere: str = "",
+    repair: bool = False,
+) -> Surface:
+    """Read a surface with its maps, labels and mask.
+
+    Parameters
+    ----------
+    path : path
+        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
+    maps : dict of name to path, optional
+        GIFTI, CIFTI-2, .mgh/.mgz, FreeSurfer curvature, .npy/.npz, .csv, text. A file with several maps gives each its own name.
+    labels : dict of name to path, optional
+        .label.gii, .annot, .dlabel.nii.
+    mask : path or (n,) array, optional
+        A FreeSurfer .label, named labels (all but unknown and medial wall, or `FILE:NAME,NAME`), or a map that is 0 outside.
+    unit : str
+        Of length.
+    hemisphere : {"", "left", "right"}
+        Found from the file where it says so.
+    repair : bool
+        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices.
+
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    ValueError
+        If a file cannot be read, does not fit, or the mesh has a defect that a method cannot work with.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.write("ball.ply", sx.shape("icosphere", levels=2))
+    >>> len(sx.read("ball.ply").mesh.faces)
+    320
+    """
+    vertices, faces, scalars = read_mesh(Path(path))
+    count = len(vertices)
+    side = hemisphere or hemisphere_of_file(path)
+    for name, file in (maps or {}).items():
+        scalars |= _named(name, read_maps(file, side), count, file)
+    tables = {name: read_label_map(file, side) for name, file in (labels or {}).items()}
+    for name, table in tables.items():
+        if len(table.keys) != count:
+            raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
+    inside = read_mask(mask, count, side) if isinstance(mask, str | Path) else mask
+    if inside is not None:
+        inside = np.asarray(inside).astype(bool)
+    mesh = TriangleMesh(vertices, faces)
+    notes: tuple[str, ...] = ()
+    if repair:
+        mesh, notes, origin = repair_mesh(vertices, faces)
+        scalars = {name: values[origin] for name, values in scalars.items()}
+        tables = {name: replace(table, keys=table.keys[origin]) for name, table in tables.items()}
+        inside = None if inside is None else inside[origin]
+    else:
+        require_valid(mesh, str(path))
+    return Surface(
+        mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=tuple(notes)
+    )
+
+
+def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> dict[str, Floats]:
+    for values in maps.values():
+        if len(values) != count:
+            raise ValueError(f"map {file} has {len(values)} values, the surface has {count} vertices")
+    return {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
+
+
+def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
+    """Write a surface, a map, or a result of a task; the suffix decides about the format.
+
+    Parameters
+    ----------
+    path : path
+    what : Surface, (n,) or (n, c) array, dict of name to array, or a result (a denoised map, eigenpairs, a segmentation, ...)
+        Eigenpairs become maps "mode 0", "mode 1", ... and in .npz `values`, `vectors`, `residuals`.
+    surface : Surface, optional
+        For formats that hold the geometry beside the map (.ply, .vtk, .vtp), and for the hemisphere in GIFTI and CIFTI files.
+
+    Raises
+    ------
+    ValueError
+        If the format is unknown or cannot hold it.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=2)
+    >>> sx.write("height.shape.gii", sphere.mesh.vertices[:, 2], sphere)
+    """
+    target = Path(path)
+    if isinstance(what, Surface):
+        scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
+        write_mesh(target, what.mesh, scalars)
+        return
+    labels = getattr(what, "labels", None)
+    if target.name.endswith(LABEL_SUFFIXES) and labels is not None:
+        write_labels(target, labels.keys, list(labels.names.values()))
+        return
+    if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
+        arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
+        np.savez_compressed(target, **arrays)
+        return
+    maps = maps_of(what)
+    if target.suffix.lower() in (".ply", ".vtk", ".vtp"):
+        if surface is None:
+            raise ValueError(
+                f"{target} holds a surface beside its maps: give the surface, or choose .shape.gii, .npz, .csv"
+            )
+        write_mesh(target, surface.mesh, maps)
+        return
+    write_maps(target, maps, surface.hemisphere if surface is not None else "")
+
+
+def maps_of(what: Any) -> dict[str, Floats]:
+    """Return the maps (n,) or (n, c) that a result consists of, by name.
+
+    Raises
+    ------
+    ValueError
+        If it has none.
+    """
+    if isinstance(what, Mapping):
+        return {str(name): np.asarray(values, dtype=np.float64) for name, values in what.items()}
+    if hasattr(what, "vectors"):
+        return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
+    values = getattr(what, "values", what)
+    array = np.asarray(values)
+    if array.dtype.kind not in "buif" or array.ndim not in (1, 2):
+        raise ValueError(f"{type(what).__name__} is no map: give an array with one row a vertex, or a result of a task")
+    return {"map": array.astype(np.float64)}

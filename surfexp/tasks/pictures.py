@@ -1,0 +1,125 @@
+"""Still pictures of a surface and a map on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.figures.camera import View
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.encode import encode_png
+from surfexp.figures.figure import Figure
+from surfexp.figures.panel import surface_panel
+from surfexp.figures.render import SurfaceView
+from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
+
+SUFFIXES = (".png", ".svg")
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A finished picture, shown by notebooks as it is.
+
+    Parameters
+    ----------
+    figure : Figure
+    """
+
+    figure: Figure
+
+    def save(self, path: Path | str) -> None:
+        """Write the picture as .png, or as .svg that carries it.
+
+        Raises
+        ------
+        ValueError
+            If the format is unknown.
+        """
+        target = Path(path)
+        if target.suffix.lower() not in SUFFIXES:
+            raise ValueError(f"{target} has an unknown format, choose one of {', '.join(SUFFIXES)}")
+        if target.suffix.lower() == ".png":
+            target.write_bytes(encode_png(self.figure.pixels))
+        else:
+            target.write_text(_as_svg(self.figure), encoding="utf-8")
+
+    def _repr_png_(self) -> bytes:
+        return encode_png(self.figure.pixels)
+
+
+def _as_svg(figure: Figure) -> str:
+    import base64
+
+    height, width = figure.pixels.shape[:2]
+    data = base64.b64encode(encode_png(figure.pixels)).decode()
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">'
+    return f'{head}<image width="{width}" height="{height}" href="data:image/png;base64,{data}"/></svg>\n'
+
+
+def plot(
+    surface: SurfaceLike,
+    values: Any = None,
+    *,
+    views: Sequence[View] | None = None,
+    colormap: str | None = None,
+    limits: tuple[float, float] | None = None,
+    label: str = "",
+    unit: str = "",
+    width: int = 1600,
+) -> Picture:
+    """Draw a surface from some sides, coloured by a map; what is NaN or outside the mask is grey.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+    values : str, (n,) array, or a result with `values`, optional
+        Clay without.
+    views : sequence of names or (azimuth, elevation) in degrees
+        Two sides of a hemisphere, else one oblique view.
+    colormap : str, optional
+        A name of matplotlib's; a diverging one for maps of both signs if not given.
+    limits : (float, float), optional
+        Ends of the colour bar; the 1st and 99th percentile if not given.
+    label, unit : str
+        For the colour bar.
+    width : int
+        In pixels.
+
+    Returns
+    -------
+    Picture
+        `save(path)` writes .png or .svg.
+
+    Raises
+    ------
+    ValueError
+        If the map does not fit.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=3)
+    >>> sx.plot(sphere, sphere.mesh.vertices[:, 2], width=400).figure.pixels.shape[1]
+    400
+    """
+    owner = as_surface(surface)
+    field = None if values is None else as_map(owner, getattr(values, "values", values))
+    if field is not None and owner.mask is not None:
+        field = np.where(np.reshape(owner.mask, (-1, *[1] * (field.ndim - 1))), field, np.nan)
+    shown = views or (("lateral", "medial") if owner.hemisphere else ("oblique",))
+    name = label or (values if isinstance(values, str) else "")
+    scale = ColorScale(label=name, unit=unit, colormap=colormap or _colormap_for(field), limits=limits)
+    panels = [SurfaceView(owner.mesh, field, view, scale) for view in shown]
+    return Picture(surface_panel(panels, width=width))
+
+
+def _colormap_for(field: Floats | None) -> str:
+    if field is None or field.ndim > 1:
+        return "viridis"
+    low, high = np.nanpercentile(field, [1.0, 99.0])
+    return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"

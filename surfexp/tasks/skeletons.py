@@ -1,0 +1,143 @@
+"""Reeb graphs and geodesic distances on a surface."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from surfexp.arrays import Floats
+from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
+from surfexp.skeleton.fast_marching import fast_marching
+from surfexp.skeleton.level_selection import Choice, choose_levels
+from surfexp.skeleton.pruning import pruned
+from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+
+
+def reeb_graph(
+    surface: SurfaceLike,
+    values: MapLike,
+    *,
+    count: int = 50,
+    levels: Choice = "arc_length",
+    persistence: float = 0.0,
+) -> Skeleton:
+    """Return the Reeb graph of a map: the contours at some levels, and what joins them, as a graph in space.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        The part inside its mask, or where the map is finite, is taken.
+    values : str or (n,) float64
+        Name of a map of the surface, or the map.
+    count : int
+        Number of levels.
+    levels : "arc_length", "uniform", "area_quantile" or "critical"
+        Where they lie.
+    persistence : float
+        Branches below this share of the range are cut off.
+
+    Returns
+    -------
+    Skeleton
+        `positions`, `arcs`, contours, and `metrics` with the number of loops `b1`.
+
+    Raises
+    ------
+    ValueError
+        If the map does not fit or is constant.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> torus = sx.shape("torus")
+    >>> int(sx.reeb_graph(torus, torus.mesh.vertices[:, 0]).metrics["b1"])
+    1
+    """
+    owner = as_surface(surface)
+    heights = as_map(owner, values)
+    part = part_for(owner, heights)
+    inside = np.asarray(part.restrict(heights), dtype=np.float64)
+    chosen = choose_levels(part.mesh, inside, count, levels)
+    skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
+    return replace(skeleton, notes=mask_notes(owner, part) + skeleton.notes)
+
+
+def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
+    """Return the geodesic distance of every vertex from a set of vertices, by fast marching.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        Ways lie inside its mask.
+    sources : (s,) int, or one
+        Vertex numbers of the whole surface.
+
+    Returns
+    -------
+    (n,) float64
+        In the unit of the surface; infinite where nothing leads, NaN outside the mask.
+
+    Raises
+    ------
+    ValueError
+        If a source is no vertex, or lies outside the mask.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> float(sx.geodesic(sx.shape("icosphere", levels=4), 0).max().round(1))
+    3.1
+
+    References
+    ----------
+    Kimmel, Sethian: Computing geodesic paths on manifolds (1998).
+    """
+    owner = as_surface(surface)
+    part = part_for(owner)
+    wanted = np.atleast_1d(np.asarray(sources, dtype=np.int64))
+    number = np.full(part.whole_count, -1, dtype=np.int64)
+    number[part.vertices] = np.arange(len(part.vertices))
+    if wanted.min(initial=0) < 0 or wanted.max(initial=0) >= part.whole_count:
+        raise ValueError(f"sources name vertex {wanted.max()}, the vertices are 0..{part.whole_count - 1}")
+    if (number[wanted] < 0).any():
+        outside = int(wanted[number[wanted] < 0][0])
+        raise ValueError(f"source {outside} lies outside the mask of {len(part.vertices)} vertices")
+    return part.extend(fast_marching(part.mesh, number[wanted]))
+
+
+def mean_curvature(surface: SurfaceLike) -> Floats:
+    """Return the mean curvature H = (k1 + k2) / 2 at every vertex, positive where the surface bulges outward.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+
+    Returns
+    -------
+    (n,) float64
+        In 1 / unit; NaN outside the mask. FreeSurfer's `curv` has the opposite sign.
+
+    Raises
+    ------
+    ValueError
+        If the mesh is unfit.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> float(sx.mean_curvature(sx.shape("icosphere", levels=3)).mean().round(2))
+    1.0
+
+    References
+    ----------
+    Meyer, Desbrun, Schroder, Barr: Discrete differential-geometry operators for triangulated 2-manifolds (2003).
+    """
+    owner = as_surface(surface)
+    part = part_for(owner)
+    # the positions outside are known, so the curvature of the whole is the better one inside
+    values = mesh_mean_curvature(owner.mesh)
+    return values if part.is_whole else part.extend(values[part.vertices])

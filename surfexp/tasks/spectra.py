@@ -1,0 +1,143 @@
+"""Laplace-Beltrami eigenpairs of surfaces: once, with factors kept, and in the form of scipy's `eigsh`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import csr_array, issparse
+
+from surfexp.arrays import Floats
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import Boundary, Mass
+from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.tasks.inputs import SurfaceLike, as_surface, mask_notes, part_for
+
+
+def eigenpairs(
+    surface: SurfaceLike,
+    count: int = 50,
+    *,
+    tolerance: float = 1e-8,
+    mass: Mass = "consistent",
+    boundary: Boundary = "neumann",
+    progress: Progress | None = None,
+) -> EigenSystem:
+    """Find the lowest eigenpairs of the Laplace-Beltrami operator, with the proof that none is missing.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        The part inside its mask is what vibrates; the condition at the mask's boundary is natural (Neumann's).
+    count : int
+        How many, the zero mode of a closed surface among them.
+    tolerance : float
+        Largest relative residual.
+    mass : "consistent" or "lumped"
+    boundary : "neumann" or "dirichlet"
+    progress : callable, optional
+        Receives the number of pairs found and the share that is missing.
+
+    Returns
+    -------
+    EigenSystem
+        `values` (count,) in 1 / unit^2; `vectors` (n, count), orthonormal for the mass, NaN outside the mask; `residuals`,
+        `complete`, `inertia`.
+
+    Raises
+    ------
+    ValueError
+        If the mesh or a parameter is unfit.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> modes = sx.eigenpairs(sx.shape("icosphere", levels=3), 9)
+    >>> modes.complete, (modes.values[[1, 4]] / [2, 6]).round(2).tolist()
+    (True, [1.01, 1.01])
+
+    References
+    ----------
+    Reuter, Wolter, Peinecke: Laplace-Beltrami spectra as "Shape-DNA" of surfaces and solids (2006).
+    """
+    owner = as_surface(surface)
+    part = part_for(owner)
+    cut = Surface(part.mesh, owner.name, owner.unit)
+    system = surface_spectrum(
+        cut, fem(part.mesh), count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
+    )
+    vectors = system.vectors if part.is_whole else part.extend(system.vectors)
+    return replace(system, vectors=vectors, notes=mask_notes(owner, part) + system.notes)
+
+
+def eigsh(
+    A: Any,
+    k: int = 6,
+    M: Any = None,
+    sigma: float | None = None,
+    which: str = "LM",
+    v0: ArrayLike | None = None,
+    ncv: int | None = None,
+    maxiter: int | None = None,
+    tol: float = 0,
+    return_eigenvectors: bool = True,
+    Minv: Any = None,
+    OPinv: Any = None,
+    mode: str = "normal",
+) -> Floats | tuple[Floats, Floats]:
+    """Find the k lowest eigenpairs of A x = lambda M x, called as `scipy.sparse.linalg.eigsh` is, complete by inertia.
+
+    For a positive semidefinite A, "nearest to a sigma at or below 0" and "smallest" are one and the same request: the lowest k.
+    That is the one answered here; it takes the place of scipy's call in code that asks for it.
+
+    Parameters
+    ----------
+    A, M : (n, n) sparse
+        Symmetric; A positive semidefinite, M positive definite (the identity if not given).
+    k : int
+    sigma : float, optional
+        At most 0; or not given, with which = "SM" or "SA".
+    which : "LM" with a sigma, "SM" or "SA" without
+    tol : float
+        Largest relative residual; 0 means 1e-8.
+    return_eigenvectors : bool
+    v0, ncv, maxiter, Minv, OPinv, mode
+        Accepted and not needed.
+
+    Returns
+    -------
+    (k,) float64, (n, k) float64
+        Increasing values and M-orthonormal vectors; the values alone without `return_eigenvectors`.
+
+    Raises
+    ------
+    ValueError
+        If another part of the spectrum is asked for, or a matrix is unfit, or the proof of completeness fails.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> from scipy.sparse import diags_array
+    >>> values, vectors = sx.eigsh(diags_array(np.arange(500.0)), k=3, sigma=-0.01)
+    >>> values.round(6).tolist()
+    [0.0, 1.0, 2.0]
+    """
+    lowest = (sigma is None and which in ("SM", "SA")) or (sigma is not None and sigma <= 0 and which == "LM")
+    if not lowest or mode != "normal":
+        asked = f"sigma = {sigma}, which = {which!r}, mode = {mode!r}"
+        raise ValueError(
+            f"{asked}: only the lowest pairs are found here; give sigma <= 0, or which = 'SM', mode = 'normal'"
+        )
+    if not issparse(A):
+        raise ValueError(f"A is a {type(A).__name__}, a sparse matrix is needed: it is factorised")
+    unit = csr_array((np.ones(A.shape[0]), (np.arange(A.shape[0]),) * 2), shape=A.shape)
+    system = matrix_eigenpairs(A, unit if M is None else M, k, tolerance=tol or 1e-8)
+    if not system.complete:
+        raise ValueError(f"the {k} pairs found are not proved to be the lowest ({'; '.join(system.notes)}): raise k")
+    return (system.values, np.ascontiguousarray(system.vectors)) if return_eigenvectors else system.values

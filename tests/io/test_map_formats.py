@@ -1,0 +1,249 @@
+"""Maps and labels: what is written is what the tool that owns the format reads, and back; what is unfit is refused."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import nibabel
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from nibabel import cifti2
+
+from surfexp.io.map_files import read_maps, read_mask, read_scalars, write_maps
+from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.writing import write_mesh
+from surfexp.mesh.shapes.icosphere import icosphere
+
+MESH = icosphere(2).mesh
+N = len(MESH.vertices)
+VALUES = np.random.default_rng(0).standard_normal(N)
+WITH_NAN = np.where(np.arange(N) % 7 == 0, np.nan, VALUES)
+SINGLE = (".shape.gii", ".func.gii", ".dscalar.nii", ".mgh", ".mgz")
+DOUBLE = (".npy", ".npz", ".csv", ".txt")
+
+
+@pytest.mark.parametrize("suffix", SINGLE + DOUBLE)
+def test_a_map_with_nan_comes_back(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"thickness{suffix}"
+    write_maps(path, {"map": WITH_NAN}, "left")
+    found = read_scalars(path, "left")
+    expected = WITH_NAN.astype(np.float32).astype(np.float64) if suffix in SINGLE else WITH_NAN
+    assert np.array_equal(found, expected, equal_nan=True)
+
+
+@given(arrays(np.float64, st.integers(1, 40), elements=st.floats(allow_infinity=False)))
+def test_text_and_archives_keep_every_digit(tmp_path_factory: pytest.TempPathFactory, values: np.ndarray) -> None:
+    folder = tmp_path_factory.mktemp("maps")
+    for suffix in DOUBLE:
+        write_maps(folder / f"a{suffix}", {"map": values})
+        assert np.array_equal(read_scalars(folder / f"a{suffix}"), values, equal_nan=True)
+
+
+def test_curvature_files_are_those_of_nibabel(tmp_path: Path) -> None:
+    write_maps(tmp_path / "lh.thickness", {"map": VALUES})
+    assert np.array_equal(nibabel.freesurfer.read_morph_data(tmp_path / "lh.thickness"), VALUES.astype(np.float32))
+    assert read_maps(tmp_path / "lh.thickness").keys() == {"lh.thickness"}
+    with pytest.raises(ValueError, match="NaN"):
+        write_maps(tmp_path / "lh.sulc", {"map": WITH_NAN})
+
+
+def test_nibabel_reads_gifti_maps_with_names_and_side(tmp_path: Path) -> None:
+    write_maps(tmp_path / "a.func.gii", {"one": VALUES, "two": WITH_NAN}, "right")
+    image = nibabel.load(tmp_path / "a.func.gii")
+    assert [array.metadata["Name"] for array in image.darrays] == ["one", "two"]
+    assert image.meta["AnatomicalStructurePrimary"] == "CortexRight"
+    assert list(read_maps(tmp_path / "a.func.gii")) == ["one", "two"]
+
+
+def test_cifti_leaves_out_what_is_nan_and_nibabel_agrees(tmp_path: Path) -> None:
+    path = tmp_path / "a.dscalar.nii"
+    write_maps(path, {"depth": WITH_NAN}, "left")
+    image = nibabel.load(path)
+    model = image.header.get_axis(1)
+    assert model.nvertices["CIFTI_STRUCTURE_CORTEX_LEFT"] == N
+    assert np.array_equal(model.vertex, np.flatnonzero(np.isfinite(WITH_NAN)))
+    with pytest.raises(ValueError, match="no vertices of CIFTI_STRUCTURE_CORTEX_RIGHT"):
+        read_maps(path, "right")
+    with pytest.raises(ValueError, match="left or right"):
+        read_maps(path)
+
+
+def test_a_time_series_of_both_hemispheres_is_split(tmp_path: Path) -> None:
+    sides = [
+        cifti2.BrainModelAxis.from_mask(np.arange(N) % 2 == k, name=["CortexLeft", "CortexRight"][k]) for k in (0, 1)
+    ]
+    model = sides[0] + sides[1]
+    data = np.random.default_rng(1).standard_normal((5, len(model))).astype(np.float32)
+    header = cifti2.Cifti2Header.from_axes((cifti2.SeriesAxis(0, 1, 5), model))
+    cifti2.Cifti2Image(data, header).to_filename(tmp_path / "rest.dtseries.nii")
+    right = read_scalars(tmp_path / "rest.dtseries.nii", "right")
+    assert right.shape == (N, 5)
+    inside = np.isfinite(right[:, 0])
+    assert np.array_equal(np.flatnonzero(inside), np.arange(1, N, 2))
+    assert np.array_equal(right[inside].T, data[:, len(sides[0]) :].astype(np.float64))
+
+
+def test_masks_of_every_kind_agree(tmp_path: Path) -> None:
+    inside = MESH.vertices[:, 2] > -0.3
+    rows = "".join(f"{v} 0 0 0 0\n" for v in np.flatnonzero(inside))
+    (tmp_path / "lh.cortex.label").write_text(f"#!ascii label\n{inside.sum()}\n{rows}")
+    write_maps(tmp_path / "m.shape.gii", {"map": np.where(inside, VALUES, np.nan)})
+    write_maps(tmp_path / "m.npy", {"map": inside.astype(float)})
+    from surfexp.io.label_files import write_labels
+
+    write_labels(tmp_path / "m.label.gii", inside.astype(int), ["Unknown", "cortex"])
+    write_labels(tmp_path / "m.annot", inside + 2 * (MESH.vertices[:, 0] > 0) * inside, ["medial_wall", "a", "b", "c"])
+    for name in ("lh.cortex.label", "m.shape.gii", "m.npy", "m.label.gii", "m.annot", "m.annot:a,c"):
+        assert np.array_equal(read_mask(tmp_path / name, N), inside), name
+    with pytest.raises(ValueError, match="no label is named 'cc', the nearest"):
+        read_mask(f"{tmp_path / 'm.annot'}:cc", N)
+    with pytest.raises(ValueError, match="the surface has 7"):
+        read_mask(tmp_path / "m.npy", 7)
+
+
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.ones(5, complex),
+        np.zeros(5, "datetime64[s]"),
+        np.zeros(5, [("a", float)]),
+        np.array(["a"] * 5),
+        np.array([1.0, np.inf]),
+    ],
+    ids=str,
+)
+def test_arrays_that_hold_no_real_numbers_are_refused(tmp_path: Path, array: np.ndarray) -> None:
+    np.save(tmp_path / "a.npy", array)
+    with pytest.raises(ValueError, match=r"real numbers are needed|infinite") as caught:
+        read_scalars(tmp_path / "a.npy")
+    assert "a.npy" in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_pickles_are_never_read(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", np.array([print], dtype=object), allow_pickle=True)
+    with pytest.raises(ValueError, match="allow_pickle"):
+        read_scalars(tmp_path / "a.npy")
+
+
+def test_a_curvature_file_of_two_values_a_vertex_is_refused(tmp_path: Path) -> None:
+    write_maps(tmp_path / "lh.sulc", {"map": VALUES})
+    data = bytearray((tmp_path / "lh.sulc").read_bytes())
+    data[14] = 2
+    (tmp_path / "lh.sulc").write_bytes(data)
+    with pytest.raises(ValueError, match="claims 2 values a vertex"):
+        read_scalars(tmp_path / "lh.sulc")
+
+
+def test_a_freesurfer_header_one_face_short_is_refused(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "lh.pial", MESH)
+    assert np.array_equal(read_mesh(tmp_path / "lh.pial")[1], MESH.faces)
+    assert hemisphere_of_file(tmp_path / "lh.pial") == "left"
+    data = (tmp_path / "lh.pial").read_bytes()
+    head = data.find(b"\n\n") + 2
+    count = int.from_bytes(data[head + 4 : head + 8], "big")
+    short = data[: head + 4] + (count - 1).to_bytes(4, "big") + data[head + 8 :]
+    (tmp_path / "lh.pial").write_bytes(short)
+    with pytest.raises(ValueError, match="beyond its"):
+        read_mesh(tmp_path / "lh.pial")
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".vtp", ".npz", ".ply"])
+def test_geometry_and_maps_come_back_together(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"a{suffix}"
+    write_mesh(path, MESH, {"depth": VALUES})
+    vertices, faces, maps = read_mesh(path)
+    assert np.array_equal(vertices, MESH.vertices) and np.array_equal(faces, MESH.faces)
+    assert np.array_equal(maps["depth"], VALUES)
+
+
+def test_vtk_itself_reads_what_is_written_and_is_read(tmp_path: Path) -> None:
+    vtk = pytest.importorskip("vtk", reason="needs vtk: make optional")
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    for suffix, kind in ((".vtk", "PolyData"), (".vtp", "XMLPolyData")):
+        reader, writer = f"vtk{kind}Reader", f"vtk{kind}Writer"
+        write_mesh(tmp_path / f"a{suffix}", MESH, {"depth": VALUES})
+        source = getattr(vtk, reader)()
+        source.SetFileName(str(tmp_path / f"a{suffix}"))
+        source.Update()
+        poly = source.GetOutput()
+        assert np.array_equal(vtk_to_numpy(poly.GetPoints().GetData()), MESH.vertices)
+        assert np.array_equal(vtk_to_numpy(poly.GetPointData().GetArray("depth")), VALUES)
+        for binary in (False, True):
+            sink = getattr(vtk, writer)()
+            sink.SetFileName(str(tmp_path / f"b{suffix}"))
+            sink.SetInputData(poly)
+            if suffix == ".vtk":
+                sink.SetFileTypeToBinary() if binary else sink.SetFileTypeToASCII()
+            else:
+                sink.SetCompressorTypeToNone()
+                sink.SetDataModeToBinary() if binary else sink.SetDataModeToAscii()
+            sink.Write()
+            vertices, faces, maps = read_mesh(tmp_path / f"b{suffix}")
+            assert np.allclose(vertices, MESH.vertices, atol=1e-5) and np.array_equal(faces, MESH.faces)
+            assert np.allclose(maps["depth"], VALUES, atol=1e-5)
+
+
+CUT = [".shape.gii", ".dscalar.nii", ".mgh", ".mgz", ".npy", ".npz", ".vtk", ".vtp", ".stl", "lh.sulc", "lh.pial"]
+
+
+@pytest.mark.parametrize("name", CUT)
+def test_every_cut_is_refused_in_one_line_with_the_name(tmp_path: Path, name: str) -> None:
+    path = tmp_path / (f"a{name}" if name.startswith(".") else name)
+    is_mesh = name in (".vtk", ".vtp", ".stl", "lh.pial")
+    if is_mesh:
+        write_mesh(path, MESH)
+    else:
+        write_maps(path, {"map": VALUES}, "left")
+    data = path.read_bytes()
+    for k in range(16):
+        path.write_bytes(data[: len(data) * k // 16])
+        with pytest.raises(ValueError, match=path.name) as caught:
+            read_mesh(path) if is_mesh else read_scalars(path, "left")
+        assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
+    cases = {
+        "1,2\n3\n": "row 2 has 1 cells",
+        "a,b\n1,x\n": "cell 'x'",
+        "a,a\n1,2\n": "two columns",
+        "": "0 bytes",
+        "# only\n": "no row",
+        "1\ninf\n": "infinite",
+    }
+    for text, words in cases.items():
+        (tmp_path / "a.csv").write_text(text)
+        with pytest.raises(ValueError, match=words):
+            read_maps(tmp_path / "a.csv")
+    (tmp_path / "a.csv").write_bytes("\ufeffx,y\r\n1,NA\r\n2,3\r\n".encode())
+    assert np.array_equal(read_maps(tmp_path / "a.csv")["y"], [np.nan, 3.0], equal_nan=True)
+
+
+def test_coordinates_whose_areas_overflow_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.off").write_text("OFF\n3 1 0\n0 0 0\n1e100 0 0\n0 1e100 0\n3 0 1 2\n")
+    with pytest.raises(ValueError, match=r"1e\+100"):
+        read_mesh(tmp_path / "a.off")
+    (tmp_path / "a.vert").write_text("0 0 0\n1 0 0\n0 1 0\n")
+    (tmp_path / "a.tri").write_text("1 2.5 3\n")
+    with pytest.raises(ValueError, match="whole numbers"):
+        read_mesh(tmp_path / "a.tri")
+
+
+def test_entities_in_xml_expand_to_nothing(tmp_path: Path) -> None:
+    bomb = '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "' + "x" * 1000 + '">]>'
+    for name in ("a.vtp", "a.shape.gii"):
+        (tmp_path / name).write_text(bomb + '<VTKFile type="PolyData">&b;</VTKFile>')
+        with pytest.raises(ValueError, match=name):
+            read_mesh(tmp_path / name) if name == "a.vtp" else read_scalars(tmp_path / name)
+
+
+def test_gzip_that_is_none_is_refused(tmp_path: Path) -> None:
+    for data in (b"\x1f\x8b" + b"0" * 50, gzip.compress(b"nothing")):
+        (tmp_path / "a.mgz").write_bytes(data)
+        with pytest.raises(ValueError, match=r"a\.mgz"):
+            read_scalars(tmp_path / "a.mgz")

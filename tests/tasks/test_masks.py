@@ -1,0 +1,82 @@
+"""Every task on a masked surface equals the task on the cut mesh, and nothing outside the mask changes anything inside."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import surface_part
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+WHOLE = sx.shape("icosphere", levels=3)
+INSIDE = WHOLE.mesh.vertices[:, 2] + 0.2 * WHOLE.mesh.vertices[:, 0] > -0.4
+PART = surface_part(WHOLE.mesh, INSIDE)
+CUT = Surface(PART.mesh)
+MASKED = Surface(WHOLE.mesh, mask=INSIDE)
+NOISY = WHOLE.mesh.vertices[:, 2] + 0.2 * np.random.default_rng(0).standard_normal(len(INSIDE))
+
+
+def on_whole(values: np.ndarray) -> np.ndarray:
+    return PART.extend(values)
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        lambda s, f: sx.denoise(s, f).values,
+        lambda s, f: sx.smooth(s, f, 0.3).values,
+        lambda s, f: sx.eigenpairs(s, 12).vectors,
+    ],
+    ids=["denoise", "smooth", "eigenpairs"],
+)
+def test_masking_equals_cutting(task) -> None:
+    masked, cut = task(MASKED, NOISY), task(CUT, NOISY[PART.vertices])
+    assert np.array_equal(masked, on_whole(cut), equal_nan=True)
+
+
+def test_nan_in_the_map_is_the_mask_and_is_said() -> None:
+    holed = np.where(INSIDE, NOISY, np.nan)
+    by_nan, by_mask = sx.denoise(WHOLE, holed), sx.denoise(MASKED, NOISY)
+    assert np.array_equal(by_nan.values, by_mask.values, equal_nan=True)
+    assert any("these are the mask" in note for note in by_nan.notes)
+    assert not any("these are the mask" in note for note in by_mask.notes)
+
+
+def test_nothing_outside_changes_a_value_inside() -> None:
+    other = np.where(INSIDE, NOISY, 1e6)
+    for task in (sx.denoise, lambda s, f: sx.smooth(s, f, 0.3)):
+        assert np.array_equal(task(MASKED, NOISY).values, task(MASKED, other).values, equal_nan=True)
+
+
+def test_constants_stay_constants_to_the_boundary() -> None:
+    flat = np.where(INSIDE, 3.0, np.nan)
+    smoothed = sx.smooth(WHOLE, flat, 0.5).values
+    assert smoothed[PART.vertices] == pytest.approx(3.0, abs=1e-12)
+    assert np.isnan(smoothed[~np.isin(np.arange(len(flat)), PART.vertices)]).all()
+    assert sx.denoise(WHOLE, flat, noise=1.0).values[PART.vertices] == pytest.approx(3.0, abs=1e-9)
+
+
+def test_nan_inside_a_stated_mask_is_refused() -> None:
+    holed = NOISY.copy()
+    holed[np.flatnonzero(INSIDE)[:3]] = np.nan
+    with pytest.raises(ValueError, match="NaN at 3 of the"):
+        sx.denoise(MASKED, holed)
+
+
+def test_distances_stay_inside_the_mask() -> None:
+    source = int(np.argmax(WHOLE.mesh.vertices[:, 2]))
+    inside = sx.geodesic(MASKED, source)
+    number = int(np.flatnonzero(PART.vertices == source)[0])
+    assert np.array_equal(inside, on_whole(sx.geodesic(CUT, number)), equal_nan=True)
+    with pytest.raises(ValueError, match="outside the mask"):
+        sx.geodesic(MASKED, int(np.argmin(WHOLE.mesh.vertices[:, 2])))
+
+
+def test_spectral_distance_of_a_masked_surface_to_its_cut_copy_is_zero() -> None:
+    stretched = Surface(TriangleMesh(WHOLE.mesh.vertices * [1.0, 1.3, 1.7], WHOLE.mesh.faces), mask=INSIDE)
+    part = surface_part(stretched.mesh, INSIDE)
+    found = sx.distance(stretched, Surface(part.mesh), n=6)
+    assert found.optimal and found.value == pytest.approx(0.0, abs=1e-8)
+    assert np.array_equal(found.correspondence, part.vertices)

@@ -1,0 +1,97 @@
+"""Commands on files of one's own: file in, file out, certificate beside it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+import nibabel
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.commands.command_line import main
+from surfexp.commands.surface_commands import COMMANDS
+
+
+@pytest.fixture
+def files(working_folder: Path) -> Path:
+    """A GIFTI surface, a map with NaN, a mask, in the working folder."""
+    sphere = sx.shape("ellipsoid", levels=3)
+    z = sphere.mesh.vertices[:, 2]
+    sx.write("brain.surf.gii", sphere)
+    inside = z > -0.5
+    noisy = np.where(inside, np.sign(z) + 0.1 * np.random.default_rng(0).standard_normal(len(z)), np.nan)
+    sx.write("noisy.shape.gii", noisy, sphere)
+    sx.write("inside.npy", inside.astype(float))
+    return working_folder
+
+
+def certificate(name: str) -> dict:
+    return json.loads(Path(f"{name}.json").read_text())
+
+
+def test_a_map_with_nan_is_denoised_to_gifti(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["denoise", "brain.surf.gii", "noisy.shape.gii", "--to", "clean.shape.gii"]) == 0
+    clean = nibabel.load("clean.shape.gii").agg_data()
+    noisy = nibabel.load("noisy.shape.gii").agg_data()
+    assert np.array_equal(np.isnan(clean), np.isnan(noisy))
+    proof = certificate("clean.shape.gii")
+    assert proof["relative_gap"] <= 1e-4 and proof["noise"] == pytest.approx(0.1, rel=0.1)
+    assert proof["inputs"]["noisy.shape.gii"] == hashlib.sha256(Path("noisy.shape.gii").read_bytes()).hexdigest()
+    assert "these are the mask" in capsys.readouterr().err
+
+
+def test_modes_of_a_masked_surface_leave_in_several_formats(files: Path) -> None:
+    for name in ("modes.npz", "modes.vtk", "modes.csv", "modes.func.gii"):
+        assert main(["modes", "brain.surf.gii", "-k", "6", "--mask", "inside.npy", "--to", name]) == 0
+        assert certificate(name)["complete"] is True and certificate(name)["residual"] <= 1e-8
+    kept = np.load("modes.npz")
+    direct = sx.eigenpairs(sx.read("brain.surf.gii", mask="inside.npy"), 6)
+    assert np.array_equal(kept["values"], direct.values)
+    assert np.array_equal(kept["vectors"], direct.vectors, equal_nan=True)
+
+
+def test_every_other_command_leaves_a_file(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    calls = [
+        ["smooth", "brain.surf.gii", "noisy.shape.gii", "--width", "0.3mm", "--to", "smooth.mgh"],
+        ["geodesic", "brain.surf.gii", "0", "5", "--to", "distance.csv"],
+        ["curvature", "brain.surf.gii", "--to", "curvature.vtp"],
+        ["skeleton", "brain.surf.gii", "--to", "skeleton.vtk"],
+        ["distance", "brain.surf.gii", "brain.surf.gii", "-n", "5", "--to", "map.npz"],
+        ["align", "brain.surf.gii", "brain.surf.gii", "-k", "5", "--to", "aligned.npz"],
+    ]
+    for call in calls:
+        assert main(call) == 0, call
+        assert Path(call[-1]).stat().st_size > 0 and Path(f"{call[-1]}.json").exists()
+    assert "proved least" in capsys.readouterr().out
+    assert main(["convert", "brain.surf.gii", "brain.ply"]) == 0
+    assert main(["plot", "brain.ply", "noisy.shape.gii", "--width", "300", "--to", "a.png"]) == 0
+    assert Path("a.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["denoise", "brain.surf.gii", "nosuch.gii", "--to", "a.gii"], "no such file"),
+        (["denoise", "brain.surf.gii", "noisy.shape.gii"], "--to"),
+        (["modes", "brain.surf.gii", "--to", "a.xyz"], "unknown format"),
+        (["modes", "brain.surf.gii", "-k", "-3", "--to", "a.npz"], "-3"),
+        (["smooth", "brain.surf.gii", "noisy.shape.gii", "--width", "wide", "--to", "a.gii"], "no width"),
+        (["geodesic", "brain.surf.gii", "99999", "--to", "a.csv"], "99999"),
+        (["modes", "brain.surf.gii", "--mask", "noisy.shape.gii:x", "--to", "a.npz"], "noisy.shape.gii"),
+    ],
+)
+def test_mistakes_are_one_line_and_exit_code_2(
+    files: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert main(arguments) == 2
+    said = capsys.readouterr().err.strip()
+    assert words in said and said.splitlines()[-1].startswith("surfexp: ")
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_help_has_two_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([name, "--help"]) == 0
+    assert capsys.readouterr().out.count(f"surfexp {name} ") >= 3
