@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -69,7 +70,7 @@ def map_of(surface: Surface, given: str, files: list[Path]) -> Any:
 def progress_line(label: str) -> Iterator[Callable[[int, float], None]]:
     """Yield a progress callback that keeps one line of the terminal up to date, with the elapsed time; silent without one."""
     started, last = time.monotonic(), [0.0]
-    shown = click.get_text_stream("stderr").isatty()
+    shown = sys.stderr.isatty()
 
     def report(step: int, rest: float) -> None:
         now = time.monotonic()
