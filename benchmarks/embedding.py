@@ -16,7 +16,7 @@ from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.functional_map import functional_map, vertex_map
 from surfexp.embedding.geodesic_error import geodesic_errors
-from surfexp.embedding.labels import ORIGIN, desikan_killiany, label_accuracy
+from surfexp.embedding.labels import desikan_killiany, label_accuracy
 from surfexp.embedding.sign_search import Signs, SignSearch, branch_and_bound
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
@@ -132,7 +132,7 @@ def _zoomout_line(vertices: int, first: int = 10, last: int = 80, step: int = 2)
         target = disguise(carried_body(body, 1, vertices=vertices), remeshed=True)
         elements = surface_elements(source.mesh), surface_elements(target.mesh)
         systems = [eigenpairs(parts.stiffness, parts.mass, last) for parts in elements]
-        pair, origin = Pair(source, target, *systems), target.scalars[ORIGIN].astype(np.int64)
+        pair, origin = Pair(source, target, *systems), target.truth.origin
         start = _true_start(pair, origin, first)
         count = vertices // 2
         rng = np.random.default_rng(0)

@@ -30,7 +30,6 @@ METRICS = {
     "c2": Metric("mean of the darker region", "unit of the image"),
     "updates": Metric("updates of the two means", better="lower"),
     "threshold": Metric("level of the relaxed field that bounds the region"),
-    "threshold_energy": Metric("energy of the region at the threshold"),
     "trivial_energy": Metric("energy of the best trivial labelling"),
     "labelling_energy": Metric("energy of the labelling"),
     "labelling_gap": Metric(

@@ -3,7 +3,7 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.embedding.labels import LABEL
+from surfexp.arrays import Integers
 from surfexp.embedding.region_separation import region_separation
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
@@ -65,11 +65,7 @@ def region_separation_statistic(
 ) -> Statistic:
     """Distances between labelled regions in the optimal embedding by n functions, and in space, against d_n (6.17)."""
     meshes = source_surface.mesh, target_surface.mesh
-    missing = [item.name for item in (source_surface, target_surface) if LABEL not in item.scalars]
-    if missing:
-        raise ValueError(f"surface {missing[0]!r} has no scalar map {LABEL!r}: take labelled_fsaverage5")
-    # label 0 is what no region claims
-    labels = [item.scalars[LABEL].astype(np.int64) - 1 for item in (source_surface, target_surface)]
+    labels = [_regions(item) for item in (source_surface, target_surface)]
     areas = [mesh.vertex_areas / mesh.area for mesh in meshes]
     rows = []
     for n in options.sizes:
@@ -89,3 +85,10 @@ def region_separation_statistic(
         metrics |= {f"{name}, n = {n}": float(value) for n, value in zip(options.sizes, column, strict=True)}
     columns = {"n": np.array(options.sizes, float), "between over distance": table[:, 0], "found": table[:, 2]}
     return Statistic("regions in the optimal embedding", columns, metrics=metrics)
+
+
+def _regions(surface: Surface) -> Integers:
+    """Regions from 0; -1 where the label is 0, which no region claims."""
+    if surface.truth.labels is None:
+        raise ValueError(f"surface {surface.name!r} has no true labels: take labelled_fsaverage5")
+    return surface.truth.labels - 1

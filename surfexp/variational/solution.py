@@ -60,6 +60,7 @@ class Solution:
     METRICS: ClassVar[dict[str, Metric]] = {
         "energy": Metric("energy under the consistent discretisation"),
         "lower_bound": Metric("proved lower bound of the energy", better="higher"),
+        "gap": Metric("energy above its proved lower bound", better="lower"),
         "relative_gap": Metric("energy above its proved lower bound, over the scale of the model", better="lower"),
         "error_bound": Metric("largest possible distance to the exact minimiser, mass norm", better="lower"),
         "iterations": Metric("iterations, of all outer updates together", better="lower"),
