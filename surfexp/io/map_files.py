@@ -112,6 +112,10 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
         wanted = [name.strip() for name in names.split(",") if name.strip()]
         kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
         inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
+    elif names:
+        raise ValueError(
+            f"{file} has no named labels, {names!r} can be chosen from .label.gii, .annot and .dlabel.nii only"
+        )
     else:
         values = read_scalars(file, hemisphere)
         inside = np.isfinite(values) & (values != 0)

@@ -96,7 +96,7 @@ def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain
 
 
 def test_tests_are_chosen_by_imports_and_seconds() -> None:
-    path = ROOT / "surfexp" / "skeleton" / "width_test.py"
+    path = ROOT / "surfexp" / "studies" / "skeletons" / "positionwise_comparison.py"
     near = ROOT / "tests" / "skeleton" / "test_width_test.py"
     assert near in numeric_tests() and distances(near)[path] == 1
     examples = imported_files(ROOT / "tests" / "mesh" / "test_mesh_examples.py")

@@ -96,8 +96,10 @@ def test_convex_chan_vese_finds_the_regions(surface: Surface, image: Image, meth
 
 def test_means_that_are_not_divided_by_the_area_do_not_settle(surface: Surface, image: Image) -> None:
     operator = fem(surface.mesh)
-    printed = ConvexChanVese(smoothness=0.3, divide_by_area=False, updates=6).run(image, operator, primal_dual)
-    assert not printed.converged and "repeat with period 2" in printed.reason
+    printed = ConvexChanVese(smoothness=0.3, divide_by_area=False, updates=6).run(
+        image, operator, partial(primal_dual, tolerance=1e-4)
+    )
+    assert not printed.converged and "repeat with period" in printed.reason
     assert ConvexChanVese(smoothness=0.3, updates=6).run(image, operator, primal_dual).converged
 
 
@@ -114,7 +116,7 @@ def test_multiphase_with_two_regions_is_convex_chan_vese(surface: Surface, image
     """With 2 labels |D(u, 1 - u)|_F / sqrt 2 is |Du|; both models then have the same segmentation."""
     operator = fem(surface.mesh)
     method = partial(primal_dual, tolerance=1e-5)
-    mu = 1.0 / (255.0**2 * operator.edge_length)
+    mu = 2.0 / (255.0**2 * operator.edge_length)
     two = MultiphaseSegmentation(2, mu=mu).run(image, operator, method)
     convex = ConvexChanVese(mu=mu).run(image, operator, method)
     assert (two.segmentation == (convex.values > 0.5)).mean() > 0.997

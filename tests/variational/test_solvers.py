@@ -213,5 +213,5 @@ def test_printed_dual_segmentation_is_biased_by_theta(surface: Surface, image: I
     size, excess = np.abs(fidelity.slope).mean(), []
     for factor in (1.0, 10.0):
         run = published_chambolle(fidelity, operator, theta=factor * size, tolerance=1e-9, iteration_limit=1500)
-        excess.append((run.energy - best.lower_bound) / fidelity.scale)
+        excess.append((run.energy - best.lower_bound) / float(operator.mass @ np.abs(fidelity.slope)))
     assert excess[0] > 2 * excess[1] > 0

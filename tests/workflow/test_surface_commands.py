@@ -22,7 +22,7 @@ def files(working_folder: Path) -> Path:
     z = sphere.mesh.vertices[:, 2]
     sx.write("brain.surf.gii", sphere)
     inside = z > -0.5
-    noisy = np.where(inside, np.sign(z) + 0.1 * np.random.default_rng(0).standard_normal(len(z)), np.nan)
+    noisy = np.where(inside, z + 0.1 * np.random.default_rng(0).standard_normal(len(z)), np.nan)
     sx.write("noisy.shape.gii", noisy, sphere)
     sx.write("inside.npy", inside.astype(float))
     return working_folder

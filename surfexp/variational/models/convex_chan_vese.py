@@ -75,7 +75,9 @@ class ConvexChanVese:
             iterations += solution.iterations
             labelling = best_threshold(cut, operator.mass, fidelity.slope, solution.values, "phi")
             solved = means
-            means, notes = self.means(values, operator.mass, labelling.region, means)
+            # as published, the region is {phi > 1/2} whatever energy it has
+            region = labelling.region if self.divide_by_area else solution.values > 0.5
+            means, notes = self.means(values, operator.mass, region, means)
         assert solution is not None
         solution = replace(solution, iterations=iterations, notes=(*solution.notes, *notes))
         solution, labelling = self._no_worse(solution, fidelity, labelling, trivial, operator)
