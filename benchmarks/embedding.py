@@ -119,7 +119,10 @@ def _transfer_lines(pair: Pair) -> list[Line]:
 
 
 def _zoomout_line(vertices: int, first: int = 10, last: int = 80, step: int = 2) -> Line:
-    """Posed bodies whose true map is known, from the true signs on; the same eigenfunctions, start and samples for both."""
+    """Posed bodies whose true map is known, from the true signs on; both have the same eigenfunctions and start.
+
+    pyFM takes half of the vertices of either surface, as it is documented, ours half of the target against all of the source.
+    """
     work = f"ZoomOut {first} to {last}, posed bodies of {vertices:,} V"
     if find_spec("pyFM") is None:
         return not_installed(work, "pyFM", 1.0, "pyfmaps")

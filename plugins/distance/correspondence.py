@@ -44,7 +44,7 @@ class Zoomout(Start):
     last: int = Field(120, ge=2, le=2000, description="largest functional map")
     step: int = Field(2, ge=1, le=100, description="growth of the functional map")
     samples: int = Field(
-        4000, ge=10, le=100000, description="vertices of each surface that take part before the last step"
+        800, ge=10, le=100000, description="vertices of the target that take part before the last step"
     )
     field: str = Field("", description="scalar map on both surfaces, used in a last refinement")
     field_modes: int = Field(60, ge=2, le=2000, description="size of the functional map of the last refinement")

@@ -111,7 +111,9 @@ def map_contest(
     values = [system.values[:size] * area.sum() for system, area in zip(systems, areas, strict=True)]
     found = _refined(modes, areas[1], samples, embeddings, optimal, values)
     others = [
-        _refined(modes, areas[1], samples, embeddings, signs, values) for signs in competing_signs(*embeddings, seed)
+        _refined(modes, areas[1], samples, embeddings, signs, values)
+        for signs in competing_signs(*embeddings, seed)
+        if (signs != optimal).any()
     ]
     distinct = [
         other

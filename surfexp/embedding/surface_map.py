@@ -79,7 +79,7 @@ def zoomout_map(
     n: int = 10,
     last: int = 120,
     step: int = 2,
-    samples: int = 4000,
+    samples: int = 800,
     seed: int = 0,
     field: str = "",
     field_modes: int = 60,
