@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.files import read as read
     from surfexp.tasks.files import write as write
     from surfexp.tasks.pictures import plot as plot
+    from surfexp.tasks.segmentation import segment as segment
     from surfexp.tasks.shapes import shape as shape
     from surfexp.tasks.skeletons import geodesic as geodesic
     from surfexp.tasks.skeletons import mean_curvature as mean_curvature
@@ -40,6 +41,7 @@ _FACE = {
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",
     "reeb_graph": "surfexp.tasks.skeletons",
+    "segment": "surfexp.tasks.segmentation",
     "shape": "surfexp.tasks.shapes",
     "smooth": "surfexp.tasks.denoising",
     "write": "surfexp.tasks.files",
