@@ -7,6 +7,8 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from surfexp.experiments import load as load
+    from surfexp.experiments import run as run
     from surfexp.mesh.surface import Surface as Surface
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth
@@ -37,10 +39,12 @@ _FACE = {
     "eigenpairs": "surfexp.tasks.spectra",
     "eigsh": "surfexp.tasks.spectra",
     "geodesic": "surfexp.tasks.skeletons",
+    "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",
     "reeb_graph": "surfexp.tasks.skeletons",
+    "run": "surfexp.experiments",
     "segment": "surfexp.tasks.segmentation",
     "shape": "surfexp.tasks.shapes",
     "smooth": "surfexp.tasks.denoising",

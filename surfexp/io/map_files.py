@@ -113,6 +113,8 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
         kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
         inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
     else:
+        if names:
+            raise ValueError(f"{file} is a map without names of labels, {names!r} cannot be chosen: give {file} alone")
         values = read_scalars(file, hemisphere)
         inside = np.isfinite(values) & (values != 0)
     if inside.shape != (count,):
