@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from dataclasses import dataclass
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -183,8 +184,7 @@ def _written(value: Any) -> str:
 
 
 def _frame(rows: list[Any]) -> Any:
-    import pandas
-
+    pandas: Any = import_module("pandas")
     records = [
         {"comparison": row.leaf.settings["comparison"], **row.parameters, **row.metrics}
         | {"seconds": row.seconds, "notes": "; ".join(row.notes), "failure": row.failure}

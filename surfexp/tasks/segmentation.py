@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
@@ -70,6 +71,12 @@ class Segmentation:
     def label_map(self) -> LabelMap:
         """The labels as files hold them: 0 unknown, 1 darker, 2 brighter."""
         return LabelMap(self.labels + 1, NAMES)
+
+    def _repr_html_(self) -> str:
+        counts = {f"vertices {name}": int((self.labels == key - 1).sum()) for key, name in NAMES.items() if key}
+        numbers = {"mean of the brighter": self.c1, "mean of the darker": self.c2, "boundary length": self.perimeter}
+        proof = {"gap": self.gap, "labelling gap": self.labelling_gap, "converged": self.converged}
+        return html_table("two regions", counts | numbers | proof, self.notes)
 
 
 def segment(

@@ -91,7 +91,7 @@ def test_mistakes_are_one_line_and_exit_code_2(
     assert words in said and said.splitlines()[-1].startswith("surfexp: ")
 
 
-@pytest.mark.parametrize("name", sorted([*COMMANDS, "segment"]))
+@pytest.mark.parametrize("name", sorted([*COMMANDS, "segment", "fingerprint", "check", "repair"]))
 def test_help_has_two_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([name, "--help"]) == 0
     assert capsys.readouterr().out.count(f"surfexp {name} ") >= 3
