@@ -61,6 +61,7 @@ SMALL = {
     ("solver", "closest_point"): {"points": 24},
     ("figure", "regions"): {"inputs": {"solver": {"model": "multiphase"}}},
     ("figure", "segmentation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
+    ("figure", "parcellation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "geometry"): {
         "inputs": {"clean": {}, "noisy": {}, "solver": {"solver": {"name": "geometry_error", "inputs": GEOMETRY}}}
     },

@@ -81,7 +81,15 @@ def spectral_icp_distance(
     return icp_map(Pair(source_surface, target_surface, source, target), **dict(options))
 
 
-@register("distance", "zoomout", metrics=METRICS)
+ZOOMOUT_METRICS = {
+    **METRICS,
+    "map_energy": Metric("how far the map is from commuting with the Laplacian", better="lower"),
+    "rival_energy": Metric("the same of the best other map that a symmetry suggests"),
+    "ambiguous": Metric("1 where a rival is about as good, else 0", better="lower"),
+}
+
+
+@register("distance", "zoomout", metrics=ZOOMOUT_METRICS)
 def zoomout_distance(
     options: Zoomout, *, source_surface: Surface, target_surface: Surface, source: EigenSystem, target: EigenSystem
 ) -> Distance:

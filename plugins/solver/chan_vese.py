@@ -36,6 +36,8 @@ METRICS = {
     "c1": Metric("mean inside", "unit of the image"),
     "c2": Metric("mean outside", "unit of the image"),
     "perimeter": Metric("length of the zero line", "unit of length"),
+    "threshold": Metric("level of the field that bounds the region"),
+    "brighter_share": Metric("share of the area in the brighter region"),
     **SEGMENTATION_METRICS,
 }
 

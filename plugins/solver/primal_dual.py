@@ -16,7 +16,9 @@ from surfexp.workflow.stage import report_progress
 class PrimalDual(Options):
     """When to stop, and the first step."""
 
-    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
+    tolerance: float | None = Field(
+        None, gt=0, lt=1, description="bound of the relative gap; default: 1e-4, of segmentation models 1e-2"
+    )
     iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
     step: float | None = Field(None, gt=0, description="first primal step; default: from the model")
 

@@ -18,7 +18,9 @@ from surfexp.workflow.stage import report_progress
 class SplitBregman(Options):
     """When to stop, the penalty, and the scheme with its printed parameters."""
 
-    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
+    tolerance: float | None = Field(
+        None, gt=0, lt=1, description="bound of the relative gap; default: 1e-4, of segmentation models 1e-2"
+    )
     iteration_limit: int = Field(5000, ge=1, description="most iterations of one convex problem")
     penalty: float | None = Field(None, gt=0, description="the printed lambda; default: from the model and edge length")
     relaxation: float = Field(1.8, gt=0, lt=2, description="over-relaxation")

@@ -23,6 +23,7 @@ class Threshold(Options):
 METRICS = {
     "perimeter": Metric("length of the boundary of the region", "unit of length"),
     "threshold": Metric("grey level that bounds the region", "unit of the image"),
+    "brighter_share": Metric("share of the area in the brighter region"),
     **SEGMENTATION_METRICS,
 }
 

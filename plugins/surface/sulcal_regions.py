@@ -14,7 +14,7 @@ from surfexp.workflow.registry import Options, register
 class SulcalRegions(Options):
     """Of the segmentation."""
 
-    length: float = Field(0.3, gt=0, le=100, description="details given up, in edge lengths")
+    smoothness: float = Field(0.3, gt=0, le=100, description="weight of the boundary, without unit")
     smallest_share: float = Field(1.5e-3, ge=0, lt=1, description="smallest region as a share of the surface's area")
 
 
@@ -27,7 +27,7 @@ METRICS = {
 @register("surface", "sulcal_regions", metrics=METRICS)
 def sulcal_regions_surface(options: SulcalRegions, *, original: Surface) -> Surface:
     """Another surface with its sulcal regions as labels from 1, largest first, and 0 on gyri."""
-    regions = sulcal_regions(original.mesh, options.length, options.smallest_share)
+    regions = sulcal_regions(original.mesh, options.smoothness, options.smallest_share)
     inside = regions >= 0
     areas = original.mesh.vertex_areas
     metrics = {"regions": float(regions.max() + 1), "sulcal share": float(areas[inside].sum() / areas.sum())}

@@ -35,15 +35,17 @@ def nearest(points: Floats, targets: Floats) -> tuple[Integers, Floats]:
     norms, own = (targets**2).sum(axis=1), (points**2).sum(axis=1)
     left = np.hstack([points, np.ones((len(points), 1))]).astype(np.float32)
     right = np.hstack([-2.0 * targets, norms[:, None]]).T.astype(np.float32)
-    slack = 2.0 * rounding_error(points.shape[1], own, float(norms.max(initial=0.0)))
-    doubtful = []
+    slack = (2.0 * rounding_error(points.shape[1], own, float(norms.max(initial=0.0)))).astype(np.float32)
+    doubtful = np.zeros(len(points), bool)
     for start in range(0, len(points), BLOCK):
         some = slice(start, start + BLOCK)
         squares = left[some] @ right
         rows[some] = squares.argmin(axis=1)
-        least = squares[np.arange(len(squares)), rows[some]] + slack[some].astype(np.float32)
-        doubtful.append(np.count_nonzero(squares <= least[:, None], axis=1) > 1)
-    again = np.flatnonzero(np.concatenate(doubtful)) if doubtful else np.zeros(0, np.int64)
+        winners = np.arange(len(squares)), rows[some]
+        least = squares[winners]
+        squares[winners] = np.inf
+        doubtful[some] = squares.min(axis=1) <= least + slack[some]
+    again = np.flatnonzero(doubtful)
     for start in range(0, len(again), BLOCK):
         these = again[start : start + BLOCK]
         rows[these] = (points[these] @ (-2.0 * targets.T) + norms).argmin(axis=1)

@@ -60,7 +60,7 @@ def run_to_gap(
     fidelity: Fidelity,
     operator: SurfaceOperator,
     solver: str,
-    tolerance: float,
+    tolerance: float | None,
     progress: Progress | None = None,
 ) -> Solution:
     """Take iterates until the relative gap is at most `tolerance`, and certify the one that is returned.
@@ -73,19 +73,20 @@ def run_to_gap(
         The problem; gradients are those of the faces whatever the solver used.
     solver : str
         Name for captions.
-    tolerance : float
-        Bound of the relative gap.
+    tolerance : float, optional
+        Bound of the relative gap; default: that of the model.
     progress : callable, optional
         Called with the iteration and the relative gap.
     """
     rows: list[tuple[float, float, float]] = []
+    small = fidelity.tolerance if tolerance is None else tolerance
     converged = False
     for iterate in iterates:
         certificate = certify(fidelity, operator, iterate.values, iterate.load)
         rows.append((iterate.iteration, certificate.energy, certificate.relative_gap))
         if progress is not None:
             progress(iterate.iteration, certificate.relative_gap)
-        if certificate.relative_gap <= tolerance:
+        if certificate.relative_gap <= small:
             converged = True
             break
     if not rows:

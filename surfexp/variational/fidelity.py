@@ -38,6 +38,11 @@ class Fidelity(Protocol):
         """A primal step tau of the right size for `prox`: (spread of the values) / (size of their multipliers)."""
         ...
 
+    @property
+    def tolerance(self) -> float:
+        """A relative gap that is small on the model's own scale."""
+        ...
+
     def value(self, values: Floats) -> float:
         """H(phi), infinite outside its domain."""
         ...

@@ -87,6 +87,11 @@ class HeatBlur:
         """The blurred image."""
         return self.image
 
+    @property
+    def tolerance(self) -> float:
+        """1e-4 of the energy."""
+        return 1e-4
+
     def gap_scale(self, energy: float, lower_bound: float) -> float:
         """The energy, not less than 1e-12 of that of the zero field."""
         floor = 0.5e-12 * self.mu * float(self.operator.mass @ self.image**2)

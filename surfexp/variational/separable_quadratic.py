@@ -95,6 +95,11 @@ class SeparableQuadratic:
         middle = 0.5 * (self.lower + self.upper) if not self.is_quadratic else 0.0
         return np.clip(np.where(self.weight > 0, self.target, middle), self.lower, self.upper)
 
+    @cached_property
+    def tolerance(self) -> float:
+        """1e-4 of the energy, or 1e-2 of what the best trivial field leaves to gain."""
+        return 1e-4 if self.trivial_energy is None else 1e-2
+
     def gap_scale(self, energy: float, lower_bound: float) -> float:
         """The spread from `trivial_energy` to the lower bound, not less than 1e-4 int |r|; without it the energy.
 

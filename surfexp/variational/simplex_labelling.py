@@ -67,6 +67,11 @@ class SimplexLabelling:
         """The same share of each label."""
         return np.full(self.shape, 1.0 / self.shape[1])
 
+    @property
+    def tolerance(self) -> float:
+        """1e-2 of what the best labelling by one class leaves to gain."""
+        return 1e-2
+
     def gap_scale(self, energy: float, lower_bound: float) -> float:
         """The spread from the best trivial labelling to the lower bound, not less than 1e-4 of the spread of the costs."""
         return max(self.trivial - lower_bound, self._least_spread, float(np.finfo(float).tiny))

@@ -205,6 +205,10 @@ class AbsoluteDeviation:
     def initial(self) -> np.ndarray:
         return self.image
 
+    @property
+    def tolerance(self) -> float:
+        return 1e-4
+
     def gap_scale(self, energy: float, lower_bound: float) -> float:
         return energy
 

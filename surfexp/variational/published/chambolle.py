@@ -25,7 +25,7 @@ def published_chambolle(
     operator: SurfaceOperator,
     start: Solution | None = None,
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     iteration_limit: int = 3000,
     tau: float | None = None,
     theta: float | None = None,

@@ -23,12 +23,15 @@ NOTE = (
 )
 
 
+SMALL_CHANGE = 1e-4
+
+
 def run_and_audit(
     states: Iterable[tuple[int, Floats]],
     fidelity: Fidelity,
     operator: SurfaceOperator,
     solver: str,
-    tolerance: float,
+    tolerance: float | None,
     progress: Progress | None = None,
 ) -> Solution:
     """Take iterates until their relative change is at most `tolerance`, then audit the last.
@@ -39,7 +42,8 @@ def run_and_audit(
         Ends by itself at the iteration limit.
     fidelity, operator, solver, progress
         As in `run_to_gap`; progress is given the relative change.
-    tolerance : float
+    tolerance : float, optional
+        Default 1e-4.
         Bound of |phi_k - phi_(k-1)| / |phi_k| in the mass norm.
     """
     previous = np.zeros(fidelity.shape)
@@ -52,7 +56,7 @@ def run_and_audit(
         if progress is not None:
             progress(iteration, change)
         previous = values
-        if change <= tolerance:
+        if change <= (SMALL_CHANGE if tolerance is None else tolerance):
             converged = True
             break
     if not rows:

@@ -33,7 +33,7 @@ def published_split_bregman(
     operator: SurfaceOperator,
     start: Solution | None = None,
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     iteration_limit: int = 500,
     penalty: float | None = None,
     inner: Inner = "gauss_seidel",

@@ -20,7 +20,7 @@ def chambolle_dual(
     operator: SurfaceOperator,
     start: Solution | None = None,
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     iteration_limit: int = 20000,
     progress: Progress | None = None,
 ) -> Solution:
@@ -35,8 +35,8 @@ def chambolle_dual(
     operator : SurfaceOperator
     start : Solution, optional
         Its dual field is begun with.
-    tolerance : float
-        Bound of the relative gap.
+    tolerance : float, optional
+        Bound of the relative gap; default: that of the model.
     iteration_limit : int
     progress : callable, optional
 

@@ -16,7 +16,7 @@ def primal_dual(
     operator: SurfaceOperator,
     start: Solution | None = None,
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     iteration_limit: int = 20000,
     step: float | None = None,
     threads: int = 1,
@@ -33,8 +33,8 @@ def primal_dual(
     operator : SurfaceOperator
     start : Solution, optional
         Values and dual field to begin with.
-    tolerance : float
-        Bound of the relative gap.
+    tolerance : float, optional
+        Bound of the relative gap; default: that of the model.
     iteration_limit : int
     step : float, optional
         First primal step tau; the dual one is 1/tau times the step of the face. Default: `fidelity.step`.

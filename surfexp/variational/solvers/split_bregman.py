@@ -26,7 +26,7 @@ def split_bregman(
     operator: SurfaceOperator,
     start: Solution | None = None,
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     iteration_limit: int = 5000,
     penalty: float | None = None,
     relaxation: float = 1.8,
@@ -45,8 +45,8 @@ def split_bregman(
     operator : SurfaceOperator
     start : Solution, optional
         Values and dual field to begin with.
-    tolerance : float
-        Bound of the relative gap.
+    tolerance : float, optional
+        Bound of the relative gap; default: that of the model.
     iteration_limit : int
     penalty : float, optional
         lambda. Default: 6 mu h^2 for a quadratic, else h^2 over three primal steps of the fidelity.
