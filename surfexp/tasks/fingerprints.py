@@ -119,7 +119,7 @@ def fingerprint(
     >>> sx.write("ball.ply", sx.shape("icosphere", levels=3))
     >>> table = sx.fingerprint(["ball.ply"], count=4)
     >>> table.columns["ball"].round(1).tolist(), table.complete["ball"]
-    ([12.5, 4.1, 0.0, 2.0, 2.0, 2.0], True)
+    ([12.5, 4.2, 0.0, 2.0, 2.0, 2.0], True)
 
     References
     ----------

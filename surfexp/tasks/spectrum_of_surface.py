@@ -105,8 +105,8 @@ class Spectrum:
         """
         system = pairs_between(self._pencil, low, high, self.tolerance)
         vectors = self.part.extend(self._elements.extend(system.vectors))
-        facts = {"area": self._elements.area, "boundary": self.boundary}
-        return replace(system, vectors=vectors, notes=mask_notes(self.surface, self.part), **facts)
+        notes = mask_notes(self.surface, self.part)
+        return replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
 
     def count_below(self, value: float) -> int:
         """Return how many eigenvalues lie below a number, by one factorisation.

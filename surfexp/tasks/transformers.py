@@ -26,7 +26,7 @@ from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 Surfaces = Sequence[SurfaceLike]
 
 
-class SurfaceTransformer(TransformerMixin, BaseEstimator):  # type: ignore[misc]
+class SurfaceTransformer(TransformerMixin, BaseEstimator):
     """What the transformers share: their input is a list of surfaces or paths, no array of numbers.
 
     Of scikit-learn's `check_estimator` those checks apply that give no data: parameters, cloning, tags.
