@@ -7,6 +7,8 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from surfexp.experiments import load as load
+    from surfexp.experiments import run as run
     from surfexp.mesh.surface import Surface as Surface
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth
@@ -14,13 +16,19 @@ if TYPE_CHECKING:
     from surfexp.tasks.distances import distance as distance
     from surfexp.tasks.files import read as read
     from surfexp.tasks.files import write as write
+    from surfexp.tasks.fingerprints import fingerprint as fingerprint
     from surfexp.tasks.pictures import plot as plot
+    from surfexp.tasks.segmentation import segment as segment
     from surfexp.tasks.shapes import shape as shape
     from surfexp.tasks.skeletons import geodesic as geodesic
     from surfexp.tasks.skeletons import mean_curvature as mean_curvature
     from surfexp.tasks.skeletons import reeb_graph as reeb_graph
     from surfexp.tasks.spectra import eigenpairs as eigenpairs
     from surfexp.tasks.spectra import eigsh as eigsh
+    from surfexp.tasks.spectrum_of_surface import Spectrum as Spectrum
+    from surfexp.tasks.transformers import NodalCounts as NodalCounts
+    from surfexp.tasks.transformers import ShapeDNA as ShapeDNA
+    from surfexp.tasks.transformers import SpectralDistance as SpectralDistance
 
 try:
     __version__ = version("surfexp")
@@ -29,17 +37,25 @@ except PackageNotFoundError:
 
 # imported when it is asked for: `import surfexp` loads none of the numerical libraries
 _FACE = {
+    "NodalCounts": "surfexp.tasks.transformers",
+    "ShapeDNA": "surfexp.tasks.transformers",
+    "SpectralDistance": "surfexp.tasks.transformers",
+    "Spectrum": "surfexp.tasks.spectrum_of_surface",
     "Surface": "surfexp.mesh.surface",
     "align": "surfexp.tasks.distances",
     "denoise": "surfexp.tasks.denoising",
     "distance": "surfexp.tasks.distances",
     "eigenpairs": "surfexp.tasks.spectra",
     "eigsh": "surfexp.tasks.spectra",
+    "fingerprint": "surfexp.tasks.fingerprints",
     "geodesic": "surfexp.tasks.skeletons",
+    "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",
     "reeb_graph": "surfexp.tasks.skeletons",
+    "run": "surfexp.experiments",
+    "segment": "surfexp.tasks.segmentation",
     "shape": "surfexp.tasks.shapes",
     "smooth": "surfexp.tasks.denoising",
     "write": "surfexp.tasks.files",

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 
+from surfexp import __version__
 from surfexp.commands import processes
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
@@ -17,13 +18,17 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "modes": ("surface_commands", "eigenpairs of a surface: surfexp modes SURFACE -k 400 --to modes.npz"),
     "denoise": ("surface_commands", "a map without its noise: surfexp denoise SURFACE MAP --to clean.shape.gii"),
     "smooth": ("surface_commands", "a map smoothed by heat flow: surfexp smooth SURFACE MAP --width 6mm --to FILE"),
+    "segment": ("segment", "two regions, certified: surfexp segment SURFACE [MAP] --to parts.label.gii"),
     "skeleton": ("surface_commands", "the Reeb graph of a map: surfexp skeleton SURFACE [MAP] --to skeleton.vtk"),
     "distance": ("surface_commands", "spectral distance with proof: surfexp distance A B -n 20"),
     "align": ("surface_commands", "modes of B in correspondence with A's: surfexp align A B -k 50 --to FILE"),
+    "fingerprint": ("fingerprint", "spectra of many as a table: surfexp fingerprint SUBJECTS_DIR -k 50 --to table.csv"),
     "geodesic": ("surface_commands", "distances from vertices: surfexp geodesic SURFACE VERTEX ... --to FILE"),
     "curvature": ("surface_commands", "mean curvature: surfexp curvature SURFACE --to FILE"),
     "convert": ("surface_commands", "another format: surfexp convert FILE FILE"),
     "plot": ("surface_commands", "a picture: surfexp plot SURFACE [MAP] --to FILE.png"),
+    "check": ("mesh_quality", "the defects of mesh files: surfexp check FILE ..."),
+    "repair": ("mesh_quality", "a mesh without defects: surfexp repair FILE --to FILE"),
     "run": (
         "run",
         "run an experiment or a sweep, e.g. surfexp run experiment=quickstart solver=primal_dual,split_bregman",
@@ -48,7 +53,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 
 def usage() -> str:
     """The help text of `surfexp --help`."""
-    lines = [f"  {name:8} {text}" for name, (_, text) in COMMANDS.items()]
+    lines = [f"  {name:11} {text}" for name, (_, text) in COMMANDS.items()]
     return "\n".join(
         [
             "usage: surfexp COMMAND [ARGUMENTS]   (surfexp COMMAND --help explains one)",
@@ -57,7 +62,8 @@ def usage() -> str:
             "",
             *lines,
             "",
-            "--debug shows the traceback of an error. Exit codes: 2 a mistake in the request, 1 a failed stage, 130 interrupted.",
+            "--version shows the version, --debug the traceback of an error.",
+            "Exit codes: 2 a mistake in the request, 1 a failed stage, 130 interrupted.",
         ]
     )
 
@@ -70,6 +76,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.environ["SURFEXP_DEBUG"] = "1"
     if not given or given[0] in ("--help", "-h", "help"):
         print(usage())
+        return 0
+    if given[0] in ("--version", "-V"):
+        print(f"surfexp {__version__}")
         return 0
     if threading.current_thread() is threading.main_thread():
         processes.end_on_signals()

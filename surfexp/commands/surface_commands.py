@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from surfexp.commands.click_command import run_click, shown
 from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
 
 EXAMPLES = {
@@ -24,13 +25,7 @@ EXAMPLES = {
 }
 
 
-def examples(name: str) -> dict[str, Any]:
-    """Arguments of a click command: its name, and two examples below its help."""
-    lines = "\n\n".join(f"surfexp {name} {arguments}" for arguments in EXAMPLES[name])
-    return {"name": name, "epilog": f"Examples:\n\n{lines}"}
-
-
-@click.command(**examples("modes"))
+@click.command(**shown("modes", *EXAMPLES["modes"]))
 @click.argument("path")
 @click.option("-k", "count", default=50, show_default=True, help="number of eigenpairs")
 @click.option("--tolerance", default=1e-8, show_default=True, help="largest relative residual")
@@ -52,7 +47,7 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
     finish(target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes)
 
 
-@click.command(**examples("denoise"))
+@click.command(**shown("denoise", *EXAMPLES["denoise"]))
 @click.argument("path")
 @click.argument("map_name", metavar="MAP")
 @click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
@@ -88,7 +83,7 @@ class Width(click.ParamType[float]):
             self.fail(f"{value!r} is no width: write 6 or 6mm", param, ctx)
 
 
-@click.command(**examples("smooth"))
+@click.command(**shown("smooth", *EXAMPLES["smooth"]))
 @click.argument("path")
 @click.argument("map_name", metavar="MAP")
 @click.option(
@@ -108,7 +103,7 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     finish(target, smoothed, surface, "heat", {"width": width}, files, facts, smoothed.notes)
 
 
-@click.command(**examples("geodesic"))
+@click.command(**shown("geodesic", *EXAMPLES["geodesic"]))
 @click.argument("path")
 @click.argument("sources", nargs=-1, type=int, required=True)
 @surface_options
@@ -124,7 +119,7 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     finish(target, {"distance": values}, surface, "fast marching", {"sources": list(sources)}, files, facts)
 
 
-@click.command(**examples("curvature"))
+@click.command(**shown("curvature", *EXAMPLES["curvature"]))
 @click.argument("path")
 @surface_options
 @result_option()
@@ -136,7 +131,7 @@ def curvature(path: str, target: Path, **given: Any) -> None:
     finish(target, {"mean curvature": mean_curvature(surface)}, surface, "mean curvature", {}, files, {})
 
 
-@click.command(**examples("skeleton"))
+@click.command(**shown("skeleton", *EXAMPLES["skeleton"]))
 @click.argument("path")
 @click.argument("map_name", metavar="[MAP]", required=False)
 @click.option("--count", default=50, show_default=True, help="number of levels")
@@ -160,7 +155,7 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     click.echo(f"{target}: {len(graph.positions)} nodes, {len(graph.arcs)} arcs, {graph.metrics['b1']:.0f} loops")
 
 
-@click.command(**examples("distance"))
+@click.command(**shown("distance", *EXAMPLES["distance"]))
 @click.argument("first")
 @click.argument("second")
 @click.option("-n", "count", default=20, show_default=True, help="number of eigenfunctions")
@@ -188,7 +183,7 @@ def distance(first: str, second: str, count: int, target: Path | None) -> None:
         finish(target, maps, None, found.method, {"n": count}, [Path(first), Path(second)], facts, found.notes)
 
 
-@click.command(**examples("align"))
+@click.command(**shown("align", *EXAMPLES["align"]))
 @click.argument("first")
 @click.argument("second")
 @click.option("-k", "count", default=50, show_default=True, help="number of modes after the constant")
@@ -210,7 +205,7 @@ def align(first: str, second: str, count: int, target: Path) -> None:
     finish(target, maps, None, "mode alignment", {"k": count}, [Path(first), Path(second)], facts, found.notes)
 
 
-@click.command(**examples("convert"))
+@click.command(**shown("convert", *EXAMPLES["convert"]))
 @click.argument("path")
 @click.argument("target", type=click.Path(path_type=Path))
 @surface_options
@@ -223,7 +218,7 @@ def convert(path: str, target: Path, **given: Any) -> None:
     click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
 
 
-@click.command(**examples("plot"))
+@click.command(**shown("plot", *EXAMPLES["plot"]))
 @click.argument("path")
 @click.argument("map_name", metavar="[MAP]", required=False)
 @click.option("--width", default=1600, show_default=True, help="pixels across")
@@ -245,15 +240,5 @@ COMMANDS = {command.name: command for command in ALL}
 
 
 def command(name: str, arguments: list[str]) -> int:
-    """Run one of the commands; whatever is wrong with its arguments or files is the user's mistake, in one line."""
-    from surfexp.workflow.errors import UserError
-
-    try:
-        COMMANDS[name].main(arguments, prog_name=f"surfexp {name}", standalone_mode=False)
-    except click.Abort:
-        raise KeyboardInterrupt from None
-    except click.ClickException as error:
-        raise UserError(error.format_message()) from error
-    except ValueError as error:
-        raise UserError(str(error)) from error
-    return 0
+    """Run one of the commands."""
+    return run_click(COMMANDS[name], arguments)

@@ -117,6 +117,8 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
             f"{file} has no named labels, {names!r} can be chosen from .label.gii, .annot and .dlabel.nii only"
         )
     else:
+        if names:
+            raise ValueError(f"{file} is a map without names of labels, {names!r} cannot be chosen: give {file} alone")
         values = read_scalars(file, hemisphere)
         inside = np.isfinite(values) & (values != 0)
     if inside.shape != (count,):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
+from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -111,3 +112,18 @@ class Surface:
     def deformed(self, mesh: TriangleMesh) -> Surface:
         """The surface with its vertices moved: of the same connectivity, but of no known shape and midline."""
         return replace(self, mesh=mesh, shape=None, truth=replace(self.truth, midline=None))
+
+    def _repr_html_(self) -> str:
+        size = f" {self.unit}²" if self.unit else ""
+        facts = {
+            "vertices": len(self.mesh.vertices),
+            "faces": len(self.mesh.faces),
+            "area": f"{self.mesh.area:.4g}{size}",
+            "components": self.mesh.component_count,
+            "boundary loops": len(self.mesh.boundary_loops),
+            "inside the mask": None if self.mask is None else int(self.mask.sum()),
+            "hemisphere": self.hemisphere,
+            "maps": ", ".join(self.scalars),
+            "labels": ", ".join(self.labels),
+        }
+        return html_table(self.name, facts, self.notes)

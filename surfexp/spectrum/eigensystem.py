@@ -9,6 +9,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.arrays import Floats, Integers
+from surfexp.html_table import html_table
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
 from surfexp.metric import Metric
@@ -78,6 +79,18 @@ class EigenSystem:
         "clusters": Metric("groups of nearly equal eigenvalues"),
         "area": Metric("area", "unit of length squared"),
     }
+
+    def _repr_html_(self) -> str:
+        facts = {
+            "lowest": float(self.values[0]),
+            "highest": float(self.values[-1]),
+            "complete": self.complete,
+            "largest residual": float(self.residuals.max()),
+            "orthogonality": self.orthogonality,
+            "clusters": len(self.clusters),
+            "method": self.method,
+        }
+        return html_table(f"{len(self.values)} eigenpairs", facts, self.notes)
 
 
 @dataclass(frozen=True, eq=False)

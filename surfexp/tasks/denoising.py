@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.html_table import html_table
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -42,6 +43,16 @@ class DenoisedMap:
     method: str
     certificate: dict[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+    def _repr_html_(self) -> str:
+        known = np.isfinite(self.values)
+        facts = {
+            "known values": int(known.sum()),
+            "least": float(self.values[known].min()) if known.any() else None,
+            "largest": float(self.values[known].max()) if known.any() else None,
+            **{name.replace("_", " "): value for name, value in self.certificate.items()},
+        }
+        return html_table(f"map after {self.method}", facts, self.notes)
 
 
 def denoise(

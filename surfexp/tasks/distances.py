@@ -60,7 +60,7 @@ def distance(
     >>> round(found.value, 9), found.optimal
     (0.0, True)
     """
-    (first, first_part), (second, second_part) = _embedded(source, n, weighting), _embedded(target, n, weighting)
+    (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
     found = spectral_distance(first, second, limit=limit)
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
     correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
@@ -138,7 +138,7 @@ def align(
     >>> sx.align(body, body, 5).basis.round(3).diagonal().tolist()
     [1.0, 1.0, 1.0, 1.0, 1.0]
     """
-    (first, _), (second, part) = _embedded(source, count, weighting), _embedded(target, count, weighting)
+    (first, _), (second, part) = embedded(source, count, weighting), embedded(target, count, weighting)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
     single = len(blocks) == count
     found = spectral_distance(first, second, limit=limit) if single else block_distance(first, second, blocks)
@@ -148,7 +148,8 @@ def align(
     return ModeAlignment(found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes)
 
 
-def _embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[SpectralEmbedding, SurfacePart]:
+def embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[SpectralEmbedding, SurfacePart]:
+    """Return the embedding of a surface by n eigenfunctions, scaled to area 1, and the part inside its mask."""
     owner = as_surface(given)
     part = part_for(owner)
     system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)

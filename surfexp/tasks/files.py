@@ -128,9 +128,9 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
         write_mesh(target, what.mesh, scalars)
         return
-    labels = getattr(what, "labels", None)
-    if target.name.endswith(LABEL_SUFFIXES) and labels is not None:
-        write_labels(target, labels.keys, list(labels.names.values()))
+    table = getattr(what, "label_map", None)
+    if target.name.endswith(LABEL_SUFFIXES) and table is not None:
+        write_labels(target, table.keys, list(table.names.values()))
         return
     if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
         arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}

@@ -91,7 +91,18 @@ def test_mistakes_are_one_line_and_exit_code_2(
     assert words in said and said.splitlines()[-1].startswith("surfexp: ")
 
 
-@pytest.mark.parametrize("name", sorted(COMMANDS))
+@pytest.mark.parametrize("name", sorted([*COMMANDS, "segment", "fingerprint", "check", "repair"]))
 def test_help_has_two_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([name, "--help"]) == 0
     assert capsys.readouterr().out.count(f"surfexp {name} ") >= 3
+
+
+def test_regions_leave_as_labels_with_their_proof(files: Path) -> None:
+    assert main(["segment", "brain.surf.gii", "noisy.shape.gii", "--to", "parts.label.gii"]) == 0
+    labels = nibabel.load("parts.label.gii")
+    assert set(np.unique(labels.agg_data())) == {0, 1, 2}
+    proof = certificate("parts.label.gii")
+    assert proof["converged"] and proof["gap"] <= 1e-3 and proof["lower_bound"] <= proof["energy"]
+    assert proof["options"] == {"smoothness": 0.3, "tolerance": 1e-3, "map": "noisy.shape.gii"}
+    assert main(["segment", "brain.surf.gii", "--to", "curved.annot"]) == 0
+    assert "clipped" in certificate("curved.annot")["notes"][0]

@@ -1,0 +1,76 @@
+"""`surfexp fingerprint`: the spectra of many structures as one CSV."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import click
+
+from surfexp.commands.certificate import write_certificate
+from surfexp.commands.click_command import run_click, shown
+
+SPOKEN_EVERY = 30.0
+
+
+@click.command(**shown("fingerprint", "$SUBJECTS_DIR -k 50 --to table.csv", "left.ply right.ply --to table.csv"))
+@click.argument("sources", nargs=-1, required=True)
+@click.option("-k", "count", default=50, show_default=True, help="number of eigenvalues, ev0 = 0 among them")
+@click.option("--tolerance", default=1e-8, show_default=True, help="largest relative residual")
+@click.option("--strict", is_flag=True, help="leave defective meshes out instead of repairing them")
+@click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the table, .csv")
+def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> None:
+    """Area, volume and lowest eigenvalues of files, a folder, or a SUBJECTS_DIR (surf/?h.white, surf/?h.pial).
+
+    The layout is BrainPrint's, a column a structure, with the rows residual, complete and repairs below.
+    """
+    from surfexp.tasks.fingerprints import fingerprint as task
+    from surfexp.tasks.fingerprints import structures
+
+    if target.suffix != ".csv":
+        raise ValueError(f"{target} has an unknown format, choose .csv")
+    started = time.monotonic()
+    table = task(list(sources), count, repair=not strict, tolerance=tolerance, progress=_Clock())
+    if sys.stderr.isatty():
+        click.echo("\r\x1b[K", nl=False, err=True)
+    for note in table.notes:
+        click.echo(note, err=True)
+    if not table.columns:
+        raise ValueError(f"none of {len(table.refused)} surfaces can be read: nothing is written")
+    table.save(target)
+    files = [file for name, file in structures(list(sources)).items() if name in table.columns]
+    facts = {
+        "complete": all(table.complete.values()),
+        "residual": max(table.residuals.values()),
+        "structures": len(table.columns),
+        "left_out": table.refused,
+        "seconds": time.monotonic() - started,
+    }
+    options = {"k": count, "tolerance": tolerance, "repair": not strict}
+    proof = write_certificate(target, "fingerprint", options, files, facts, table.notes)
+    said = f"{len(table.columns)} structures, {len(table.refused)} left out, residual {facts['residual']:.1e}"
+    click.echo(f"{target}: {said} (certificate: {proof.name})")
+
+
+class _Clock:
+    """Says how far it is, with elapsed and remaining time: on one line of a terminal, else every half minute."""
+
+    def __init__(self) -> None:
+        self.started = self.spoken = time.monotonic()
+
+    def __call__(self, name: str, done: int, total: int) -> None:
+        now = time.monotonic()
+        elapsed = now - self.started
+        rest = f", {elapsed / done * (total - done):.0f} s left" if done else ""
+        line = f"{done}/{total} {name}: {elapsed:.0f} s{rest}"
+        if sys.stderr.isatty():
+            click.echo(f"\r{line} \x1b[K", nl=False, err=True)
+        elif now - self.spoken > SPOKEN_EVERY:
+            self.spoken = now
+            click.echo(line, err=True)
+
+
+def command(_: str, arguments: list[str]) -> int:
+    """Run the command."""
+    return run_click(fingerprint, arguments)

@@ -1,0 +1,63 @@
+"""`surfexp check` and `surfexp repair`: the defects of mesh files, and meshes without them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from surfexp.commands.certificate import write_certificate
+from surfexp.commands.click_command import run_click, shown
+
+DEFECTIVE = 2
+
+
+@click.command(**shown("check", "scan.ply", "subjects/*/surf/lh.white"))
+@click.argument("files", nargs=-1, required=True)
+def check(files: tuple[str, ...]) -> int:
+    """Name every defect of mesh files; exit code 2 where a method would refuse one."""
+    from surfexp.io.reading import read_mesh
+    from surfexp.mesh.validate import validate
+
+    sound = True
+    for file in files:
+        try:
+            vertices, faces, _ = read_mesh(file)
+        except ValueError as error:
+            sound = False
+            click.echo(str(error))
+            continue
+        report = validate(vertices, faces)
+        sound &= report.ok
+        click.echo("\n  ".join([f"{file}: {len(vertices)} vertices, {len(faces)} faces", *report.lines()]))
+    return 0 if sound else DEFECTIVE
+
+
+@click.command(**shown("repair", "scan.ply --to sound.ply", "scan.obj --largest-component --to sound.ply"))
+@click.argument("file")
+@click.option("--largest-component", is_flag=True, help="keep the component of largest area only")
+@click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the suffix decides")
+def repair(file: str, largest_component: bool, target: Path) -> None:
+    """Repair every defect that can be, say each change, and take the maps along where the format holds some."""
+    from surfexp.io.reading import read_mesh
+    from surfexp.io.writing import WITH_MAPS, write_mesh
+    from surfexp.mesh.repair import repair as task
+
+    vertices, faces, maps = read_mesh(file)
+    mesh, changes, origin = task(vertices, faces, largest_component=largest_component)
+    kept = {name: values[origin] for name, values in maps.items()} if target.suffix.lower() in WITH_MAPS else {}
+    write_mesh(target, mesh, kept)
+    facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
+    proof = write_certificate(
+        target, "repair", {"largest_component": largest_component}, [Path(file)], facts, tuple(changes)
+    )
+    click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
+    click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+
+
+COMMANDS = {"check": check, "repair": repair}
+
+
+def command(name: str, arguments: list[str]) -> int:
+    """Run one of the two."""
+    return run_click(COMMANDS[name], arguments)

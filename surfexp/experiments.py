@@ -1,0 +1,194 @@
+"""Experiments from a notebook: run one, and read its rows, figures and arrays."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+LABORATORY = ("hydra", "snakemake", "mlflow", "pydantic", "pandas")
+
+
+@dataclass(frozen=True, eq=False)
+class ExperimentRun:
+    """The results of an experiment.
+
+    Parameters
+    ----------
+    name : str
+    table : pandas.DataFrame
+        One row a configuration, indexed by the key of its result: `comparison`, parameters (`solver.name`, `model.weight`,
+        ...), metrics, `seconds`, `notes`, `failure` (empty where there is none).
+    figures : dict of str to Path
+        Finished pictures by the name of their file.
+    folder : Path
+        Where `report.html` is.
+    """
+
+    name: str
+    table: Any
+    figures: dict[str, Path]
+    folder: Path
+    _kinds: dict[str, str]
+
+    def result(self, key: str) -> Any:
+        """Return the stored result of a row: a solution, eigenpairs, a statistic, ...
+
+        Parameters
+        ----------
+        key : str
+            From the index of `table`.
+
+        Raises
+        ------
+        ValueError
+            If no row has this key, or its stage has not finished.
+        """
+        from surfexp.workflow import store
+
+        if key not in self._kinds:
+            raise ValueError(f"{self.name!r} has no row {key!r}; table.index lists its {len(self._kinds)}")
+        if not store.is_done(self.folder.parent, self._kinds[key], key):
+            raise ValueError(f"row {key!r} of {self.name!r} is not finished: sx.run({self.name!r})")
+        return store.load(self.folder.parent, self._kinds[key], key)
+
+    def arrays(self, key: str) -> dict[str, Any]:
+        """Return the arrays of the result of a row by name.
+
+        Parameters
+        ----------
+        key : str
+            From the index of `table`.
+
+        Raises
+        ------
+        ValueError
+            As `result`.
+        """
+        import numpy as np
+
+        found = vars(self.result(key))
+        return {name: value for name, value in found.items() if isinstance(value, np.ndarray)}
+
+
+def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
+    """Read what an experiment has found, as often as wanted; nothing is computed.
+
+    Parameters
+    ----------
+    experiment : str
+        Its name; the configuration that ran last is taken.
+    results : path
+        The folder of results.
+
+    Returns
+    -------
+    ExperimentRun
+        `table` (pandas), `figures`, `result(key)` and `arrays(key)`.
+
+    Raises
+    ------
+    ImportError
+        If the laboratory (Hydra, Snakemake, MLflow, pydantic, pandas) is not installed.
+    ValueError
+        If nothing was run under this name.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.load("quickstart", results="nowhere")
+    Traceback (most recent call last):
+    ...
+    ValueError: unknown finished experiment in nowhere 'quickstart'; choose from: none
+    """
+    _require_laboratory("load")
+    from surfexp.commands.views import latest_plan
+    from surfexp.report.table import rows_of
+    from surfexp.workflow import registry
+    from surfexp.workflow.errors import UserError
+
+    root = Path(results).resolve()
+    try:
+        plan = latest_plan(Path(results), experiment)
+    except UserError as error:
+        raise ValueError(str(error)) from None
+    for file in {node.file for node in plan.nodes.values()}:
+        registry.load_file(Path(file))  # a plugin file may declare a stage kind of its own
+    folder = root / experiment
+    figures = {file.stem: file for file in sorted((folder / "figures").glob("*.png"))}
+    kinds = {leaf.key: plan.nodes[leaf.key].kind for leaf in plan.leaves}
+    return ExperimentRun(experiment, _frame(rows_of(plan, root)), figures, folder, kinds)
+
+
+def run(experiment: str, results: str | Path = "results", **overrides: Any) -> ExperimentRun:
+    """Run an experiment, in a process of its own, and read its results; what is there already is not computed again.
+
+    Parameters
+    ----------
+    experiment : str
+        A name that `surfexp list experiment` shows.
+    results : path
+        The folder of results.
+    **overrides
+        As on the command line: `solver="newton"`, `cores=2`, and with dots in a dict, `**{"solver.tolerance": 1e-5}`.
+        A list is a sweep.
+
+    Returns
+    -------
+    ExperimentRun
+        As `load`.
+
+    Raises
+    ------
+    ImportError
+        If the laboratory (Hydra, Snakemake, MLflow, pydantic, pandas) is not installed.
+    ValueError
+        If the request is wrong.
+    RuntimeError
+        If a stage fails; results that others gave are kept.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.run("quickstrat")
+    Traceback (most recent call last):
+    ...
+    ValueError: unknown experiment 'quickstrat'; did you mean 'quickstart'?
+    """
+    _require_laboratory("run")
+    arguments = [f"experiment={experiment}", f"results={results}"]
+    arguments += [f"{name}={_written(value)}" for name, value in overrides.items()]
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", *arguments]
+    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        said = [line.removeprefix("surfexp: ") for line in done.stderr.splitlines() if line.startswith("surfexp: ")]
+        kind = ValueError if done.returncode == 2 else RuntimeError
+        raise kind("\n".join(said) or f"surfexp run ended with exit code {done.returncode}")
+    return load(experiment, results)
+
+
+def _require_laboratory(name: str) -> None:
+    missing = [package for package in LABORATORY if find_spec(package) is None]
+    if missing:
+        raise ImportError(f"sx.{name} needs {', '.join(missing)}, not installed here: pip install surfexp[lab]")
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, bool) or value is None:
+        return "null" if value is None else str(value).lower()
+    return ",".join(map(_written, value)) if isinstance(value, list) else str(value)
+
+
+def _frame(rows: list[Any]) -> Any:
+    pandas: Any = import_module("pandas")
+    records = [
+        {"comparison": row.leaf.settings["comparison"], **row.parameters, **row.metrics}
+        | {"seconds": row.seconds, "notes": "; ".join(row.notes), "failure": row.failure}
+        for row in rows
+    ]
+    keys = pandas.Index([row.leaf.key for row in rows], name="key")
+    return pandas.DataFrame(records, index=keys)

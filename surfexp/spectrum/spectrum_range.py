@@ -1,0 +1,119 @@
+"""Every eigenpair between two bounds, proved by the inertia at shifts just outside of them."""
+
+from __future__ import annotations
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from surfexp.arrays import Floats
+from surfexp.linalg.ldlt import LDLT
+from surfexp.spectrum.counting_function import guess_eigenvalue
+from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensystem import EigenSystem, measure, measured
+from surfexp.spectrum.shifted_pencil import ShiftedPencil
+from surfexp.spectrum.spectrum_slice import SliceRequest, solve_slice
+
+# a shift that the pencil moves away from an eigenvalue stays on its side of a bound
+CLEARANCE = 1e-2
+SLICE = 250
+SHIFT_ATTEMPTS = 8
+WIDEST_SHARE = 4
+
+
+def pairs_between(
+    pencil: ShiftedPencil, low: float, high: float, tolerance: float = 1e-8, seed: int = 0
+) -> EigenSystem:
+    """Return all pairs with low <= lambda <= high.
+
+    Parameters
+    ----------
+    pencil : ShiftedPencil
+        Its counts are used, and grow.
+    low, high : float
+    tolerance : float
+        Largest relative residual.
+    seed : int
+
+    Returns
+    -------
+    EigenSystem
+        `inertia` proves that none is missing; no pair at all is an answer, too.
+
+    Raises
+    ------
+    EigensolverError
+        If the bounds are in the wrong order, hold more than a quarter of the spectrum, or the proof fails.
+    """
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise EigensolverError(f"bounds are {low:g} and {high:g}: give two numbers, the lower first")
+    with threadpool_limits(1, "blas"):
+        bottom, start = _outside(pencil, low, -1.0)
+        top, end = _outside(pencil, high, 1.0)
+        if WIDEST_SHARE * (end - start) > pencil.size:
+            raise EigensolverError(
+                f"{end - start} eigenvalues lie between {low:g} and {high:g}, at most a quarter of {pencil.size} are found"
+            )
+        values, vectors = _solved(pencil, bottom, start, end, tolerance, seed)
+        chosen = (values >= low) & (values <= high)
+        return _proved(pencil, vectors[:, chosen], (bottom, top), tolerance)
+
+
+def _outside(pencil: ShiftedPencil, bound: float, side: float) -> tuple[float, int]:
+    """Return a shift at the bound or beyond it on one side, and how many eigenvalues lie below it."""
+    spacing = 4.0 * np.pi / float(pencil.mass.sum())
+    if side < 0 and bound <= 0:
+        return -np.inf, 0
+    shift = pencil.factor(bound + side * CLEARANCE * max(abs(bound), spacing))[0]
+    return shift, pencil.counts[shift]
+
+
+def _solved(
+    pencil: ShiftedPencil, bottom: float, start: int, end: int, tolerance: float, seed: int
+) -> tuple[Floats, Floats]:
+    """Return the pairs number `start` up to `end`, and perhaps some after them, slice by slice."""
+    values, blocks = [np.empty(0)], [np.empty((pencil.size, 0))]
+    found, edge = start, bottom
+    while found < end:
+        count = min(end - found, max(1, min(SLICE, pencil.size // 5)))
+        shift, factors = _shift(pencil, found, count, edge)
+        below = max(pencil.counts[shift] - found, 0)
+        request = SliceRequest(
+            edge, found, below, max(count - below, 1), 0, tolerance, shift / max(pencil.counts[shift], 1)
+        )
+        part = solve_slice(pencil, shift, factors, request, seed)
+        if not part.complete:
+            raise EigensolverError(
+                f"{len(part.values)} pairs converged between {edge:g} and {part.edge:g}, which the inertia does not prove "
+                "to be all: repair slivers, or take other bounds"
+            )
+        values.append(part.values)
+        blocks.append(part.vectors)
+        found, edge = found + len(part.values), part.edge
+    return np.concatenate(values), np.concatenate(blocks, axis=1)
+
+
+def _shift(pencil: ShiftedPencil, found: int, count: int, edge: float) -> tuple[float, LDLT]:
+    """Factorise where about half of the wanted eigenvalues lie below."""
+    area = float(pencil.mass.sum())
+    for _ in range(SHIFT_ATTEMPTS):
+        guess = guess_eigenvalue(found + 0.5 * count, area, pencil.counts)
+        if found:
+            guess = max(guess, edge + 1e-3 * abs(edge))
+        shift, factors = pencil.factor(guess)
+        if shift > edge and 0.2 * count <= pencil.counts[shift] - found <= 0.8 * count + 1:
+            break
+    return shift, factors
+
+
+def _proved(pencil: ShiftedPencil, vectors: Floats, edges: tuple[float, float], tolerance: float) -> EigenSystem:
+    inertia = tuple((edge, pencil.counts[edge]) for edge in edges if np.isfinite(edge))
+    if not vectors.shape[1]:
+        return EigenSystem(np.empty(0), vectors, np.empty(0), 0.0, True, inertia, method="slicing")
+    top, number = inertia[-1]
+    measurement = measure(pencil.stiffness, pencil.mass, vectors, spacing=abs(top) / max(number, 1))
+    worst = float(measurement.residuals.max())
+    if worst > tolerance:
+        raise EigensolverError(f"a pair has residual {worst:.1e}, above tolerance {tolerance:g}: take a larger one")
+    ordered = np.empty_like(vectors, order="F")
+    ordered[pencil.order] = vectors
+    return measured(measurement, ordered, "slicing", inertia, complete=True)

@@ -1,0 +1,197 @@
+"""Spectra of many structures as one table, in the layout of BrainPrint."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from surfexp.anatomy.enclosed_volume import enclosed_volume
+from surfexp.arrays import Floats
+from surfexp.mesh.surface import Surface
+from surfexp.operators.fem import fem
+from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.tasks.files import PathLike, read
+from surfexp.tasks.inputs import part_for
+
+PATTERNS = ("*.off", "*.obj", "*.ply", "*.stl", "*.surf.gii", "*.vtk", "*.vtp", "*.vert")
+CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
+# the file, how many are done, how many there are
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Fingerprints:
+    """Area, volume and lowest eigenvalues of structures, with their proof.
+
+    Parameters
+    ----------
+    columns : dict of str to (2 + k,) float64
+        For each structure its area, its volume (NaN where it is open) and its eigenvalues ev0, ev1, ...
+    residuals : dict of str to float
+        Largest relative residual.
+    complete : dict of str to bool
+    repairs : dict of str to tuple of str
+        What had to be repaired, one sentence each.
+    refused : dict of str to str
+        What was left out, and why.
+    """
+
+    columns: dict[str, Floats]
+    residuals: dict[str, float]
+    complete: dict[str, bool]
+    repairs: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was repaired and what was left out, one sentence each."""
+        said = [f"{name}: {change}" for name, changes in self.repairs.items() for change in changes]
+        return tuple(said + [f"left out: {name}: {reason}" for name, reason in self.refused.items()])
+
+    def rows(self) -> dict[str, list[Any]]:
+        """The table by rows: area, volume, ev0, ..., residual, complete (1 or 0), repairs (their number)."""
+        count = len(next(iter(self.columns.values()), np.empty(2))) - 2
+        names = ["area", "volume", *(f"ev{k}" for k in range(count))]
+        rows: dict[str, list[Any]] = {
+            name: [float(column[k]) for column in self.columns.values()] for k, name in enumerate(names)
+        }
+        rows["residual"] = [self.residuals[name] for name in self.columns]
+        rows["complete"] = [int(self.complete[name]) for name in self.columns]
+        rows["repairs"] = [len(self.repairs.get(name, ())) for name in self.columns]
+        return rows
+
+    def save(self, path: PathLike) -> None:
+        """Write one CSV: a column a structure, rows as in BrainPrint, then those of the proof.
+
+        Parameters
+        ----------
+        path : path
+        """
+        with Path(path).open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(["", *self.columns])
+            for name, values in self.rows().items():
+                writer.writerow([name, *("" if value != value else repr(value) for value in values)])
+
+
+def fingerprint(
+    sources: PathLike | Sequence[PathLike],
+    count: int = 50,
+    *,
+    repair: bool = True,
+    tolerance: float = 1e-8,
+    progress: Progress | None = None,
+) -> Fingerprints:
+    """Return area, volume and the lowest eigenvalues of every surface of some files, a folder or a SUBJECTS_DIR.
+
+    Parameters
+    ----------
+    sources : path, or list of paths
+        Files; folders, of which every surface file is taken; FreeSurfer subjects or folders of them, of which
+        surf/{lh,rh}.{white,pial} are taken, called lh-white-2d and so on as in BrainPrint.
+    count : int
+        How many eigenvalues, ev0 = 0 among them.
+    repair : bool
+        Repair defective meshes, with a note, in place of leaving them out.
+    tolerance : float
+        Largest relative residual.
+    progress : callable, optional
+        Receives the name, how many are done, and how many there are.
+
+    Returns
+    -------
+    Fingerprints
+        `columns`, `residuals`, `complete`, `repairs`, `refused`; `save(path)` writes the CSV.
+
+    Raises
+    ------
+    ValueError
+        If there is no surface at all, or the number of eigenvalues is not positive.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.write("ball.ply", sx.shape("icosphere", levels=3))
+    >>> table = sx.fingerprint(["ball.ply"], count=4)
+    >>> table.columns["ball"].round(1).tolist(), table.complete["ball"]
+    ([12.5, 4.2, 0.0, 2.0, 2.0, 2.0], True)
+
+    References
+    ----------
+    Wachinger, Golland, Kremen, Fischl, Reuter: BrainPrint: a discriminative characterization of brain morphology (2015).
+    """
+    if count < 1:
+        raise ValueError(f"count is {count}, at least one eigenvalue is needed")
+    found = structures([sources] if isinstance(sources, str | Path) else sources)
+    table = Fingerprints({}, {}, {})
+    for done, (name, file) in enumerate(found.items()):
+        if progress is not None:
+            progress(name, done, len(found))
+        try:
+            _measure(table, name, read(file, repair=repair), count, tolerance)
+        except (ValueError, OSError) as error:
+            table.refused[name] = " ".join(str(error).split())
+    return table
+
+
+def _measure(table: Fingerprints, name: str, surface: Surface, count: int, tolerance: float) -> None:
+    part = part_for(surface)
+    system = surface_spectrum(Surface(part.mesh, name), fem(part.mesh), count, tolerance=tolerance)
+    volume = np.nan if part.mesh.boundary_loops else enclosed_volume(part.mesh)
+    # rounding leaves the zero mode a little off
+    values = np.where(np.abs(system.values) < 1e-9 * system.spacing, 0.0, system.values)
+    table.columns[name] = np.concatenate([[part.mesh.area, volume], values])
+    table.residuals[name] = float(system.residuals.max())
+    table.complete[name] = system.complete
+    if surface.notes:
+        table.repairs[name] = tuple(surface.notes)
+
+
+def structures(sources: Sequence[PathLike]) -> dict[str, Path]:
+    """Return the surface files of files, folders, FreeSurfer subjects and folders of subjects, by the name of their column.
+
+    Raises
+    ------
+    ValueError
+        If a source is not there, there is no surface at all, or two have one name.
+    """
+    files: dict[str, Path] = {}
+    for source in map(Path, sources):
+        for name, file in _structures_of(source).items():
+            if name in files and files[name] != file:
+                raise ValueError(f"{files[name]} and {file} are both called {name!r}: give the folder above them")
+            files[name] = file
+    if not files:
+        given = ", ".join(map(str, sources))
+        raise ValueError(f"no surface in {given}: neither surf/lh.white and the like, nor {', '.join(PATTERNS)}")
+    return files
+
+
+def _structures_of(source: Path) -> dict[str, Path]:
+    if source.is_file():
+        return {_stem(source): source}
+    if not source.is_dir():
+        raise ValueError(f"{source} is neither a file nor a folder")
+    if (source / "surf").is_dir():
+        return _cortex(source, "")
+    subjects = sorted(folder for folder in source.iterdir() if (folder / "surf").is_dir())
+    if subjects:
+        return {name: file for one in subjects for name, file in _cortex(one, f"{one.name} ").items()}
+    found = sorted({file for pattern in PATTERNS for file in source.rglob(pattern) if file.is_file()})
+    return {str(file.relative_to(source).with_name(_stem(file))): file for file in found}
+
+
+def _cortex(subject: Path, prefix: str) -> dict[str, Path]:
+    files = {name: subject / "surf" / name for name in CORTEX}
+    return {f"{prefix}{name.replace('.', '-')}-2d": file for name, file in files.items() if file.is_file()}
+
+
+def _stem(file: Path) -> str:
+    if file.suffix in (".white", ".pial"):
+        return file.name
+    return file.name.removesuffix(".surf.gii") if file.name.endswith(".surf.gii") else file.stem

@@ -1,0 +1,152 @@
+"""The spectrum of one surface, asked more than once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+from surfexp.arrays import Floats
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import Boundary, Mass
+from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensystem import EigenSystem, clusters
+from surfexp.spectrum.shifted_pencil import ShiftedPencil
+from surfexp.spectrum.spectrum_range import pairs_between
+from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
+from surfexp.tasks.inputs import SurfaceLike, as_surface, mask_notes, part_for
+
+
+class Spectrum:
+    """Laplace-Beltrami eigenpairs of a surface; what was expensive is kept between questions.
+
+    The matrices, the order of elimination, the counts of eigenvalues below every shift so far and the pairs that were found
+    stay; asking for fewer pairs than before costs nothing.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        The part inside its mask is what vibrates.
+    tolerance : float
+        Largest relative residual.
+    mass : "consistent" or "lumped"
+    boundary : "neumann" or "dirichlet"
+
+    Raises
+    ------
+    ValueError
+        If the mesh or a parameter is unfit.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> spectrum = sx.Spectrum(sx.shape("icosphere", levels=3))
+    >>> spectrum.between(1.0, 3.0).values.round(1).tolist(), spectrum.count_below(10.0)
+    ([2.0, 2.0, 2.0], 9)
+    """
+
+    def __init__(
+        self,
+        surface: SurfaceLike,
+        *,
+        tolerance: float = 1e-8,
+        mass: Mass = "consistent",
+        boundary: Boundary = "neumann",
+    ) -> None:
+        self.surface = as_surface(surface)
+        self.tolerance = tolerance
+        self.mass = mass
+        self.boundary = boundary
+        self.part = part_for(self.surface)
+        self._operator = fem(self.part.mesh)
+        self._cut = Surface(self.part.mesh, self.surface.name, self.surface.unit)
+        self._elements = elements_of(self._cut, self._operator, mass=mass, boundary=boundary)
+        self._found: EigenSystem | None = None
+
+    @cached_property
+    def _pencil(self) -> ShiftedPencil:
+        return ShiftedPencil(self._elements.stiffness, self._elements.mass)
+
+    def first(self, count: int) -> EigenSystem:
+        """Return the lowest pairs, as `surfexp.eigenpairs` does.
+
+        Parameters
+        ----------
+        count : int
+            How many, the zero mode of a closed surface among them.
+
+        Raises
+        ------
+        ValueError
+            If there are not so many.
+        """
+        if self._found is None or count > len(self._found.values) or count < 1:
+            system = surface_spectrum(
+                *(self._cut, self._operator, count),
+                mass=self.mass,
+                boundary=self.boundary,
+                tolerance=self.tolerance,
+            )
+            self._found = replace(system, vectors=self.part.extend(system.vectors))
+            self._found = replace(self._found, notes=mask_notes(self.surface, self.part) + system.notes)
+        return _first(self._found, count)
+
+    def between(self, low: float, high: float) -> EigenSystem:
+        """Return every pair with low <= lambda <= high, proved complete by the inertia just outside of both bounds.
+
+        Parameters
+        ----------
+        low, high : float
+            In 1 / unit^2.
+
+        Raises
+        ------
+        ValueError
+            If the bounds are in the wrong order, hold over a quarter of the spectrum, or the proof fails.
+        """
+        system = pairs_between(self._pencil, low, high, self.tolerance)
+        vectors = self.part.extend(self._elements.extend(system.vectors))
+        notes = mask_notes(self.surface, self.part)
+        return replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
+
+    def count_below(self, value: float) -> int:
+        """Return how many eigenvalues lie below a number, by one factorisation.
+
+        Parameters
+        ----------
+        value : float
+            In 1 / unit^2; where it is an eigenvalue itself to a thousandth, the count is that of a number nearby.
+
+        Raises
+        ------
+        ValueError
+            If rounding leaves the count in doubt.
+        """
+        return self._pencil.counts[self._pencil.factor(value)[0]]
+
+    def values(self, count: int) -> Floats:
+        """Return the lowest eigenvalues, (count,) float64.
+
+        Parameters
+        ----------
+        count : int
+
+        Raises
+        ------
+        ValueError
+            As `first`.
+        """
+        return self.first(count).values
+
+
+def _first(system: EigenSystem, count: int) -> EigenSystem:
+    if count == len(system.values):
+        return system
+    values = system.values[:count]
+    return replace(
+        system,
+        values=values,
+        vectors=system.vectors[:, :count],
+        residuals=system.residuals[:count],
+        clusters=clusters(values),
+        notes=tuple(note for note in system.notes if "cuts a cluster" not in note),
+    )

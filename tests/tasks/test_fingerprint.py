@@ -1,0 +1,91 @@
+"""Spectra of many structures as one table in BrainPrint's layout."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.commands.command_line import main
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+BODY = sx.shape("ellipsoid", levels=3)
+
+
+@pytest.fixture
+def subjects(working_folder: Path) -> Path:
+    """Three people: one whole, one without its right hemisphere, one with a broken file."""
+    for scale, person in enumerate(("anna", "bela", "cleo"), 1):
+        folder = working_folder / "subjects" / person / "surf"
+        folder.mkdir(parents=True)
+        for name in ("lh.white", "lh.pial", "rh.white", "rh.pial")[: 2 if person == "bela" else 4]:
+            sx.write(folder / name, Surface(TriangleMesh(scale * BODY.mesh.vertices, BODY.mesh.faces)))
+    (working_folder / "subjects" / "cleo" / "surf" / "rh.pial").write_bytes(b"\xff\xff\xfe broken")
+    (working_folder / "subjects" / "fsaverage-notes.txt").write_text("not a person")
+    return working_folder / "subjects"
+
+
+def read(path: str) -> tuple[list[str], dict[str, list[str]]]:
+    with Path(path).open() as stream:
+        header, *rows = list(csv.reader(stream))
+    return header[1:], {row[0]: row[1:] for row in rows}
+
+
+def test_a_subjects_folder_becomes_one_table(subjects: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["fingerprint", "subjects", "-k", "5", "--to", "table.csv"]) == 0
+    header, rows = read("table.csv")
+    assert len(header) == 9 and header[:2] == ["anna lh-white-2d", "anna lh-pial-2d"]
+    assert list(rows) == ["area", "volume", *(f"ev{k}" for k in range(5)), "residual", "complete", "repairs"]
+    direct = sx.eigenpairs(subjects / "anna" / "surf" / "lh.white", 5)
+    assert [float(rows[f"ev{k}"][0]) for k in range(1, 5)] == pytest.approx(direct.values[1:], rel=1e-8)
+    assert rows["ev0"] == ["0.0"] * 9 and set(rows["complete"]) == {"1"}
+    assert max(map(float, rows["residual"])) <= 1e-8
+    first, second = header.index("anna lh-white-2d"), header.index("bela lh-white-2d")
+    assert float(rows["area"][second]) == pytest.approx(4 * float(rows["area"][first]), rel=1e-5)
+    assert float(rows["volume"][second]) == pytest.approx(8 * float(rows["volume"][first]), rel=1e-5)
+    said = capsys.readouterr()
+    assert "left out: cleo rh-pial-2d" in said.err and "9 structures, 1 left out" in said.out
+    proof = json.loads(Path("table.csv.json").read_text())
+    assert proof["complete"] is True and len(proof["inputs"]) == 9 and "cleo rh-pial-2d" in proof["left_out"]
+
+
+def test_files_folders_and_repairs(working_folder: Path) -> None:
+    Path("shapes/deep").mkdir(parents=True)
+    sx.write("shapes/a.ply", BODY)
+    turned = BODY.mesh.faces.copy()
+    turned[:5] = turned[:5, ::-1]
+    sx.write("shapes/deep/b.off", Surface(TriangleMesh(BODY.mesh.vertices, turned)))
+    table = sx.fingerprint("shapes", count=4)
+    assert list(table.columns) == ["a", "deep/b"]
+    assert table.columns["deep/b"] == pytest.approx(table.columns["a"], rel=1e-6)
+    assert "turned over" in table.repairs["deep/b"][0] and table.rows()["repairs"] == [0, 1]
+    strict = sx.fingerprint(["shapes/a.ply", "shapes/deep/b.off"], count=4, repair=False)
+    assert list(strict.columns) == ["a"] and "flipped" in strict.refused["b"]
+
+
+def test_an_open_surface_has_no_volume(working_folder: Path) -> None:
+    sx.write("disk.ply", sx.shape("disk"))
+    table = sx.fingerprint("disk.ply", count=3)
+    assert np.isnan(table.columns["disk"][1]) and table.columns["disk"][0] > 0
+    table.save("disk.csv")
+    assert read("disk.csv")[1]["volume"] == [""]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["fingerprint", "nowhere", "--to", "a.csv"], "nowhere"),
+        (["fingerprint", ".", "--to", "a.csv"], "no surface in"),
+        (["fingerprint", ".", "--to", "a.xls"], "choose .csv"),
+        (["fingerprint", ".", "-k", "0", "--to", "a.csv"], "count is 0"),
+    ],
+)
+def test_mistakes_are_one_line(
+    working_folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert main(arguments) == 2 and words in capsys.readouterr().err

@@ -1,0 +1,38 @@
+"""Results as small tables in notebooks: well formed, escaped, with the proof in them."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.html_table import html_table
+from surfexp.mesh.surface import Surface
+
+SPHERE = sx.shape("icosphere", levels=2)
+Z = SPHERE.mesh.vertices[:, 2]
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Surface(SPHERE.mesh, "a <b> & c", "mm", scalars={"<z>": Z}), ["a <b> & c", "162", "<z>", "mm²"]),
+        (lambda: sx.eigenpairs(SPHERE, 4), ["4 eigenpairs", "complete", "yes", "largest residual"]),
+        (lambda: sx.denoise(SPHERE, Z, noise=0.1), ["map after rof", "relative gap", "known values"]),
+        (lambda: sx.segment(SPHERE, Z), ["two regions", "vertices brighter", "labelling gap"]),
+    ],
+)
+def test_tables_are_well_formed_and_hold_what_is_proved(make, words: list[str]) -> None:
+    tree = ElementTree.fromstring(f"<div>{make()._repr_html_()}</div>")
+    text = " ".join(tree.itertext())
+    assert all(word in text for word in words), text
+
+
+def test_everything_is_escaped_and_nothing_unknown_is_shown() -> None:
+    shown = html_table("<script>", {"<a>": "<b>", "none": None, "empty": ""}, ["<i>"])
+    assert "<script>" not in shown and "<b>" not in shown and "<i>" not in shown
+    assert "none" not in shown and "empty" not in shown
+    assert "1,000" in html_table("", {"n": 1000}) and "0.3333" in html_table("", {"x": 1 / 3})
+    assert "3.142" in html_table("", {"x": float(np.pi)})

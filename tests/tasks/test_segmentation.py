@@ -1,0 +1,111 @@
+"""Two regions: what is proved, what masks do, how labels leave."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nibabel
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import surface_part
+from surfexp.operators.calculus import total_variation
+from surfexp.operators.fem import fem
+from surfexp.variational.image import Image
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+
+SPHERE = sx.shape("icosphere", levels=3)
+Z = SPHERE.mesh.vertices[:, 2]
+NOISY = np.sign(Z) + 0.3 * np.random.default_rng(0).standard_normal(len(Z))
+INSIDE = SPHERE.mesh.vertices[:, 0] > -0.5
+
+
+@pytest.fixture(scope="module")
+def parts():
+    return sx.segment(SPHERE, NOISY)
+
+
+def test_regions_are_those_that_were_planted_and_means_are_theirs(parts) -> None:
+    assert (parts.labels == (Z > 0)).mean() > 0.97
+    mass = fem(SPHERE.mesh).mass
+    for label, mean in ((1, parts.c1), (0, parts.c2)):
+        weights = mass * (parts.labels == label)
+        assert float(weights @ NOISY / weights.sum()) == pytest.approx(mean, rel=1e-3)
+    assert parts.perimeter == pytest.approx(2 * np.pi, rel=0.2)
+
+
+def test_bound_and_gap_belong_together(parts) -> None:
+    assert parts.converged and 0 <= parts.gap <= 1e-3 and 0 <= parts.labelling_gap < 1
+    assert parts.lower_bound <= parts.energy
+    operator, image = fem(SPHERE.mesh), Image(NOISY)
+    slope = ConvexChanVese().weight(image, operator) * ((parts.c1 - NOISY) ** 2 - (parts.c2 - NOISY) ** 2)
+
+    def energy(labels: np.ndarray) -> float:
+        phi = labels.astype(float)
+        return total_variation(operator, phi) + float(operator.mass @ (slope * phi))
+
+    assert energy(parts.labels) == pytest.approx(parts.energy)
+    for other in (Z > 0, NOISY > 0, np.zeros(len(Z)), Z > 0.2):
+        assert energy(other) > parts.lower_bound
+
+
+def test_brightness_and_units_do_not_enter(parts) -> None:
+    scaled = sx.segment(Surface(SPHERE.mesh.__class__(7.0 * SPHERE.mesh.vertices, SPHERE.mesh.faces)), 40.0 * NOISY - 9)
+    assert (scaled.labels == parts.labels).mean() > 0.995
+    assert scaled.gap == pytest.approx(parts.gap, abs=5e-3)
+    turned = sx.segment(SPHERE, -NOISY)
+    assert (turned.labels == 1 - parts.labels).mean() > 0.995
+
+
+def test_masking_equals_cutting_and_outside_changes_nothing() -> None:
+    part = surface_part(SPHERE.mesh, INSIDE)
+    masked = sx.segment(Surface(SPHERE.mesh, mask=INSIDE), np.where(INSIDE, NOISY, 1e6))
+    cut = sx.segment(part.mesh, NOISY[part.vertices])
+    assert np.array_equal(masked.labels[part.vertices], cut.labels) and masked.lower_bound == cut.lower_bound
+    outside = np.setdiff1d(np.arange(len(Z)), part.vertices)
+    assert (masked.labels[outside] == -1).all() and np.isnan(masked.values[outside]).all()
+    by_nan = sx.segment(SPHERE, np.where(INSIDE, NOISY, np.nan))
+    assert np.array_equal(by_nan.labels, masked.labels)
+    assert any("these are the mask" in note for note in by_nan.notes)
+
+
+def test_without_a_map_the_clipped_mean_curvature_is_taken() -> None:
+    torus = sx.shape("torus")
+    alone = sx.segment(torus)
+    curvature = sx.mean_curvature(torus)
+    bound = np.median(np.abs(curvature))
+    assert np.array_equal(alone.labels, sx.segment(torus, np.clip(curvature, -bound, bound)).labels)
+    assert any("mean curvature" in note for note in alone.notes)
+    radius = np.hypot(*torus.mesh.vertices[:, :2].T)
+    assert radius[alone.labels == 1].mean() > radius[alone.labels == 0].mean()
+
+
+@pytest.mark.parametrize("name", ["parts.label.gii", "parts.annot"])
+def test_labels_leave_and_come_back_as_a_mask(name: str, working_folder: Path) -> None:
+    masked = sx.segment(Surface(SPHERE.mesh, mask=INSIDE), NOISY)
+    sx.write(name, masked, SPHERE)
+    sx.write("ball.ply", SPHERE)
+    table = sx.read("ball.ply", labels={"parts": name}).labels["parts"]
+    assert table.names == {0: "unknown", 1: "darker", 2: "brighter"}
+    assert np.array_equal(table.where("brighter"), masked.labels == 1)
+    assert np.array_equal(sx.read("ball.ply", mask=name).mask, masked.labels >= 0)
+    assert np.array_equal(sx.read("ball.ply", mask=f"{name}:darker").mask, masked.labels == 0)
+    if name.endswith(".gii"):
+        assert np.array_equal(nibabel.load(name).agg_data(), masked.labels + 1)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        ({"values": np.zeros(len(Z))}, "constant"),
+        ({"values": NOISY, "smoothness": -1}, "smoothness"),
+        ({"values": NOISY, "tolerance": 0}, "tolerance is 0"),
+        ({"values": np.stack([NOISY, NOISY], axis=1)}, "one value"),
+        ({"values": "nosuch"}, "nosuch"),
+    ],
+)
+def test_what_cannot_be_divided_is_refused(call: dict, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        sx.segment(SPHERE, **call)

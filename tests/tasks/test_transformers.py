@@ -1,0 +1,73 @@
+"""scikit-learn transformers of surfaces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sklearn.base import clone
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+from sklearn.utils import estimator_checks
+
+import surfexp as sx
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+BODY = sx.shape("icosphere", levels=3)
+
+
+def stretched(*factors: float) -> Surface:
+    return Surface(TriangleMesh(BODY.mesh.vertices * factors, BODY.mesh.faces))
+
+
+BODIES = [stretched(1, 1.2, 1.5), stretched(1, 1.3, 1.9), stretched(1, 1.1, 2.6)]
+TRANSFORMERS = [sx.ShapeDNA(n=6), sx.NodalCounts(n=6), sx.SpectralDistance(n=4)]
+
+
+def test_shape_dna_is_that_of_eigenpairs_and_free_of_size() -> None:
+    rows = sx.ShapeDNA(n=6).fit_transform(BODIES)
+    system = sx.eigenpairs(BODIES[0], 7)
+    assert rows[0] == pytest.approx(system.values[1:] * BODIES[0].mesh.area, rel=1e-9)
+    assert sx.ShapeDNA(n=6).fit_transform([stretched(3, 3.6, 4.5)])[0] == pytest.approx(rows[0], rel=1e-8)
+    by_volume = sx.ShapeDNA(n=6, normalisation="volume")
+    assert by_volume.fit_transform([stretched(3, 3.6, 4.5)])[0] == pytest.approx(by_volume.transform(BODIES[:1])[0])
+
+
+def test_counts_obey_courant() -> None:
+    counts = sx.NodalCounts(n=6).fit_transform(BODIES)
+    assert counts.shape == (3, 6) and (counts >= 2).all() and (counts <= np.arange(2, 8)).all()
+
+
+def test_distances_are_a_matrix_and_equal_those_of_the_function() -> None:
+    measure = sx.SpectralDistance(n=4)
+    matrix = measure.fit_transform(BODIES)
+    assert np.array_equal(matrix, matrix.T) and not matrix.diagonal().any()
+    assert matrix[1, 0] == pytest.approx(sx.distance(BODIES[1], BODIES[0], n=4).value, rel=1e-9)
+    rows = measure.transform([BODIES[2]])
+    assert rows[0] == pytest.approx(matrix[2], abs=1e-9)
+
+
+def test_paths_and_pipelines(working_folder: Path) -> None:
+    names = [f"{k}.ply" for k in range(3)]
+    for name, body in zip(names, BODIES, strict=True):
+        sx.write(name, body)
+    pipeline = make_pipeline(sx.ShapeDNA(n=3), StandardScaler())
+    assert pipeline.fit_transform(names) == pytest.approx(pipeline.fit_transform(BODIES), abs=1e-6)
+
+
+@pytest.mark.parametrize("transformer", TRANSFORMERS, ids=lambda it: type(it).__name__)
+def test_the_checks_of_scikit_learn_that_give_no_data(transformer) -> None:
+    name = type(transformer).__name__
+    for check in (
+        estimator_checks.check_parameters_default_constructible,
+        estimator_checks.check_no_attributes_set_in_init,
+        estimator_checks.check_get_params_invariance,
+        estimator_checks.check_set_params,
+        estimator_checks.check_estimator_tags_renamed,
+        estimator_checks.check_estimator_repr,
+    ):
+        check(name, clone(transformer))
+    with pytest.raises(ValueError, match="n is 0"):
+        clone(transformer).set_params(n=0).fit(BODIES)
