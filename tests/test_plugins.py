@@ -26,6 +26,8 @@ PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"
 SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 PIAL = {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}}
+# each computes a population of cortices twice
+MINUTES = {("statistic", name) for name in ("sulcal_asymmetry", "sulcal_power", "sulcal_false_positives")}
 POPULATION = {"name": "sulcal_population", "regions": 1, "inputs": PIAL}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
@@ -320,7 +322,12 @@ def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
         assert declaration.meaning and declaration.better in ("", "lower", "higher"), f"{kind}/{name}: {metric}"
 
 
-@pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
+STORED = [
+    pytest.param(*key, marks=pytest.mark.slow) if key in MINUTES else key for key in PLUGINS if KINDS[key[0]].stored
+]
+
+
+@pytest.mark.parametrize(("kind", "name"), STORED)
 def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
     if (kind, name) in NEEDS:
         pytest.importorskip(NEEDS[kind, name], exc_type=ImportError)

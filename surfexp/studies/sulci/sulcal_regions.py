@@ -43,10 +43,10 @@ def components(mesh: TriangleMesh, inside: NDArray[np.bool_], smallest_area: flo
     return np.where(inside, numbers[pieces], OUTSIDE)
 
 
-def bounded_curvature(mesh: TriangleMesh, percentile: float = 99.0) -> Floats:
-    """Return the mean curvature, positive in sulci, clipped at a percentile of its size."""
+def bounded_curvature(mesh: TriangleMesh) -> Floats:
+    """Return the mean curvature, positive in sulci, clipped at the 99th percentile of its size."""
     curvature = -mean_curvature(mesh)
-    bound = float(np.percentile(np.abs(curvature), percentile))
+    bound = float(np.percentile(np.abs(curvature), 99.0))
     return np.clip(curvature, -bound, bound)
 
 
@@ -67,8 +67,8 @@ def sulcal_regions(mesh: TriangleMesh, smoothness: float = 0.3, smallest_share: 
     (n,) int64
         Number of the region, largest first; -1 on gyri.
     """
-    # curvature has heavy tails: unless they are cut at the median, the two means follow the sharpest folds alone
-    image = Image(bounded_curvature(mesh, 50.0), "mean curvature")
+    # the sharpest folds lead the two means: what is left are the floors of sulci, apart from each other, which lengths need
+    image = Image(bounded_curvature(mesh), "mean curvature")
     solution = ConvexChanVese(smoothness).run(image, fem(mesh), primal_dual)
     return components(mesh, solution.values > 0.5, smallest_share * mesh.area)
 
