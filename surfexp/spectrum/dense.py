@@ -57,8 +57,8 @@ def dense_pairs(stiffness: Floats, mass: Floats, tolerance: float, spacing: floa
 
     The pencil (B, A) keeps the digits of large eigenvalues; with slivers, whose eigenvalues exceed the first ones 1e10
     times and more, it loses those of small ones. The inverted pencil, (B, A + s B) with s about the first positive
-    eigenvalue, keeps them. Where the first alone misses the tolerance, the lowest pairs come from the second, up to the seam at which
-    the worst residual and overlap are least.
+    eigenvalue, keeps them. Where the first alone misses the tolerance, the lowest pairs come from the second, up to the
+    seam at which the worst residual and overlap are least.
 
     Parameters
     ----------
@@ -127,7 +127,8 @@ def _best_seam(
     An eigenvalue of multiplicity two has different vectors in the two sets: a seam through it would repeat one of them.
     """
     low_errors, high_errors = (
-        _residuals(stiffness[None], mass[None], values[None], vectors[None], spacing)[0] for values, vectors in (low, high)
+        _residuals(stiffness[None], mass[None], values[None], vectors[None], spacing)[0]
+        for values, vectors in (low, high)
     )
     masses = mass @ high[1]
     with np.errstate(invalid="ignore"):
@@ -155,4 +156,3 @@ def _residuals(stiffness: Floats, mass: Floats, values: Floats, vectors: Floats,
     with np.errstate(invalid="ignore"):
         residuals = errors / np.linalg.norm(masses, axis=1) / np.maximum(np.abs(values), spacing)
     return np.where(np.isfinite(residuals), residuals, np.inf)
-
