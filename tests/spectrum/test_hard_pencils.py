@@ -45,7 +45,9 @@ def assert_certified(system: EigenSystem, a: csr_array, b: csr_array, k: int, to
 
 def assert_equal(values: np.ndarray, pencil: Pencil, spacing: float) -> None:
     exact = pencil.values[: len(values)]
-    assert (np.abs(values - exact) <= 1e-7 * np.maximum(exact, spacing)).all()
+    errors = np.abs(values - exact) / np.maximum(exact, spacing)
+    worst = int(errors.argmax())
+    assert errors[worst] <= 1e-7, (worst, len(values), values[worst], exact[worst], spacing, pencil.values[-1])
 
 
 @pytest.mark.parametrize(("count", "spread"), [(12, 1e-6), (12, 1e-9), (21, 0.0)])
