@@ -54,7 +54,10 @@ def dense_values(a: csr_array, b: csr_array) -> Floats:
     lambda_max, are equal at the geometric mean of s and lambda_max.
     """
     shift = 4.0 * np.pi / float(b.sum())
-    theta = eigh(b.toarray(), (a + shift * b).toarray(), eigvals_only=True)[::-1]
+    shifted = (a + shift * b).toarray()
+    scale = 1.0 / np.sqrt(np.diag(shifted))
+    balance = scale[:, None] * scale
+    theta = eigh(balance * b.toarray(), balance * shifted, eigvals_only=True)[::-1]
     small = 1.0 / np.maximum(theta, np.finfo(float).tiny) - shift
     large = eigh(a.toarray(), b.toarray(), eigvals_only=True)
     return np.where(large > np.sqrt(shift * large[-1]), large, small)
