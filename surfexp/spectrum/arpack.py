@@ -7,7 +7,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from surfexp.arrays import Floats
-from surfexp.spectrum.dense import gap_above
+from surfexp.spectrum.dense import factor_above
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, clusters, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
@@ -55,7 +55,7 @@ def arpack(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-
     notes: tuple[str, ...] = ()
     if stop > k:
         notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {stop} contains all of it",)
-    edge = pencil.factor(gap_above(values, stop))[0]
+    edge = factor_above(pencil, values, stop)
     unpermuted = np.empty((n, k), order="F")
     unpermuted[pencil.order] = vectors[:, :k]
     return measured(

@@ -23,7 +23,7 @@ def dense(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8
     values, vectors = stacks[0][0], stacks[1][0]
     stop = next((stop for start, stop in clusters(values) if start < k <= stop), k)
     pencil = ShiftedPencil(stiffness, mass)
-    edge = pencil.factor(gap_above(values, stop))[0]
+    edge = factor_above(pencil, values, stop)
     notes: tuple[str, ...] = ()
     if stop > k:
         notes = (f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {stop} contains all of it",)
@@ -38,11 +38,18 @@ def dense(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8
     )
 
 
-def gap_above(values: Floats, count: int) -> float:
-    """Return the middle of the gap above the first `count` of the sorted values; above all of them, one spacing more."""
-    if count < len(values):
-        return 0.5 * float(values[count - 1] + values[count])
-    return float(values[-1]) + max(mean_spacing(values), 1e-3 * abs(float(values[-1])))
+def factor_above(pencil: ShiftedPencil, values: Floats, count: int) -> float:
+    """Factorise in the gap above the first `count` of the sorted values; above all of them, one spacing more.
+
+    Returns
+    -------
+    float
+        The shift, at which the pencil knows its count.
+    """
+    last = float(values[count - 1])
+    beyond = last + 2.0 * max(mean_spacing(values), 1e-3 * abs(last))
+    room = 0.5 * ((float(values[count]) if count < len(values) else beyond) - last)
+    return pencil.factor(last + room, room=room)[0]
 
 
 def dense_pairs(stiffness: Floats, mass: Floats, tolerance: float, spacing: float) -> tuple[Floats, Floats]:
@@ -50,7 +57,8 @@ def dense_pairs(stiffness: Floats, mass: Floats, tolerance: float, spacing: floa
 
     The pencil (B, A) keeps the digits of large eigenvalues; with slivers, whose eigenvalues exceed the first ones 1e10
     times and more, it loses those of small ones. The inverted pencil, (B, A + s B) with s about the first positive
-    eigenvalue, keeps them. Where the first alone misses the tolerance, each pair is taken from the better of the two.
+    eigenvalue, keeps them. Where the first alone misses the tolerance, the lowest pairs come from the second, up to the
+    seam at which the worst residual and overlap are least.
 
     Parameters
     ----------
@@ -76,12 +84,7 @@ def dense_pairs(stiffness: Floats, mass: Floats, tolerance: float, spacing: floa
     late = np.flatnonzero((_residuals(stiffness, mass, values, vectors, spacing) > 0.1 * tolerance).any(axis=1))
     for i in late:
         low_values, low_vectors = _inverted(stiffness[i], mass[i], values[i])
-        one, two = (
-            _residuals(stiffness[i : i + 1], mass[i : i + 1], v[None], x[None], spacing)[0]
-            for v, x in ((low_values, low_vectors), (values[i], vectors[i]))
-        )
-        worst = np.maximum(np.append(0.0, np.maximum.accumulate(one)), np.append(_largest_from(two), 0.0))
-        seam = int(worst.argmin())
+        seam = _best_seam(stiffness[i], mass[i], (low_values, low_vectors), (values[i], vectors[i]), spacing)
         values[i, :seam], vectors[i, :, :seam] = low_values[:seam], low_vectors[:, :seam]
     return values, vectors
 
@@ -116,6 +119,36 @@ def _inverted(stiffness: Floats, mass: Floats, guess: Floats) -> tuple[Floats, F
     return 1.0 / theta - shift, vectors / np.sqrt(theta)
 
 
+def _best_seam(
+    stiffness: Floats, mass: Floats, low: tuple[Floats, Floats], high: tuple[Floats, Floats], spacing: float
+) -> int:
+    """Return how many of the lowest pairs to take from the first set, so that those kept are the best together.
+
+    An eigenvalue of multiplicity two has different vectors in the two sets: a seam through it would repeat one of them.
+    """
+    low_errors, high_errors = (
+        _residuals(stiffness[None], mass[None], values[None], vectors[None], spacing)[0]
+        for values, vectors in (low, high)
+    )
+    masses = mass @ high[1]
+    with np.errstate(invalid="ignore"):
+        low_errors = np.maximum(low_errors, _overlaps_before(np.abs(low[1].T @ (mass @ low[1]))))
+        high_errors = np.maximum(high_errors, _overlaps_before(np.abs(high[1].T @ masses)[::-1, ::-1])[::-1])
+        across = np.abs(low[1].T @ masses)
+    # entry (i, j): the largest overlap of the first i + 1 from below with all but the first j from above
+    across = np.maximum.accumulate(np.maximum.accumulate(across, axis=0)[:, ::-1], axis=1)[:, ::-1]
+    both = np.concatenate([[0.0], across.diagonal(1), [0.0]])
+    below = np.append(0.0, np.maximum.accumulate(low_errors))
+    above = np.append(np.maximum.accumulate(high_errors[::-1])[::-1], 0.0)
+    return int(np.nan_to_num(np.maximum(np.maximum(below, above), both), nan=np.inf).argmin())
+
+
+def _overlaps_before(products: Floats) -> Floats:
+    """Return the largest entry of each column above the diagonal, infinite where it is not a number."""
+    before = np.triu(products, 1).max(axis=0)
+    return np.where(np.isfinite(before), before, np.inf)
+
+
 def _residuals(stiffness: Floats, mass: Floats, values: Floats, vectors: Floats, spacing: float) -> Floats:
     """(m, c) relative residuals; what is not a number counts as infinite."""
     masses = mass @ vectors
@@ -123,7 +156,3 @@ def _residuals(stiffness: Floats, mass: Floats, values: Floats, vectors: Floats,
     with np.errstate(invalid="ignore"):
         residuals = errors / np.linalg.norm(masses, axis=1) / np.maximum(np.abs(values), spacing)
     return np.where(np.isfinite(residuals), residuals, np.inf)
-
-
-def _largest_from(residuals: Floats) -> Floats:
-    return np.maximum.accumulate(residuals[::-1])[::-1]

@@ -67,7 +67,7 @@ class ShiftedPencil:
         block = np.ascontiguousarray(block)
         return multiply_lanes(self.mass, block, result) if block.shape[1] == LANES else self.mass @ block
 
-    def factor(self, shift: float, accuracy: float = 1.0) -> tuple[float, LDLT]:
+    def factor(self, shift: float, accuracy: float = 1.0, room: float = np.inf) -> tuple[float, LDLT]:
         """Factorise A - s B at the shift, or near it where the pivots are bad there.
 
         Parameters
@@ -75,6 +75,8 @@ class ShiftedPencil:
         shift : float
         accuracy : float
             Doubt, relative to the shift, that is good enough to stop looking for a better shift nearby.
+        room : float
+            How far another shift may lie: one for an edge must stay in its gap.
 
         Returns
         -------
@@ -89,7 +91,8 @@ class ShiftedPencil:
             If rounding leaves the eigenvalues in doubt by more than a hundredth of their mean spacing at every shift nearby.
         """
         spacing = 4.0 * np.pi / float(self.mass.sum())
-        step = 1e-3 * (abs(shift) or spacing / (4.0 * np.pi))
+        scale = 1e-3 * (abs(shift) or spacing / (4.0 * np.pi))
+        step = min(scale, room / NUDGES)
         candidates: list[tuple[bool, float, float]] = []
         least, tried = np.inf, shift
         for nudge in range(NUDGES):
@@ -101,7 +104,7 @@ class ShiftedPencil:
                 self.counts[tried], self.doubts[tried] = factors.inertia[0], doubt
                 on_eigenvalue = factors.residual > WORST_RESIDUAL
                 candidates.append((on_eigenvalue, doubt, tried))
-                if doubt <= accuracy * max(abs(tried), step) and not on_eigenvalue:
+                if doubt <= accuracy * max(abs(tried), scale) and not on_eigenvalue:
                     break
         if not candidates:
             raise EigensolverError(

@@ -94,7 +94,8 @@ def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: Sli
         if edge == np.inf:
             split = upper_edge(values, shift, request)
             if split:
-                edge = pencil.factor(0.5 * (values[split - 1] + values[split]))[0]
+                below, above = float(values[split - 1]), float(values[split])
+                edge = pencil.factor(0.5 * (below + above), room=0.5 * (above - below))[0]
                 expected = pencil.counts[edge] - request.start
                 values, vectors = values[:split], vectors[:, :split]
         if (edge < np.inf and len(values) >= expected) or not len(new_values):

@@ -12,20 +12,24 @@ from scipy.sparse import csr_array, diags_array
 
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum import components, dense, eigensolver
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensolver_error import EigensolverError
-from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.eigensystem import EigenSystem, measure
+from surfexp.spectrum.shifted_pencil import ShiftedPencil
 
 BALL = icosphere(2).mesh
+
+Matrices = tuple[csr_array, csr_array]
 
 
 def scaled(mesh: TriangleMesh, factor: float) -> TriangleMesh:
     return TriangleMesh(factor * mesh.vertices, mesh.faces)
 
 
-def copies(count: int, spread: float, mesh: TriangleMesh = BALL) -> tuple[csr_array, csr_array]:
+def copies(count: int, spread: float, mesh: TriangleMesh = BALL) -> Matrices:
     rng = np.random.default_rng(0)
     return pencil_of([scaled(mesh, factor) for factor in 1.0 + spread * rng.normal(size=count)])
 
@@ -34,13 +38,16 @@ def assert_certified(system: EigenSystem, a: csr_array, b: csr_array, k: int, to
     assert system.complete and system.values.shape == (k,) and system.vectors.shape == (a.shape[0], k)
     errors = np.linalg.norm(a @ system.vectors - (b @ system.vectors) * system.values, axis=0)
     relative = errors / np.linalg.norm(b @ system.vectors, axis=0) / np.maximum(system.values, system.spacing)
-    assert system.spacing > 0 and relative.max() <= 1.01 * tolerance
+    # measured with sums in another order, a residual differs by rounding
+    assert system.spacing > 0 and relative.max() <= 1.01 * tolerance + rounding_floor(system, a, b)
     assert np.abs(system.vectors.T @ (b @ system.vectors) - np.eye(k)).max() <= 1e-8
 
 
 def assert_equal(values: np.ndarray, pencil: Pencil, spacing: float) -> None:
     exact = pencil.values[: len(values)]
-    assert (np.abs(values - exact) <= 1e-7 * np.maximum(exact, spacing)).all()
+    errors = np.abs(values - exact) / np.maximum(exact, spacing)
+    worst = int(errors.argmax())
+    assert errors[worst] <= 1e-7, (worst, len(values), values[worst], exact[worst], spacing, pencil.values[-1])
 
 
 @pytest.mark.parametrize(("count", "spread"), [(12, 1e-6), (12, 1e-9), (21, 0.0)])
@@ -62,12 +69,29 @@ def test_one_pair_of_a_closed_surface(method: str) -> None:
     assert abs(system.values[0]) < 1e-9 and 0.1 < system.spacing < 2.1
 
 
+def sliver_and_components(body: TriangleMesh, count: int, slivers: int) -> Matrices:
+    """A mesh with slivers of .37 degrees beside many components of very different size."""
+    for degrees in np.geomspace(0.37, 3.0, slivers):
+        body = with_sliver(body, degrees)
+    sizes = 10.0 ** np.random.default_rng(1).uniform(-2.5, -0.5, count)
+    return pencil_of([body, *(scaled(icosphere(1).mesh, size) for size in sizes)])
+
+
 def test_no_refusal_depends_on_k() -> None:
-    body = with_sliver(icosphere(4).mesh, 0.37)
-    sizes = 10.0 ** np.random.default_rng(1).uniform(-2.5, -0.5, 43)
-    a, b = pencil_of([body, *(scaled(icosphere(1).mesh, size) for size in sizes)])
+    a, b = sliver_and_components(icosphere(4).mesh, 43, 1)
     reference = eigenpairs(a, b, 100).values
-    for k in (1, 43, 44, 45, 46, 50, 55, 60):
+    for k in (1, 43, 46, 60):
+        system = eigenpairs(a, b, k)
+        assert_certified(system, a, b, k)
+        assert np.abs(system.values - reference[:k]).max() < 1e-7
+
+
+@pytest.mark.slow
+def test_no_refusal_depends_on_k_on_a_large_mesh() -> None:
+    a, b = sliver_and_components(torus(180, 120).mesh, 43, 5)
+    assert a.shape[0] > 20_000
+    reference = eigenpairs(a, b, 100).values
+    for k in range(40, 71):
         system = eigenpairs(a, b, k)
         assert_certified(system, a, b, k)
         assert np.abs(system.values - reference[:k]).max() < 1e-7
@@ -84,6 +108,42 @@ def test_slivers_are_solved_or_refused_with_the_way_out(degrees: float, method: 
         assert np.abs(system.values - exact[:k]).max() <= 1e-7 * max(exact[k], system.spacing)
 
 
+@pytest.mark.parametrize(
+    ("degrees", "k"), [([0.311753770166146, 1.5973302977204443e-05, 0.00012443893874562812], 135), ([1.363e-05], 31)]
+)
+def test_an_edge_stays_in_its_narrow_gap(degrees: list[float], k: int) -> None:
+    body = icosphere(3).mesh
+    for angle in degrees:
+        body = with_sliver(body, angle)
+    a, b = pencil_of([body])
+    assert_certified(eigenpairs(a, b, k, "slicing"), a, b, k)
+
+
+def test_a_shift_on_an_eigenvalue_moves_within_its_room() -> None:
+    a, b = pencil_of([icosphere(2).mesh])
+    pencil = ShiftedPencil(a, b)
+    value = float(dense_values(a, b)[30])
+    for room in (1e-3, 1e-5):
+        assert abs(pencil.factor(value, room=room * value)[0] - value) < room * value
+    assert abs(pencil.factor(value)[0] - value) < 1e-2 * value
+
+
+def test_the_seam_of_two_dense_solutions_repeats_no_vector() -> None:
+    body = with_sliver(icosphere(2).mesh, 1e-4)
+    a, b = pencil_of([body])
+    values, vectors = dense.dense_pairs(a.toarray()[None], b.toarray()[None], 1e-8, 1.0)
+    overlaps = np.abs(vectors[0].T @ (b @ vectors[0]) - np.eye(len(values[0])))
+    assert overlaps.max() < 1e-8
+
+
+@pytest.mark.parametrize("count", [1, 3, 9])
+def test_fewer_vectors_than_lanes_are_measured_without_a_warning(count: int) -> None:
+    stiffness, mass = csr_array(diags_array(np.arange(12.0))), csr_array(diags_array(np.ones(12)))
+    with np.errstate(all="raise"):
+        measurement = measure(stiffness, mass, np.eye(12)[:, :count].copy(order="F"))
+    assert (measurement.values == np.arange(count)).all() and (measurement.errors == 0).all()
+
+
 def test_hundreds_of_tiny_components_beside_a_large_one() -> None:
     tiny = [scaled(icosphere(0).mesh, 0.01 * (1 + i % 7)) for i in range(300)]
     a, b = pencil_of([icosphere(3).mesh, *tiny])
@@ -94,7 +154,7 @@ def test_hundreds_of_tiny_components_beside_a_large_one() -> None:
     assert all((np.abs(vector) > 0).sum() in (12, 642) for vector in system.vectors.T)
 
 
-def broken(kind: str) -> tuple[csr_array, csr_array]:
+def broken(kind: str) -> Matrices:
     a, b = pencil_of([icosphere(3).mesh])
     a, b = a.tolil(), b.tolil()
     match kind:
@@ -207,9 +267,27 @@ def test_a_slice_that_loses_a_pair_is_refused(monkeypatch: pytest.MonkeyPatch) -
         eigenpairs(a, b, 30, "slicing")
 
 
-def check_drawn(pencil: Pencil, k: int) -> None:
-    system = eigenpairs(pencil.stiffness, pencil.mass, k)
-    assert_certified(system, pencil.stiffness, pencil.mass, k)
+def rounding_floor(system: EigenSystem, a: csr_array, b: csr_array) -> float:
+    """The largest relative residual that rounding each entry of the vectors by one unit can leave."""
+    sizes = np.abs(system.vectors)
+    entries = abs(a) @ sizes + (b @ sizes) * np.abs(system.values)
+    errors = np.finfo(float).eps * np.linalg.norm(entries, axis=0)
+    relative = errors / np.linalg.norm(b @ system.vectors, axis=0) / np.maximum(np.abs(system.values), system.spacing)
+    return float(relative.max())
+
+
+def check_drawn(pencil: Pencil, k: int, method: str = "auto") -> None:
+    """Solve, or be refused for a residual that is rounding: of slivers that no vector of doubles can do better for."""
+    a, b = pencil.stiffness, pencil.mass
+    tolerance = 1e-8
+    try:
+        system = eigenpairs(a, b, k, method)
+    except EigensolverError as refusal:
+        assert "has residual" in str(refusal)
+        tolerance = float(str(refusal).rsplit("or tolerance ", 1)[1])
+        system = eigenpairs(a, b, k, method, tolerance)
+        assert rounding_floor(system, a, b) > 0.5e-8
+    assert_certified(system, a, b, k, tolerance)
     assert_equal(system.values, pencil, system.spacing)
     for shift, count in system.inertia:
         apart = np.abs(pencil.values - shift).min() > 1e-7 * max(shift, system.spacing)
