@@ -26,6 +26,8 @@ def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
         loaded = np.load(path, allow_pickle=False)
         if isinstance(loaded, np.ndarray):
             return {"map": loaded}
+        if path.suffix == ".npy":
+            raise ValueError("it is an archive of several arrays: name it .npz")
         with loaded:
             return {name: loaded[name] for name in loaded.files}
     except (BadZipFile, EOFError, KeyError, OSError, MemoryError, UnicodeDecodeError) as error:

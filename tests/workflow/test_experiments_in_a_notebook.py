@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import pytest
@@ -29,7 +28,8 @@ target: pairing
 @pytest.fixture
 def laboratory(working_folder: Path) -> Path:
     (working_folder / "plugins" / "pairing").mkdir(parents=True)
-    shutil.copy(TOYS, working_folder / "plugins" / "pairing" / "toys.py")
+    # a link, so that one process never meets the toys under two names
+    (working_folder / "plugins" / "pairing" / "toys.py").symlink_to(TOYS)
     (working_folder / "conf" / "experiment").mkdir(parents=True)
     (working_folder / "conf" / "experiment" / "chain.yaml").write_text(CHAIN)
     return working_folder
