@@ -22,7 +22,7 @@ optional: .venv/ready # open3d, cvxpy: their tests are skipped without
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-optional.lock
 
 test-optional: optional
-	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/mesh tests/variational tests/test_plugins.py
+	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/io tests/mesh tests/variational tests/test_plugins.py
 
 lint: .venv/ready
 	$(BIN)/ruff check .
