@@ -82,8 +82,8 @@ VARIATIONAL_FAULTS = (
     Fault(
         "Chan-Vese in the box [-1, 1]",
         "variational/separable_quadratic.py",
-        "zero, zero, slope, 0.0, 1.0, scale",
-        "zero, zero, slope, -1.0, 1.0, scale",
+        "zero, zero, slope, 0.0, 1.0, trivial",
+        "zero, zero, slope, -1.0, 1.0, trivial",
         (REGIONS,),
     ),
     Fault(
