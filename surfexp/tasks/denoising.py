@@ -16,6 +16,7 @@ from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.separable_quadratic import rof
+from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
@@ -117,18 +118,20 @@ def denoise(
     mu = weight / (sigma * operator.edge_length)
     solver = newton if tolerance < NEWTON_BELOW and image.ndim == 1 else primal_dual
     solution = solver(rof(operator.mass, image, mu), operator, tolerance=tolerance, progress=progress)
+    certificate = {"noise": sigma, "noise_estimated": noise is None, "weight": weight, **_proof(solution, operator)}
+    notes = mask_notes(owner, part) + tuple(solution.notes)
+    return DenoisedMap(part.extend(solution.values), "rof", certificate, notes)
+
+
+def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
+    """What is proved of a solution; its distance to the minimiser as a root mean square over the area."""
     area = float(operator.mass.sum())
-    certificate = {
-        "noise": sigma,
-        "noise_estimated": noise is None,
-        "weight": weight,
+    return {
         "relative_gap": solution.relative_gap,
         "error_bound": None if solution.error_bound is None else solution.error_bound / np.sqrt(area),
         "converged": solution.converged,
         "iterations": solution.iterations,
     }
-    notes = mask_notes(owner, part) + tuple(solution.notes)
-    return DenoisedMap(part.extend(solution.values), "rof", certificate, notes)
 
 
 def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Literal["heat"] = "heat") -> DenoisedMap:

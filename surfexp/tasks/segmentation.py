@@ -9,6 +9,8 @@ import numpy as np
 from surfexp.arrays import Floats, Integers
 from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -132,21 +134,31 @@ def segment(
     if not 0 < tolerance < 1:
         raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
     owner = as_surface(surface)
-    given = None if values is None else as_map(owner, values)
-    part = part_for(owner, *(() if given is None else (given,)))
-    notes = mask_notes(owner, part)
-    if given is None:
-        bulges = np.asarray(part.restrict(mean_curvature(owner.mesh)), dtype=np.float64)
-        bound = float(np.percentile(np.abs(bulges), CLIPPED_AT))
-        inside = np.clip(bulges, -bound, bound)
-        notes += (f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size.",)
+    given = () if values is None else (as_map(owner, values),)
+    part = part_for(owner, *given)
+    said: tuple[str, ...] = ()
+    if given:
+        inside = np.asarray(part.restrict(given[0]), dtype=np.float64)
     else:
-        inside = np.asarray(part.restrict(given), dtype=np.float64)
+        inside, said = _clipped_curvature(owner, part)
 
     def solve(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None = None) -> Solution:
         return primal_dual(fidelity, operator, start, tolerance=tolerance, progress=progress)
 
     solution = ConvexChanVese(smoothness=smoothness).run(Image(inside, "map"), fem(part.mesh), solve)
+    return _labelled(solution, part, (*mask_notes(owner, part), *said))
+
+
+def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:
+    """The mean curvature of a part, clipped at the median of its size, and the note that says so."""
+    curvature = np.asarray(part.restrict(mean_curvature(surface.mesh)), dtype=np.float64)
+    bound = float(np.percentile(np.abs(curvature), CLIPPED_AT))
+    note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size."
+    return np.clip(curvature, -bound, bound), (note,)
+
+
+def _labelled(solution: Solution, part: SurfacePart, notes: tuple[str, ...]) -> Segmentation:
+    """The regions of a solution on a part, put back on the whole."""
     assert solution.segmentation is not None and solution.lower_bound is not None
     assert solution.relative_gap is not None
     labels = np.full(part.whole_count, -1, dtype=np.int64)

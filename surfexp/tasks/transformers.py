@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
@@ -52,7 +53,30 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         return self
 
 
-class ShapeDNA(SurfaceTransformer):
+class SignatureTransformer(SurfaceTransformer):
+    """A transformer that makes one row of numbers of each surface by itself."""
+
+    def transform(self, X: Surfaces) -> Floats:
+        """Return the (s, n) signatures of s surfaces, a row each.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse, or open where its volume is asked for.
+        """
+        check_is_fitted(self)
+        return np.stack([self._row(surface) for surface in X])
+
+    @abstractmethod
+    def _row(self, given: SurfaceLike) -> Floats:
+        """Return the (n,) signature of one surface."""
+
+
+class ShapeDNA(SignatureTransformer):
     """The first eigenvalues above 0 of each surface (Reuter, Wolter and Peinecke 2006).
 
     Parameters
@@ -76,28 +100,13 @@ class ShapeDNA(SurfaceTransformer):
         self.normalisation = normalisation
         self.reweighted = reweighted
 
-    def transform(self, X: Surfaces) -> Floats:
-        """Return the (s, n) signatures of s surfaces.
-
-        Parameters
-        ----------
-        X : list of Surface, path, or (vertices, faces)
-
-        Raises
-        ------
-        ValueError
-            If a surface is unfit or too coarse, or open where its volume is asked for.
-        """
-        check_is_fitted(self)
-        return np.stack([self._row(surface) for surface in X])
-
     def _row(self, given: SurfaceLike) -> Floats:
         part, system = _spectrum(given, self.n)
         volume = enclosed_volume(part.mesh) if not part.mesh.boundary_loops else None
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
 
 
-class NodalCounts(SurfaceTransformer):
+class NodalCounts(SignatureTransformer):
     """The number of nodal domains of each of the first modes after the constant.
 
     Parameters
@@ -117,21 +126,6 @@ class NodalCounts(SurfaceTransformer):
     def __init__(self, n: int = 50, counting: Counting = "filtered") -> None:
         self.n = n
         self.counting = counting
-
-    def transform(self, X: Surfaces) -> Floats:
-        """Return the (s, n) counts of s surfaces.
-
-        Parameters
-        ----------
-        X : list of Surface, path, or (vertices, faces)
-
-        Raises
-        ------
-        ValueError
-            If a surface is unfit or too coarse.
-        """
-        check_is_fitted(self)
-        return np.stack([self._row(surface) for surface in X])
 
     def _row(self, given: SurfaceLike) -> Floats:
         part, system = _spectrum(given, self.n)
