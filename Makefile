@@ -38,6 +38,7 @@ bench: optional # the rivals come with it
 mutate: .venv/ready
 	$(BIN)/python -m mutation planted
 	$(BIN)/python -m mutation random
+	$(BIN)/python -m mutation claims
 
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.
 reproduction: .venv/ready
