@@ -19,6 +19,7 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 
 from surfexp.member import Member  # noqa: E402
 from surfexp.result_contract import check_result  # noqa: E402
+from surfexp.workers import compiled_code  # noqa: E402
 from surfexp.workflow import registry, store  # noqa: E402
 from surfexp.workflow.errors import DamagedResult  # noqa: E402
 from surfexp.workflow.fingerprint import code_digest, edited_since, file_digest  # noqa: E402
@@ -42,7 +43,7 @@ def run_stage(plan_path: Path, key: str) -> int:
     plan = read_plan(plan_path)
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
-    os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / node.cache)
+    compiled_code.use(results, node.cache)
     _progress.update(path=results / "events" / node.kind / f"{key}.progress", last=0.0, seconds=0.0)
     failure = ""
     store.write_text(_progress["path"], "started")
@@ -61,7 +62,7 @@ def run_stage(plan_path: Path, key: str) -> int:
         _progress["path"].unlink(missing_ok=True)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     event: dict[str, Any] = {"kind": node.kind, "plugin": node.plugin, "failure": failure}
-    event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory}
+    event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory, "warnings": compiled_code.complaints()}
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0
 
