@@ -66,7 +66,14 @@ __all__ = ["__version__", *_FACE]
 def __getattr__(name: str) -> Any:
     if name not in _FACE:
         raise AttributeError(f"module 'surfexp' has no attribute {name!r}")
-    return getattr(importlib.import_module(_FACE[name]), name)
+    try:
+        return getattr(importlib.import_module(_FACE[name]), name)
+    except ModuleNotFoundError as error:
+        from surfexp.extras import MissingExtra, missing_line, missing_module
+
+        if missing := missing_module(error):
+            raise MissingExtra(missing_line(f"sx.{name}", [missing])) from None
+        raise
 
 
 def __dir__() -> list[str]:

@@ -6,9 +6,10 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+
+from surfexp.extras import require_installed
 
 LABORATORY = ("hydra", "snakemake", "mlflow", "pydantic", "pandas")
 
@@ -105,7 +106,7 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     ...
     ValueError: unknown finished experiment in nowhere 'quickstart'; choose from: none
     """
-    _require_laboratory("load")
+    require_installed("sx.load", *LABORATORY)
     from surfexp.commands.views import latest_plan
     from surfexp.report.table import rows_of
     from surfexp.workflow import registry
@@ -159,7 +160,7 @@ def run(experiment: str, results: str | Path = "results", **overrides: Any) -> E
     ...
     ValueError: unknown experiment 'quickstrat'; did you mean 'quickstart'?
     """
-    _require_laboratory("run")
+    require_installed("sx.run", *LABORATORY)
     arguments = [f"experiment={experiment}", f"results={results}"]
     arguments += [f"{name}={_written(value)}" for name, value in overrides.items()]
     command = [sys.executable, "-m", "surfexp.commands.command_line", "run", *arguments]
@@ -169,12 +170,6 @@ def run(experiment: str, results: str | Path = "results", **overrides: Any) -> E
         kind = ValueError if done.returncode == 2 else RuntimeError
         raise kind("\n".join(said) or f"surfexp run ended with exit code {done.returncode}")
     return load(experiment, results)
-
-
-def _require_laboratory(name: str) -> None:
-    missing = [package for package in LABORATORY if find_spec(package) is None]
-    if missing:
-        raise ImportError(f"sx.{name} needs {', '.join(missing)}, not installed here: pip install surfexp[lab]")
 
 
 def _written(value: Any) -> str:

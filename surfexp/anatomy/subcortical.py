@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume, label_of, label_volume
 from surfexp.arrays import Floats
+from surfexp.extras import require_installed
 from surfexp.mesh.remeshing import remesh
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
@@ -91,6 +92,7 @@ def surface_of_label(volume: LabelVolume, label: int, smoothing: float = 1.3, ve
 
 def _level_set(solid: NDArray[np.bool_], smoothing: float, count: int, what: str) -> TriangleMesh:
     """Mesh the level one half of a blurred indicator, in voxel units."""
+    require_installed("marching cubes", "skimage")
     from scipy.ndimage import gaussian_filter, map_coordinates, spline_filter
     from skimage.measure import marching_cubes
 

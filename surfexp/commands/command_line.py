@@ -12,6 +12,7 @@ from pathlib import Path
 
 from surfexp import __version__
 from surfexp.commands import processes
+from surfexp.extras import MissingExtra, missing_line, missing_module
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
@@ -47,7 +48,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
     "collect": ("collect", "an axis of your own surfaces: surfexp collect FOLDER --to NAME, then run axes=NAME"),
     "fetch": ("fetch", "get a public collection: surfexp fetch tosca [--to FOLDER]"),
-    "doctor": ("doctor", "versions, system libraries, disk; how to mend what is missing"),
+    "doctor": ("doctor", "versions, extras, disk; what to install where something is missing"),
 }
 
 
@@ -94,13 +95,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
-    except (UserError, StageFailure, OSError) as error:
+    except (UserError, StageFailure, MissingExtra, OSError) as error:
         if os.environ.get("SURFEXP_DEBUG"):
             traceback.print_exc()
         for line in str(error).splitlines():
             print(f"surfexp: {line}", file=sys.stderr)
         return 1 if isinstance(error, StageFailure) else 2
     except Exception as error:
+        if isinstance(error, ImportError) and (missing := missing_module(error)):
+            print(f"surfexp: {missing_line(given[0], [missing])}", file=sys.stderr)
+            return 2
         if os.environ.get("SURFEXP_DEBUG"):
             raise
         where = traceback.extract_tb(error.__traceback__)[-1]

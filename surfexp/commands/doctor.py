@@ -1,4 +1,4 @@
-"""`surfexp doctor`: what is installed, what is missing and how to mend it."""
+"""`surfexp doctor`: what is installed, what is missing and what to install."""
 
 from __future__ import annotations
 
@@ -6,30 +6,19 @@ import argparse
 import importlib
 import os
 import platform
+import re
 import shutil
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.util import find_spec
 from pathlib import Path
 
-NEEDED = (
-    "numpy",
-    "scipy",
-    "numba",
-    "libigl",
-    "cholespy",
-    "robust_laplacian",
-    "hydra-core",
-    "snakemake",
-    "mlflow",
-    "pydantic",
-)
-OPTIONAL = {
-    "open3d": "more mesh formats, point clouds, the viewer: pip install 'surfexp[open3d]' and the system package libusb-1.0-0",
-    "cvxpy": "the conic referee solver: pip install 'surfexp[conic]'",
-}
+from surfexp.extras import EXTRAS
+
+SYSTEM = {"open3d": " and the system package libusb-1.0-0"}
 
 
 def command(name: str, arguments: list[str]) -> int:
-    """Print versions, optional parts and free disk; exit with 1 if something needed is missing."""
+    """Print versions, extras and free disk; exit with 1 if something needed is missing."""
     parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder to examine")
     given = parser.parse_args(arguments)
@@ -37,18 +26,16 @@ def command(name: str, arguments: list[str]) -> int:
         f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors"
     )
     missing = 0
-    for package in NEEDED:
+    for package in sorted(core_packages()):
         try:
             print(f"  ok       {package} {version(package)}")
         except PackageNotFoundError:
             missing += 1
             print(f"  MISSING  {package}: pip install {package}")
-    for module, remedy in OPTIONAL.items():
-        try:
-            importlib.import_module(module)
-            print(f"  ok       {module} (optional)")
-        except Exception as error:
-            print(f"  absent   {module} (optional): {remedy} [{type(error).__name__}]")
+    for extra in dict.fromkeys(extra for _, extra in EXTRAS.values()):
+        absent = [package for module, (package, of) in EXTRAS.items() if of == extra and not _imports(module)]
+        remedy = f"pip install 'surfexp[{extra}]'{SYSTEM.get(extra, '')}"
+        print(f"  absent   {extra}: {', '.join(absent)}; {remedy}" if absent else f"  ok       {extra} (extra)")
     folder = given.results if given.results.exists() else Path.cwd()
     free = shutil.disk_usage(folder).free / 1e9
     print(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {given.results}")
@@ -57,3 +44,19 @@ def command(name: str, arguments: list[str]) -> int:
         f"  {'ok      ' if writable else 'READ-ONLY'} {folder.resolve()} {'' if writable else ': choose results=FOLDER'}"
     )
     return 1 if missing or not writable else 0
+
+
+def core_packages() -> set[str]:
+    """Names of the packages that `pip install surfexp` brings, from the metadata of the installed package."""
+    return {re.split(r"[^\w.-]", line)[0] for line in requires("surfexp") or () if "extra ==" not in line}
+
+
+def _imports(module: str) -> bool:
+    """Whether a module is there; open3d is imported, since it lacks libraries of the system on many machines."""
+    if module != "open3d":
+        return find_spec(module) is not None
+    try:
+        importlib.import_module(module)
+    except ImportError:
+        return False
+    return True

@@ -7,6 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from surfexp.extras import require_installed
 from surfexp.workflow.errors import UserError
 
 # the high-resolution shapes as .vert and .tri (Bronstein, Bronstein and Kimmel 2008)
@@ -45,9 +46,7 @@ def command(name: str, arguments: list[str]) -> int:
 
 
 def _pooch() -> Any:
-    try:
-        pooch: Any = import_module("pooch")
-    except ImportError:
-        raise UserError("fetch needs pooch, which is not installed: pip install pooch") from None
+    require_installed("fetch", "pooch")
+    pooch: Any = import_module("pooch")
     pooch.get_logger().setLevel("ERROR")
     return pooch

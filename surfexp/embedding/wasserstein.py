@@ -12,6 +12,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import Signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair
+from surfexp.extras import require_installed
 
 Transport = Literal["exact", "sinkhorn"]
 
@@ -31,6 +32,7 @@ def transport_cost(
     entropy : float
         Of Sinkhorn's plans, as a share of the mean distance.
     """
+    require_installed("optimal transport", "ot")
     import ot
 
     if transport == "exact":

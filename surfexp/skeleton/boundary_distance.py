@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any, Literal, get_args
 
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.extras import require_installed
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import boundary_edges
 from surfexp.skeleton.fast_marching import fast_marching
@@ -103,24 +105,15 @@ def halve_boundary_edges(mesh: TriangleMesh, times: int) -> tuple[TriangleMesh, 
 
 def _exact(mesh: TriangleMesh, halvings: int) -> Floats:
     finer, boundary = halve_boundary_edges(mesh, halvings)
-    module: Any = _import("pygeodesic.geodesic", "pygeodesic")
+    require_installed("distance 'exact'", "pygeodesic")
+    module: Any = import_module("pygeodesic.geodesic")
     algorithm = module.PyGeodesicAlgorithmExact(finer.vertices, finer.faces.astype(np.int32))
     distance, _ = algorithm.geodesicDistances(boundary.astype(np.int32), None)
     return np.array(distance[: len(mesh.vertices)], dtype=np.float64)
 
 
 def _heat(mesh: TriangleMesh, boundary: Integers) -> Floats:
-    module: Any = _import("potpourri3d", "potpourri3d")
+    require_installed("distance 'heat'", "potpourri3d")
+    module: Any = import_module("potpourri3d")
     solver = module.MeshHeatMethodDistanceSolver(mesh.vertices, mesh.faces)
     return np.array(solver.compute_distance_multisource(boundary.tolist()), dtype=np.float64)
-
-
-def _import(module: str, package: str) -> Any:
-    import importlib
-
-    try:
-        return importlib.import_module(module)
-    except ImportError as error:
-        raise ValueError(
-            f"this distance needs the package {package}, which is not installed: pip install {package}"
-        ) from error

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from surfexp.extras import require_installed
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum.signature import Signature
 
@@ -30,11 +31,9 @@ def brainprint(mesh: TriangleMesh, count: int = 50) -> Signature:
         raise ValueError(
             f"count = {count} values of {len(mesh.vertices)} vertices: take at most {len(mesh.vertices) - 2}"
         )
-    try:
-        lapy: Any = import_module("lapy")
-        shape_dna: Any = import_module("lapy.shapedna")
-    except ImportError:
-        raise ImportError("brainprint needs lapy, which is not installed: pip install 'surfexp[bench]'") from None
+    require_installed("brainprint", "lapy")
+    lapy: Any = import_module("lapy")
+    shape_dna: Any = import_module("lapy.shapedna")
     surface = lapy.TriaMesh(mesh.vertices, mesh.faces)
     # compute_shapedna starts at random each time; this is its solver, seeded
     values, _ = lapy.Solver(surface).eigs(k=count + 1, rng=0)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.extras import require_installed
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.point_embedding import PointEmbedding
 from surfexp.statistics.signature_distances import euclidean
@@ -94,10 +95,8 @@ def manifold_embedding(matrix: DistanceMatrix, dimensions: int = 2, seed: int = 
         If umap-learn is not installed.
     """
     _check(matrix, dimensions)
-    try:
-        umap: Any = import_module("umap")
-    except ImportError:
-        raise ImportError("umap needs umap-learn, which is not installed: pip install umap-learn") from None
+    require_installed("umap", "umap")
+    umap: Any = import_module("umap")
     neighbours = max(2, min(15, len(matrix.labels) - 1))
     method = umap.UMAP(
         neighbours, dimensions, metric="precomputed", init="random", random_state=seed, n_jobs=1, low_memory=False

@@ -9,6 +9,7 @@ import numpy as np
 from scipy import stats
 
 from surfexp.arrays import Floats
+from surfexp.extras import require_installed
 
 SMALLEST = 1e-300
 
@@ -58,6 +59,7 @@ def paired_tests(left: Mapping[str, Floats], right: Mapping[str, Floats]) -> Pai
     ValueError
         If names or lengths differ, or fewer than three pairs are complete.
     """
+    require_installed("Holm's correction", "statsmodels")
     from statsmodels.stats.multitest import multipletests
 
     if list(left) != list(right):

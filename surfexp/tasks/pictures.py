@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.extras import require_installed
 from surfexp.figures.camera import View
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.encode import encode_png
@@ -97,6 +98,8 @@ def plot(
 
     Raises
     ------
+    ImportError
+        If the extra `figures` is not installed.
     ValueError
         If the map does not fit.
 
@@ -107,6 +110,7 @@ def plot(
     >>> sx.plot(sphere, sphere.mesh.vertices[:, 2], width=400).figure.pixels.shape[1]
     400
     """
+    require_installed("sx.plot", "matplotlib", "PIL")
     owner = as_surface(surface)
     field = None if values is None else as_map(owner, getattr(values, "values", values))
     if field is not None and owner.mask is not None:

@@ -91,7 +91,7 @@ def test_unfit_requests_are_refused() -> None:
 
 def test_umap_says_when_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "umap", None)
-    with pytest.raises(ImportError, match="pip install umap-learn"):
+    with pytest.raises(ImportError, match=r"needs umap-learn, .*pip install 'surfexp\[peers\]'"):
         manifold_embedding(of_points(np.random.default_rng(0).normal(size=(12, 3))))
 
 

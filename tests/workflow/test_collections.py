@@ -176,4 +176,4 @@ def test_fetch_without_pooch_says_so(
 ) -> None:
     monkeypatch.setitem(sys.modules, "pooch", None)
     assert main(["fetch", "tosca"]) == 2
-    assert "pip install pooch" in capsys.readouterr().err
+    assert "pip install 'surfexp[peers]'" in capsys.readouterr().err

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import surfexp as sx
-from surfexp import experiments
+from surfexp import experiments, extras
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = """\
@@ -48,9 +48,11 @@ def test_a_run_comes_back_as_a_table_with_its_results(laboratory: Path) -> None:
 
 
 def test_without_the_laboratory_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(experiments, "find_spec", lambda name: None if name == "hydra" else object())
+    monkeypatch.setattr(extras, "find_spec", lambda name: None if name == "hydra" else object())
     for call in (sx.load, sx.run):
-        with pytest.raises(ImportError, match=r"needs hydra, not installed here: pip install surfexp\[lab\]$"):
+        with pytest.raises(
+            ImportError, match=r"needs hydra-core, which is not installed: pip install 'surfexp\[lab\]'$"
+        ):
             call("quickstart")
 
 

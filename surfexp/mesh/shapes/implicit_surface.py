@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.extras import require_installed
 from surfexp.mesh.remeshing import Implicit, remesh
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -22,6 +23,7 @@ def smooth_intersection(first: Floats, second: Floats, width: float) -> Floats:
 
 def marching_cubes(implicit: Implicit, lower: Floats, upper: Floats, spacing: float) -> tuple[Floats, Integers]:
     """Vertices and outward faces of {implicit = 0} in a box; open where the surface leaves the box."""
+    require_installed("marching cubes", "skimage")
     from skimage.measure import marching_cubes as lewiner
 
     shape = np.ceil((upper - lower) / spacing).astype(int) + 1

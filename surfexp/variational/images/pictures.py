@@ -9,6 +9,7 @@ import numpy as np
 from PIL import Image
 
 from surfexp.arrays import Floats
+from surfexp.extras import MissingExtra, missing_line
 from surfexp.variational.images.letters import letters
 
 PACKAGED = {
@@ -43,7 +44,7 @@ def picture(name: str = "cameraman") -> Floats:
         raise ValueError(f"picture {name!r} is unknown, choose one of {', '.join([*PACKAGED, 'letters'])}")
     package = find_spec("skimage")
     if package is None or package.origin is None:
-        raise ValueError(f"picture {name!r} comes with scikit-image, which is not installed: pip install scikit-image")
+        raise MissingExtra(missing_line(f"picture {name!r}", ["skimage"]))
     return read_picture(Path(package.origin).parent / "data" / PACKAGED[name])
 
 

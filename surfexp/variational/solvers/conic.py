@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
-
 import numpy as np
 from scipy.sparse import diags_array
 
+from surfexp.extras import require_installed
 from surfexp.operators.calculus import adjoint_gradient, gradient_matrix
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
@@ -44,9 +43,7 @@ def conic(
     ImportError
         If cvxpy or clarabel is missing.
     """
-    for package in ("cvxpy", "clarabel"):
-        if importlib.util.find_spec(package) is None:
-            raise ImportError(f"solver conic needs {package}, which is not installed: pip install 'surfexp[conic]'")
+    require_installed("solver conic", "cvxpy", "clarabel")
     require_consistent(operator, "conic")
     if not isinstance(fidelity, SeparableQuadratic) or len(fidelity.shape) > 1:
         raise ValueError(f"conic solves scalar quadratics with a box, not {fidelity.name} of shape {fidelity.shape}")

@@ -1,0 +1,73 @@
+"""What comes with an extra, as in `pip install 'surfexp[lab]'`, and the one line for whoever lacks it."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+# the package that brings a module, and the smallest extra that brings the package
+EXTRAS: dict[str, tuple[str, str]] = {
+    "PIL": ("pillow", "figures"),
+    "matplotlib": ("matplotlib", "figures"),
+    "hydra": ("hydra-core", "lab"),
+    "jinja2": ("jinja2", "lab"),
+    "markupsafe": ("markupsafe", "lab"),
+    "mlflow": ("mlflow", "lab"),
+    "omegaconf": ("omegaconf", "lab"),
+    "ot": ("POT", "lab"),
+    "pandas": ("pandas", "lab"),
+    "potpourri3d": ("potpourri3d", "lab"),
+    "pydantic": ("pydantic", "lab"),
+    "pygeodesic": ("pygeodesic", "lab"),
+    "rich": ("rich", "lab"),
+    "snakemake": ("snakemake", "lab"),
+    "statsmodels": ("statsmodels", "lab"),
+    "yaml": ("pyyaml", "lab"),
+    "abagen": ("abagen", "anatomy"),
+    "nilearn": ("nilearn", "anatomy"),
+    "skimage": ("scikit-image", "anatomy"),
+    "open3d": ("open3d-cpu", "open3d"),
+    "clarabel": ("clarabel", "conic"),
+    "cvxpy": ("cvxpy", "conic"),
+    "lapy": ("lapy", "peers"),
+    "pooch": ("pooch", "peers"),
+    "pyamg": ("pyamg", "peers"),
+    "umap": ("umap-learn", "peers"),
+}
+
+
+class MissingExtra(ImportError):
+    """A package that an extra brings is not installed; the message says which extra."""
+
+
+def require_installed(what: str, *modules: str) -> None:
+    """Refuse to begin `what` ("sx.plot") without the modules that it needs.
+
+    Raises
+    ------
+    MissingExtra
+        Naming the packages that are missing and the extra that brings them.
+    """
+    missing = [module for module in modules if find_spec(module) is None]
+    if missing:
+        raise MissingExtra(missing_line(what, missing))
+
+
+def missing_line(what: str, missing: list[str]) -> str:
+    """One line: which packages `what` lacks, and what to install.
+
+    Parameters
+    ----------
+    what : str
+    missing : list of str
+        Modules of `EXTRAS`.
+    """
+    packages = ", ".join(EXTRAS[module][0] for module in missing)
+    extras = ",".join(sorted({EXTRAS[module][1] for module in missing}))
+    verb = "is" if len(missing) == 1 else "are"
+    return f"{what} needs {packages}, which {verb} not installed: pip install 'surfexp[{extras}]'"
+
+
+def missing_module(error: ImportError) -> str:
+    """Top-level module of an extra that an import did not find, empty if the error is another one."""
+    module = (error.name or "").partition(".")[0]
+    return module if isinstance(error, ModuleNotFoundError) and module in EXTRAS else ""
