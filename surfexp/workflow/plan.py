@@ -39,6 +39,7 @@ class Node:
     inputs: dict[str, Keys]
     files: dict[str, str] = field(default_factory=dict)
     members: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    function: str = ""
 
     @property
     def children(self) -> list[str]:
@@ -169,7 +170,8 @@ class _Resolver:
 
     def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
         self.visits += KINDS[method.kind].stored
-        code, cache, where = code_digest(method.file), compiled_state(method.file), str(method.file)
+        function, where = method.function.__qualname__, str(method.file)
+        code, cache = code_digest(method.file, function), compiled_state(method.file)
         files = {
             name: _digest_of(Path(value))
             for name, value in options.items()
@@ -179,7 +181,7 @@ class _Resolver:
         members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
         inputs = wired | {role: {member.label: key for member, key in keys.items()} for role, keys in asked.items()}
         key = digest([method.kind, method.name, {**options, **files}, inputs, members, code])
-        node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members)
+        node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members, function)
         self.plan.nodes[key] = node
         return key
 

@@ -48,7 +48,10 @@ def run_stage(plan_path: Path, key: str) -> int:
     failure = ""
     store.write_text(_progress["path"], "started")
     try:
-        if edited_since(plan_path.stat().st_mtime, Path(node.file)) and code_digest(Path(node.file)) != node.code:
+        if (
+            edited_since(plan_path.stat().st_mtime, Path(node.file))
+            and code_digest(Path(node.file), node.function) != node.code
+        ):
             raise RuntimeError("the code was edited after this run was planned; run the same command again")
         for _ in range(1 + plan.settings.timing):  # where clocks matter, the first call compiles and warms the caches
             result = make(plan.nodes, key, results)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from surfexp import source_code
 from surfexp.workflow import fingerprint
 
 
@@ -30,6 +31,9 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def forget() -> None:
+    source_code.statements.cache_clear()
+    source_code._parts.cache_clear()
+    source_code.needed_by.cache_clear()
     for function in vars(fingerprint).values():
         if hasattr(function, "cache_clear"):
             function.cache_clear()
@@ -64,3 +68,121 @@ def test_the_framework_is_not_part_of_a_key() -> None:
     assert "operators/fem.py" in names and "mesh/triangle_mesh.py" in names
     assert not any("workflow" in str(file) for file in files)
     assert {"numpy", "scipy"} <= packages
+
+
+PAIR = '''"""Two methods of one file."""
+from __future__ import annotations
+import numpy as np
+import {package}.effect
+from .left import left
+from .right import right as of_the_right
+
+SCALE = 2.0
+OTHER = 3.0
+TABLE = dict(scale=1)
+
+
+def helper(x: Shared) -> float:
+    return SCALE * x
+
+
+class Shared:
+    size = 1
+
+
+def other_helper(x):
+    return OTHER * x
+
+
+@register("solver", "first")
+def first(options: Shared):
+    return left(np.ones(3)) + helper(1)
+
+
+@register("solver", "second")
+def second(options: Shared):
+    return of_the_right(other_helper(1))
+'''
+
+
+@pytest.fixture
+def pair(package: Path) -> Path:
+    """A file of two plugins; the first reaches `left`, `helper`, `SCALE` and `Shared`, the second `right` and `other_helper`."""
+    for name in ("left", "right", "effect"):
+        (package / f"{name}.py").write_text(f"def {name}(x):\n    return x\n")
+    (package / "pair.py").write_text(PAIR.format(package=package.name))
+    return package / "pair.py"
+
+
+def digests(file: Path) -> tuple[str, str]:
+    forget()
+    return fingerprint.code_digest(file, "first"), fingerprint.code_digest(file, "second")
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "changed"),
+    [
+        ("pair", "np.ones(3)", "np.ones(4)", (True, False)),
+        ("pair", "other_helper(1)", "other_helper(2)", (False, True)),
+        ("pair", '("solver", "second")', '("solver", "second", metrics=OTHER)', (False, True)),
+        ("pair", "return SCALE * x", "return SCALE + x", (True, False)),
+        ("pair", "SCALE = 2.0", "SCALE = 2.5", (True, False)),
+        ("pair", "OTHER = 3.0", "OTHER = 3.5", (False, True)),
+        ("pair", "size = 1", "size = 2", (True, True)),
+        ("pair", "dict(scale=1)", "dict(scale=2)", (True, True)),
+        ("pair", "import right as of_the_right", "import left as of_the_right", (False, True)),
+        ("pair", '"""Two methods of one file."""', '"""Said otherwise."""', (False, False)),
+        ("left", "return x", "return -x", (True, False)),
+        ("right", "return x", "return -x", (False, True)),
+        ("effect", "return x", "return -x", (True, True)),
+    ],
+)
+def test_an_edit_counts_for_the_function_that_it_reaches(
+    pair: Path, file: str, old: str, new: str, changed: tuple[bool, bool]
+) -> None:
+    before = digests(pair)
+    edited = pair.with_name(f"{file}.py")
+    text = edited.read_text()
+    assert old in text
+    edited.write_text(text.replace(old, new))
+    assert tuple(a != b for a, b in zip(before, digests(pair), strict=True)) == changed
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("return of_the_right(other_helper(1))", "return globals()['left'](1)"),
+        ("return of_the_right(other_helper(1))", "return importlib.import_module(options.name)"),
+        ("import numpy as np", "import numpy as np\nfrom math import *"),
+        ("from .right import", "from .again import"),
+        ("def second(options", "def second(x):\n    return 1\n\n\ndef second(options"),
+        ("import numpy as np", "import numpy as np\nHANDLERS = []"),
+    ],
+)
+def test_where_it_cannot_be_told_the_whole_file_counts(pair: Path, old: str, new: str) -> None:
+    (pair.parent / "again.py").write_text("from .pair import first as right\n")
+    text = PAIR.format(package=pair.parent.name).replace(old, new)
+    if "HANDLERS" in new:
+        text = text.replace('@register("solver", "first")', '@HANDLERS.append\n@register("solver", "first")')
+    pair.write_text(text)
+    before = digests(pair)[1]
+    pair.write_text(text.replace("np.ones(3)", "np.ones(4)"))
+    assert digests(pair)[1] != before
+
+
+def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> None:
+    forget()
+    assert fingerprint.code_digest(pair, "maker.<locals>.made") != fingerprint.code_digest(pair, "first")
+    assert pair in fingerprint.code_closure(pair, "maker.<locals>.made")[0]
+    assert pair not in fingerprint.code_closure(pair, "first")[0]
+
+
+def test_every_plugin_of_the_package_is_told_apart() -> None:
+    from surfexp.workflow import registry
+
+    registry.load_all(Path("/nonexistent"))
+    shipped = registry.package_folder("surfexp.plugins")
+    own = [plugin for plugin in registry.PLUGINS.values() if plugin.file.is_relative_to(shipped)]
+    assert len(own) > 100
+    for plugin in own:
+        assert source_code.needed_by(plugin.file, plugin.function.__qualname__) is not None, plugin.name
