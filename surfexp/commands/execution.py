@@ -13,7 +13,7 @@ from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
 from surfexp.report.page import write_report
 from surfexp.workers import compiled_code
-from surfexp.workflow import launch, registry, store
+from surfexp.workflow import registry, store
 from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.outcome import event_path, read_event
 from surfexp.workflow.plan import Node, Plan, read_plan
@@ -74,10 +74,12 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
 
 
 def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: bool) -> None:
-    rules = Path(launch.__file__).with_name("rules.smk")
+    rules = Path(store.__file__).with_name("rules.smk")
     profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command = [sys.executable, "-m", "surfexp.workers.snakemake"]
+    command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
     if forced:
         command += ["--forcerun", plan.settings.target]

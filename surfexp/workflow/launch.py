@@ -25,7 +25,7 @@ from surfexp.workflow.errors import UserError
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
-from surfexp.workflow.plan import Plan, make_plan, read_plan
+from surfexp.workflow.plan import Plan, make_plan
 
 PLAIN = (bool, int, float, str, list, dict, type(None))
 SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
@@ -106,12 +106,7 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
 
 
 def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
-    """The plan of a Snakemake run: the file named by `plan=`, or the one composed from `--config experiment=NAME ...`."""
-    if "plan" in config:
-        path = Path(str(config["plan"])).resolve()
-        for file in {node.file for node in read_plan(path).nodes.values()}:
-            registry.load_file(Path(file))  # a plugin file may declare a stage kind of its own
-        return path, read_plan(path)
+    """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
     from hydra import compose, initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
 
