@@ -40,12 +40,13 @@ mutate: .venv/ready
 	$(BIN)/python -m mutation random
 	$(BIN)/python -m mutation claims
 
+# Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.
 reproduction: .venv/ready
 	results=results/reproduction/$$($(BIN)/python -m surfexp.report.stamp state) && failed="" && \
 	for name in $(EXPERIMENTS); do \
 		echo "== $$name"; $(BIN)/surfexp run experiment=$$name results=$$results || \
-			{ [ $$? -eq 1 ] || exit; failed="$$failed $$name"; }; \
+			case $$? in 3) ;; 1) failed="$$failed $$name" ;; *) exit 2 ;; esac; \
 	done && \
 	$(BIN)/surfexp report --claims --results $$results $(EXPERIMENTS) > $$results/reproduction.md && \
 	mv $$results/reproduction.md docs/reproduction.md && \

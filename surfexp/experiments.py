@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import warnings
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -11,6 +12,8 @@ from typing import Any
 
 from surfexp.extras import require_installed
 
+# exit code of `surfexp run` where a row did not converge
+UNCONVERGED = 3
 LABORATORY = ("hydra", "snakemake", "mlflow", "pydantic", "pandas")
 
 
@@ -128,6 +131,8 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
 def run(experiment: str, results: str | Path = "results", **overrides: Any) -> ExperimentRun:
     """Run an experiment, in a process of its own, and read its results; what is there already is not computed again.
 
+    A row that did not converge, or whose gap is over its bound, is a warning.
+
     Parameters
     ----------
     experiment : str
@@ -165,8 +170,10 @@ def run(experiment: str, results: str | Path = "results", **overrides: Any) -> E
     arguments += [f"{name}={_written(value)}" for name, value in overrides.items()]
     command = [sys.executable, "-m", "surfexp.commands.command_line", "run", *arguments]
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    if done.returncode:
-        said = [line.removeprefix("surfexp: ") for line in done.stderr.splitlines() if line.startswith("surfexp: ")]
+    said = [line.removeprefix("surfexp: ") for line in done.stderr.splitlines() if line.startswith("surfexp: ")]
+    for line in said if done.returncode == UNCONVERGED else ():
+        warnings.warn(line.removeprefix("warning: "), stacklevel=2)
+    if done.returncode not in (0, UNCONVERGED):
         kind = ValueError if done.returncode == 2 else RuntimeError
         raise kind("\n".join(said) or f"surfexp run ended with exit code {done.returncode}")
     return load(experiment, results)

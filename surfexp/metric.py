@@ -23,11 +23,14 @@ class Metric:
         Its unit; empty for counts, shares, and numbers without unit.
     better : "lower", "higher" or ""
         The good direction; empty where there is none.
+    bound : str, optional
+        Name of the option of the stage that the metric must not exceed in a result that counts as converged.
     """
 
     meaning: str
     unit: str = ""
     better: Literal["lower", "higher", ""] = ""
+    bound: str = ""
 
 
 def find_metric(name: str, declared: Mapping[str, Metric]) -> Metric | None:

@@ -26,6 +26,9 @@ class Conformal(Options):
 
 
 METRICS = {
+    "relative_gap": Metric(
+        "energy on the surface above its proved lower bound, over the scale of the model", "", "lower"
+    ),
     "domain_energy": Metric("energy on the parameter domain"),
     "domain_gap": Metric("relative gap on the parameter domain", better="lower"),
     "node_count": Metric("unknowns on the parameter domain"),

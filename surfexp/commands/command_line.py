@@ -64,7 +64,7 @@ def usage() -> str:
             *lines,
             "",
             "--version shows the version, --debug the traceback of an error.",
-            "Exit codes: 2 a mistake in the request, 1 a failed stage, 130 interrupted.",
+            "Exit codes: 2 a mistake in the request, 1 a failed stage, 3 a result that did not converge, 130 interrupted.",
         ]
     )
 

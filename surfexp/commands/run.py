@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,29 +14,35 @@ from rich.table import Table
 
 from surfexp.commands.execution import run, unfinished
 from surfexp.commands.views import print_tables, wide_console
+from surfexp.report.convergence import UNCONVERGED, unconverged
 from surfexp.report.declared import check_names
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.launch import launch
 from surfexp.workflow.plan import Plan
 
+LINES_OF_WARNING = 10
+
 
 def command(name: str, arguments: list[str]) -> int:
-    """Run (or only plan) what the configuration asks for."""
+    """Run (or only plan) what the configuration asks for; 3 where a row did not converge."""
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
 
+    doubtful: list[str] = []
+    action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful)
     try:
-        launch(arguments, _show if name == "plan" else _run)
+        launch(arguments, action)
     except (HydraException, OmegaConfBaseException) as error:
         raise _explained(error, arguments) from error
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
-    return 0
+    return UNCONVERGED if doubtful else 0
 
 
-def _run(plan: Plan) -> None:
+def _run(doubtful: list[str], plan: Plan) -> None:
+    """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
     check_names(plan)
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
@@ -49,8 +58,18 @@ def _run(plan: Plan) -> None:
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
+    lines = unconverged(plan, results.resolve())
+    doubtful += lines
+    warn(lines)
     if failure is not None:
         raise failure
+
+
+def warn(lines: list[str]) -> None:
+    """Name rows that did not converge in the terminal."""
+    more = [f"and {len(lines) - LINES_OF_WARNING} more"] if len(lines) > LINES_OF_WARNING else []
+    for line in [*lines[:LINES_OF_WARNING], *more]:
+        print(f"surfexp: warning: {line}", file=sys.stderr)
 
 
 def _show(plan: Plan) -> None:

@@ -61,7 +61,9 @@ class Solution:
         "energy": Metric("energy under the consistent discretisation"),
         "lower_bound": Metric("proved lower bound of the energy", better="higher"),
         "gap": Metric("energy above its proved lower bound", better="lower"),
-        "relative_gap": Metric("energy above its proved lower bound, over the scale of the model", better="lower"),
+        "relative_gap": Metric(
+            "energy above its proved lower bound, over the scale of the model", "", "lower", "tolerance"
+        ),
         "error_bound": Metric("largest possible distance to the exact minimiser, mass norm", better="lower"),
         "iterations": Metric("iterations, of all outer updates together", better="lower"),
         "converged": Metric("1 where the tolerance was reached, else 0", better="higher"),

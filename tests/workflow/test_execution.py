@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from surfexp.commands import execution
+from surfexp.commands import run as run_command
 from surfexp.report.claim import read_claims
+from surfexp.report.convergence import unconverged
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
 from surfexp.workflow import registry, stage, store
@@ -172,3 +174,57 @@ def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkey
     monkeypatch.setattr(np, "abs", lambda values: 1 / 0)
     with pytest.raises(StageFailure, match="pairing/toy_distance: division by zero"):
         run()
+
+
+def loose(tmp_path: Path, target: str = "solver", **options: Any) -> Plan:
+    """Two rows: one within its bound, the other as the options say."""
+    registry.load_file(Path(__file__).with_name("toy_plugins.py"))
+    shared = {
+        "experiment": "loose",
+        "title": "Loose ends",
+        "results": str(tmp_path / "results"),
+        "surface": "toy_triangle",
+    }
+    solvers = [{"name": "toy_loose", "gap": 1e-5}, {"name": "toy_loose", **options}]
+    stages = {"target": target, "pairing": "toy_judge"}
+    return make_plan([{**shared, **stages, "solver": solver} for solver in solvers])
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"gap": 1.45}, "its relative gap is 1.45, over 1"),
+        ({"gap": float("nan")}, "its relative gap is nan, over 1"),
+        ({"gap": 1e-5, "converged": False}, "stopped at its iteration limit"),
+        ({"gap": 1e-3, "tolerance": 1e-4}, "its relative gap is 0.001, over its tolerance 0.0001"),
+    ],
+)
+@pytest.mark.parametrize("target", ["solver", "pairing"])
+def test_a_row_that_did_not_converge_is_named_and_ends_with_3(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    run: Run,
+    options: dict[str, Any],
+    said: str,
+    target: str,
+) -> None:
+    plan = loose(tmp_path, target, **options)
+    monkeypatch.setattr(run_command, "launch", lambda arguments, action: action(plan))
+    assert run_command.command("run", []) == 3
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("surfexp: warning: ") and line.endswith(said)
+    assert ("Loose ends: " if target == "solver" else "solver/toy_loose") in line
+
+
+def test_a_run_within_its_bounds_ends_with_0(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
+    plan = loose(tmp_path, gap=1e-4, tolerance=1e-4)
+    monkeypatch.setattr(run_command, "launch", lambda arguments, action: action(plan))
+    assert run_command.command("run", []) == 0
+    assert unconverged(plan, tmp_path / "results") == []
+
+
+def test_many_warnings_are_cut(capsys: pytest.CaptureFixture[str]) -> None:
+    run_command.warn([f"row {k}" for k in range(15)])
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 11 and lines[-1] == "surfexp: warning: and 5 more"

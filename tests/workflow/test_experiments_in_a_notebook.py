@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
 
 import surfexp as sx
 from surfexp import experiments, extras
+from surfexp.report import convergence
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = """\
@@ -59,3 +61,12 @@ def test_without_the_laboratory_one_line_says_what_to_install(monkeypatch: pytes
 def test_overrides_are_written_as_on_the_command_line() -> None:
     written = [experiments._written(value) for value in (True, None, 1e-5, "newton", ["a", 2])]
     assert written == ["true", "null", "1e-05", "newton", "a,2"]
+
+
+def test_a_row_that_did_not_converge_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    ended = subprocess.CompletedProcess([], 3, stderr="[1/1] solver/newton\nsurfexp: warning: cup: newton: gap\n")
+    monkeypatch.setattr(experiments.subprocess, "run", lambda *_, **__: ended)
+    monkeypatch.setattr(experiments, "load", lambda *given: given)
+    with pytest.warns(UserWarning, match=r"^cup: newton: gap$"):
+        assert sx.run("rof_cup") == ("rof_cup", "results")
+    assert experiments.UNCONVERGED == convergence.UNCONVERGED

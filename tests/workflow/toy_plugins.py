@@ -10,6 +10,8 @@ from pydantic import Field
 from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.metric import Metric
+from surfexp.variational.solution import Solution
 from surfexp.workflow.kinds import stage_kind
 from surfexp.workflow.registry import Options, register
 
@@ -101,3 +103,21 @@ def toy_members(options: Nothing, *, features: dict[Member, Feature]) -> Pairing
 def toy_failure(options: Nothing, *, surface: Surface) -> Pairing:
     """A stage that fails."""
     raise ValueError(f"surface has area {surface.mesh.area}, at least 1e9 is needed")
+
+
+class Loose(Options):
+    gap: float = Field(1.45, description="relative gap that it claims")
+    converged: bool = Field(True, description="whether it claims to have converged")
+    tolerance: float | None = Field(None, description="bound of its gap")
+
+
+@register("solver", "toy_loose")
+def toy_loose(options: Loose, *, surface: Surface) -> Solution:
+    """A solver whose certificate is what it is told."""
+    return Solution(np.zeros(3), 1.0, converged=options.converged, metrics={"relative_gap": options.gap})
+
+
+@register("pairing", "toy_judge", metrics={"energy": Metric("energy of the solution")})
+def toy_judge(options: Nothing, *, solution: Solution) -> Pairing:
+    """What becomes of a solution."""
+    return Pairing(solution.energy, metrics={"energy": solution.energy})

@@ -1,0 +1,55 @@
+"""Which rows of a run are not what was asked for: stopped before their tolerance, or with a gap over its bound."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from surfexp.metric import Metric
+from surfexp.report.declared import declared
+from surfexp.report.table import comparisons, rows_of
+from surfexp.workflow.kinds import KINDS
+from surfexp.workflow.outcome import outcome
+from surfexp.workflow.plan import Plan
+
+UNCONVERGED = 3
+# a relative gap of 1: the energy may be as far above the least one as the model's own scale
+LARGEST_GAP = 1.0
+
+
+def unconverged(plan: Plan, results: Path) -> list[str]:
+    """Return one line for each row, and for each stage below one, that did not converge or whose gap is over its bound.
+
+    The bound of a metric is the option that its declaration names, as the stage was configured; that of every relative gap is 1
+    besides. A stage that failed is not among them.
+    """
+    lines = []
+    leaves = {leaf.key for leaf in plan.leaves}
+    for group in comparisons(rows_of(plan, results)):
+        for row in group.rows:
+            node = plan.nodes[row.leaf.key]
+            if reason := _reason(row.metrics, node.options, declared(plan.nodes, node.key)):
+                shown = ", ".join(str(row.parameters.get(name, "–")) for name in group.varying)
+                lines.append(f"{group.title}: {shown}: {reason}")
+    for node in plan.stored:
+        if node.key not in leaves and "converged" in getattr(KINDS[node.kind].result, "METRICS", {}):
+            metrics = outcome(results, node).metrics
+            if reason := _reason(metrics, node.options, declared(plan.nodes, node.key)):
+                lines.append(f"{node.kind}/{node.plugin} {node.key}: {reason}")
+    return lines
+
+
+def _reason(metrics: Mapping[str, float], options: Mapping[str, Any], meanings: Mapping[str, Metric]) -> str:
+    if metrics.get("converged") == 0.0:
+        return "stopped at its iteration limit"
+    gap = metrics.get("relative_gap", 0.0)
+    if not gap <= LARGEST_GAP:
+        return f"its relative gap is {gap:.3g}, over {LARGEST_GAP:g}"
+    for name, metric in meanings.items():
+        bound = options.get(metric.bound) if metric.bound else None
+        value = metrics.get(name)
+        if bound is not None and value is not None and (math.isnan(value) or value > bound):
+            return f"its {name.replace('_', ' ')} is {value:.3g}, over its {metric.bound.replace('_', ' ')} {bound:g}"
+    return ""
