@@ -38,7 +38,9 @@ def declared_twice() -> Iterator[tuple[str, Any, Any]]:
     """Each default that stands in a function which a plugin calls and in its options: what it is, and both values."""
     registry.load_all(Path("/nonexistent"))
     for (kind, name), plugin in registry.PLUGINS.items():
-        named = {key: vars(sys.modules[plugin.function.__module__]).get(key) for key in plugin.function.__code__.co_names}
+        named = {
+            key: vars(sys.modules[plugin.function.__module__]).get(key) for key in plugin.function.__code__.co_names
+        }
         functions = {key: value for key, value in named.items() if inspect.isfunction(value)}
         for function, value in functions.items():
             if kind == "figure" or not value.__module__.startswith("surfexp."):
