@@ -38,6 +38,7 @@ bench: optional # the rivals come with it
 mutate: .venv/ready
 	$(BIN)/python -m mutation planted
 	$(BIN)/python -m mutation random
+	$(BIN)/python -m mutation claims
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.

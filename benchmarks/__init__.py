@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+from surfexp.workers import compiled_code
 from surfexp.workflow.fingerprint import compiled_state
 
 # before numpy and numba are imported, which read these once; a line about two threads sets it for its own processes
@@ -11,4 +12,4 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
     os.environ[_variable] = os.environ.get(THREADS, "1")
 
 ROOT = Path(__file__).resolve().parent.parent
-os.environ["NUMBA_CACHE_DIR"] = str(ROOT / "results" / "cache" / "numba" / compiled_state())
+compiled_code.use(ROOT / "results", compiled_state())

@@ -1,4 +1,4 @@
-"""`python -m mutation planted [WORD ...]` or `random [--count N] [--seed N]`: plant faults one by one and run tests."""
+"""Plant faults one by one: `python -m mutation planted` and `random` run tests, `claims` runs experiments."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import sys
 from itertools import chain
 from pathlib import Path
 
+from mutation import claims
 from mutation.change import Change
 from mutation.fault import Fault
 from mutation.geometry_faults import GEOMETRY_FAULTS
@@ -34,7 +35,10 @@ def main() -> None:
     drawn.add_argument("--survivors", action="store_true", help="try those again that survived before")
     drawn.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
     drawn.set_defaults(run=run_random)
-    for command in (planted, drawn):
+    turning = commands.add_parser("claims", help="faults that have to turn a claim; what is recorded is not run again")
+    turning.add_argument("words", nargs="*", metavar="WORD", help="part of the name of an experiment")
+    turning.set_defaults(run=run_claims)
+    for command in (planted, drawn, turning):
         command.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
     options = parser.parse_args()
     problems = options.run(options)
@@ -94,6 +98,19 @@ def run_random(options: argparse.Namespace) -> list[str]:
             else:
                 add(trial.change, outcome)
     options.page.write_text(page(changes, results(), options.seed, options.budget), encoding="utf-8")
+    return problems
+
+
+def run_claims(options: argparse.Namespace) -> list[str]:
+    """Return which claims no fault turned, and write the page of all that are recorded."""
+    problems = []
+    for row in claims.try_all(claims.faults(options.words), options.workers):
+        before, after = row["before"], row["after"]
+        print(f"{row['outcome']:9}  {row['experiment']}: {row['claim'][:60]}: {before[0]} {before[1]}", end=" ")
+        print(f"→ {after[0]} {after[1]}", flush=True)
+        if row["outcome"] == "untouched":
+            problems.append(f"untouched: {row['experiment']}: {row['claim']}")
+    claims.write_page()
     return problems
 
 

@@ -15,6 +15,7 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "omegaconf": ("omegaconf", "lab"),
     "ot": ("POT", "lab"),
     "pandas": ("pandas", "lab"),
+    "platformdirs": ("platformdirs", "lab"),
     "potpourri3d": ("potpourri3d", "lab"),
     "pydantic": ("pydantic", "lab"),
     "pygeodesic": ("pygeodesic", "lab"),

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from surfexp.workers import compiled_code
 from surfexp.workflow.fingerprint import compiled_state
 
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True)
@@ -17,7 +18,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 ROOT = Path(__file__).resolve().parent.parent
-os.environ["NUMBA_CACHE_DIR"] = str(ROOT / "results" / "cache" / "numba" / compiled_state())
+compiled_code.use(ROOT / "results", compiled_state())
 
 
 @pytest.fixture

@@ -26,9 +26,10 @@ PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"
 SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 PIAL = {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}}
-# each computes a population of cortices twice
-MINUTES = {("statistic", name) for name in ("sulcal_asymmetry", "sulcal_power", "sulcal_false_positives")}
-POPULATION = {"name": "sulcal_population", "regions": 1, "inputs": PIAL}
+# any closed surface with a concave region is a template; that of a cortex would take minutes
+WORM = {"template": {"surface": {"name": "articulated", "body": "worm", "vertices": 600}}}
+POPULATION = {"name": "sulcal_population", "subjects": 3, "regions": 1, "lines": False, "inputs": WORM}
+LENGTHS = {"lengths": {"over": "blocks", "statistic": POPULATION}}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 GRID = {
@@ -189,18 +190,9 @@ SMALL = {
     },
     ("surface", "synthetic_subject"): {"inputs": PIAL},
     ("statistic", "sulcal_population"): {"subjects": 1, "regions": 1, "inputs": PIAL},
-    ("statistic", "sulcal_asymmetry"): {
-        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}}
-    },
-    ("statistic", "sulcal_power"): {
-        "sizes": [3],
-        "draws": 20,
-        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
-    },
-    ("statistic", "sulcal_false_positives"): {
-        "sizes": [3],
-        "inputs": {"lengths": {"over": "blocks", "statistic": POPULATION | {"subjects": 3}}},
-    },
+    ("statistic", "sulcal_asymmetry"): {"inputs": LENGTHS},
+    ("statistic", "sulcal_power"): {"sizes": [3], "draws": 20, "inputs": LENGTHS},
+    ("statistic", "sulcal_false_positives"): {"sizes": [3], "inputs": LENGTHS},
     ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"over": "sides"}}},
     ("statistic", "template_distances"): {"subjects": 1, "n": 6, "inputs": PIAL},
     ("statistic", "geodesic_errors"): {
@@ -323,12 +315,7 @@ def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
         assert declaration.meaning and declaration.better in ("", "lower", "higher"), f"{kind}/{name}: {metric}"
 
 
-STORED = [
-    pytest.param(*key, marks=pytest.mark.slow) if key in MINUTES else key for key in PLUGINS if KINDS[key[0]].stored
-]
-
-
-@pytest.mark.parametrize(("kind", "name"), STORED)
+@pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
 def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
     if (kind, name) in NEEDS:
         pytest.importorskip(NEEDS[kind, name], exc_type=ImportError)

@@ -13,7 +13,12 @@ class Signatures(Options):
     """What is compared, and how entries are weighed."""
 
     part: str = Field("", description="part of the signatures; empty: the signature itself")
-    alpha: float = Field(1.0, ge=0, le=4, description="entry n is divided by n^alpha, (4.3); 0: Euclidean distance")
+    alpha: float = Field(
+        1.0,
+        ge=0,
+        le=4,
+        description="entry n is divided by n^alpha, (4.3); 1 finds kinds by shape DNA best; 0: Euclidean",
+    )
     length: int | None = Field(None, ge=1, le=100000, description="N, entries that are compared; default: all")
 
 

@@ -125,8 +125,9 @@ SULCAL_FALSE_POSITIVES_METRICS = {
 @register("statistic", "sulcal_false_positives", metrics=SULCAL_FALSE_POSITIVES_METRICS)
 def sulcal_false_positives_statistic(options: SulcalFalsePositives, *, lengths: dict[str, Statistic]) -> Statistic:
     """Share of populations without a subject in common in which a t-test finds a difference at .05."""
-    columns, metrics = fresh_study(_chosen(options, lengths), options.sizes)
-    return Statistic("differences found in fresh populations", columns, (), metrics, _notes(lengths))
+    table, missing = measured(_chosen(options, lengths))
+    columns, metrics = fresh_study(table, options.sizes)
+    return Statistic("differences found in fresh populations", columns, (), metrics, _notes(lengths) + missing)
 
 
 def _chosen(options: Estimators, lengths: dict[str, Statistic]) -> Table:

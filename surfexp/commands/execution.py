@@ -6,13 +6,14 @@ import fcntl
 import os
 import shutil
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
 from surfexp.report.page import write_report
-from surfexp.workflow import launch, registry, store
+from surfexp.workers import compiled_code
+from surfexp.workflow import registry, store
 from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.outcome import event_path, read_event
 from surfexp.workflow.plan import Node, Plan, read_plan
@@ -34,13 +35,21 @@ def run(plan: Plan) -> None:
     while ((missing := unfinished(plan, results)) and not tried.issuperset(missing)) or forced:
         clear(plan, results, missing)
         tried |= missing.keys()
+        _warn(compiled_code.choose(results, plan.nodes[key].cache)[1] for key in missing)
         _snakemake(plan, path, results, [plan.nodes[key] for key in missing], forced)
+        events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
+        _warn(warning for event in events for warning in event.get("warnings", ()))
         forced = False
     finish(path)
     if missing:
         failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
         said = "\n".join(filter(None, dict.fromkeys(failures)))
         raise StageFailure(said or f"{len(missing)} stages did not run; see {results / 'logs'}")
+
+
+def _warn(lines: Iterable[str]) -> None:
+    for line in dict.fromkeys(filter(None, lines)):
+        print(f"surfexp: {line}", file=sys.stderr)
 
 
 def unfinished(plan: Plan, results: Path) -> dict[str, str]:
@@ -65,10 +74,12 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
 
 
 def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: bool) -> None:
-    rules = Path(launch.__file__).with_name("rules.smk")
+    rules = Path(store.__file__).with_name("rules.smk")
     profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command = [sys.executable, "-m", "surfexp.workers.snakemake"]
+    command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
+    command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
     if forced:
         command += ["--forcerun", plan.settings.target]

@@ -21,7 +21,9 @@ SPOKEN_EVERY = 30.0
 @click.option("--strict", is_flag=True, help="leave defective meshes out instead of repairing them")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the table, .csv")
 def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> None:
-    """Area, volume and lowest eigenvalues of files, a folder, or a SUBJECTS_DIR (surf/?h.white, surf/?h.pial).
+    """Area, volume and lowest eigenvalues of files, a folder, a SUBJECTS_DIR or BIDS derivatives.
+
+    Of FreeSurfer subjects surf/?h.white, surf/?h.pial and the structures of mri/aseg.mgz are taken.
 
     The layout is BrainPrint's, a column a structure, with the rows residual, complete and repairs below.
     """
@@ -39,7 +41,8 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     if not table.columns:
         raise ValueError(f"none of {len(table.refused)} surfaces can be read: nothing is written")
     table.save(target)
-    files = [file for name, file in structures(list(sources)).items() if name in table.columns]
+    taken = [source for name, source in structures(list(sources)).items() if name in table.columns]
+    files = list(dict.fromkeys(source if isinstance(source, Path) else source.file for source in taken))
     facts = {
         "complete": all(table.complete.values()),
         "residual": max(table.residuals.values()),

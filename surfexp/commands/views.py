@@ -58,7 +58,7 @@ def wide_console() -> Console:
 
 
 def print_tables(plan: Plan, results: Path, console: Console) -> None:
-    """One table a comparison; a row that stopped at its iteration limit is red and says so."""
+    """One table a comparison; a row that did not converge is red and says so."""
     for group in comparisons(rows_of(plan, results.resolve())):
         console.print(f"\n[bold]{group.title}[/bold]", soft_wrap=True)
         table = Table(header_style="bold")
@@ -67,15 +67,15 @@ def print_tables(plan: Plan, results: Path, console: Console) -> None:
         for name in group.metric_names:
             table.add_column(name.replace("_", " "), justify="right")
         if any(row.limited for row in group.rows):
-            table.add_column("stopped at", style="red")
+            table.add_column("state", style="red")
         for row in group.rows:
             values = [str(row.parameters.get(name, "–")) for name in group.varying]
             if row.failure:
                 table.add_row(*values, "failed", style="red")
                 continue
             numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
-            limit = ("iteration limit",) if row.limited else ()
-            table.add_row(*values, *numbers, *limit, style="red" if limit else None)
+            state = ("not converged",) if row.limited else ()
+            table.add_row(*values, *numbers, *state, style="red" if state else None)
         console.print(table)
 
 

@@ -35,7 +35,7 @@ class SurfaceOperator:
     frames : (m, 2, 3) float64, optional
         The frame vectors in space, when the faces are those of the mesh.
     averaged_gradient : tuple of three (n, n) csr_array, optional
-        The printed vertex-averaged gradient W of (1.26), one matrix for each coordinate. A solver that finds it uses
+        The published vertex-averaged gradient W of (1.26), one matrix for each coordinate. A solver that finds it uses
         W and W* in place of the face gradient and its adjoint (and so minimises no energy: audit it under this one).
     name : str
     consistent : bool

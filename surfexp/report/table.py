@@ -28,7 +28,7 @@ class Row:
 
     @property
     def limited(self) -> bool:
-        """Whether it stopped at its iteration limit, before its tolerance."""
+        """Whether it did not converge: it ended before its tolerance, or the means of its regions still moved."""
         return self.metrics.get("converged", 1.0) == 0.0
 
 

@@ -5,13 +5,17 @@ from __future__ import annotations
 import csv
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure_surface, structures_in
 from surfexp.anatomy.enclosed_volume import enclosed_volume
+from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.arrays import Floats
+from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -20,8 +24,11 @@ from surfexp.tasks.inputs import part_for
 
 PATTERNS = ("*.off", "*.obj", "*.ply", "*.stl", "*.surf.gii", "*.vtk", "*.vtp", "*.vert")
 CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
+# FreeSurfer's segmentation volume: in a subject's folder, and as fMRIPrep writes it among BIDS derivatives
+SEGMENTATION, DERIVATIVE = Path("mri/aseg.mgz"), "*_desc-aseg_dseg.nii.gz"
 # the file, how many are done, how many there are
 Progress = Callable[[str, int, int], None]
+Source = Path | LabelledStructure
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +72,15 @@ class Fingerprints:
         rows["repairs"] = [len(self.repairs.get(name, ())) for name in self.columns]
         return rows
 
+    def _repr_html_(self) -> str:
+        facts = {
+            "complete": sum(self.complete.values()),
+            "largest residual": max(self.residuals.values(), default=None),
+            "repaired": len(self.repairs),
+            "left out": len(self.refused),
+        }
+        return html_table(f"fingerprints of {len(self.columns)} structures", facts, self.notes)
+
     def save(self, path: PathLike) -> None:
         """Write one CSV: a column a structure, rows as in BrainPrint, then those of the proof.
 
@@ -92,8 +108,9 @@ def fingerprint(
     Parameters
     ----------
     sources : path, or list of paths
-        Files; folders, of which every surface file is taken; FreeSurfer subjects or folders of them, of which
-        surf/{lh,rh}.{white,pial} are taken, called lh-white-2d and so on as in BrainPrint.
+        Surface files; FreeSurfer subjects or folders of them, of which surf/{lh,rh}.{white,pial} are taken, called
+        lh-white-2d and so on as in BrainPrint, and the structures in mri/aseg.mgz as closed surfaces; other folders, of
+        which every surface file is taken, and the structures in *_desc-aseg_dseg.nii.gz of BIDS derivatives.
     count : int
         How many eigenvalues, ev0 = 0 among them.
     repair : bool
@@ -129,14 +146,20 @@ def fingerprint(
         raise ValueError(f"count is {count}, at least one eigenvalue is needed")
     found = structures([sources] if isinstance(sources, str | Path) else sources)
     table = Fingerprints({}, {}, {})
-    for done, (name, file) in enumerate(found.items()):
+    volume_of = lru_cache(maxsize=1)(read_label_volume)
+    for done, (name, source) in enumerate(found.items()):
         if progress is not None:
             progress(name, done, len(found))
         try:
-            _measure(table, name, read(file, repair=repair), count, tolerance)
+            surface = read(source, repair=repair) if isinstance(source, Path) else _closed(source, volume_of)
+            _measure(table, name, surface, count, tolerance)
         except (ValueError, OSError) as error:
             table.refused[name] = " ".join(str(error).split())
     return table
+
+
+def _closed(structure: LabelledStructure, volume_of: Callable[[Path], LabelVolume]) -> Surface:
+    return structure_surface(volume_of(structure.file), structure.name)
 
 
 def _measure(table: Fingerprints, name: str, surface: Surface, count: int, tolerance: float) -> None:
@@ -152,43 +175,55 @@ def _measure(table: Fingerprints, name: str, surface: Surface, count: int, toler
         table.repairs[name] = tuple(surface.notes)
 
 
-def structures(sources: Sequence[PathLike]) -> dict[str, Path]:
-    """Return the surface files of files, folders, FreeSurfer subjects and folders of subjects, by the name of their column.
+def structures(sources: Sequence[PathLike]) -> dict[str, Source]:
+    """Return the surfaces and labelled structures of files, folders and FreeSurfer subjects, by the name of their column.
 
     Raises
     ------
     ValueError
         If a source is not there, there is no surface at all, or two have one name.
     """
-    files: dict[str, Path] = {}
-    for source in map(Path, sources):
-        for name, file in _structures_of(source).items():
-            if name in files and files[name] != file:
-                raise ValueError(f"{files[name]} and {file} are both called {name!r}: give the folder above them")
-            files[name] = file
-    if not files:
-        given = ", ".join(map(str, sources))
-        raise ValueError(f"no surface in {given}: neither surf/lh.white and the like, nor {', '.join(PATTERNS)}")
-    return files
+    found: dict[str, Source] = {}
+    for given in map(Path, sources):
+        for name, source in _structures_of(given).items():
+            if name in found and found[name] != source:
+                raise ValueError(f"{found[name]} and {source} are both called {name!r}: give the folder above them")
+            found[name] = source
+    if not found:
+        given_names = ", ".join(map(str, sources))
+        raise ValueError(
+            f"no surface in {given_names}: neither surf/lh.white and the like, nor {SEGMENTATION}, nor {', '.join(PATTERNS)}"
+        )
+    return found
 
 
-def _structures_of(source: Path) -> dict[str, Path]:
+def _structures_of(source: Path) -> dict[str, Source]:
     if source.is_file():
         return {_stem(source): source}
     if not source.is_dir():
         raise ValueError(f"{source} is neither a file nor a folder")
-    if (source / "surf").is_dir():
-        return _cortex(source, "")
-    subjects = sorted(folder for folder in source.iterdir() if (folder / "surf").is_dir())
-    if subjects:
-        return {name: file for one in subjects for name, file in _cortex(one, f"{one.name} ").items()}
-    found = sorted({file for pattern in PATTERNS for file in source.rglob(pattern) if file.is_file()})
-    return {str(file.relative_to(source).with_name(_stem(file))): file for file in found}
+    if _is_subject(source):
+        return _subject(source, "")
+    if subjects := sorted(filter(_is_subject, source.iterdir())):
+        return {name: found for one in subjects for name, found in _subject(one, f"{one.name} ").items()}
+    files = sorted({file for pattern in PATTERNS for file in source.rglob(pattern) if file.is_file()})
+    surfaces: dict[str, Source] = {str(file.relative_to(source).with_name(_stem(file))): file for file in files}
+    for volume in sorted(source.rglob(DERIVATIVE)):
+        prefix = str(volume.relative_to(source)).removesuffix(DERIVATIVE[1:])
+        surfaces |= {f"{prefix} {name}": structure for name, structure in structures_in(volume).items()}
+    return surfaces
 
 
-def _cortex(subject: Path, prefix: str) -> dict[str, Path]:
+def _is_subject(folder: Path) -> bool:
+    return (folder / "surf").is_dir() or (folder / SEGMENTATION).is_file()
+
+
+def _subject(subject: Path, prefix: str) -> dict[str, Source]:
     files = {name: subject / "surf" / name for name in CORTEX}
-    return {f"{prefix}{name.replace('.', '-')}-2d": file for name, file in files.items() if file.is_file()}
+    found: dict[str, Source] = {f"{name.replace('.', '-')}-2d": file for name, file in files.items() if file.is_file()}
+    if (subject / SEGMENTATION).is_file():
+        found |= structures_in(subject / SEGMENTATION)
+    return {f"{prefix}{name}": source for name, source in found.items()}
 
 
 def _stem(file: Path) -> str:

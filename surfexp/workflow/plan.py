@@ -15,7 +15,7 @@ from surfexp.workflow.configuration import Context, Settings, merge, one_line, s
 from surfexp.workflow.errors import UserError, check_known
 from surfexp.workflow.fingerprint import code_digest, compiled_state, digest, file_digest
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.registry import PLUGINS, Plugin, plugin
+from surfexp.workflow.registry import PLUGINS, Plugin, load_file, plugin
 from surfexp.workflow.store import write_text
 
 Keys = str | list[str] | dict[str, str]
@@ -89,6 +89,13 @@ def read_plan(path: Path) -> Plan:
     tree = json.loads(path.read_text())
     nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
     return Plan(Settings(**tree["settings"]), nodes, [Leaf(**leaf) for leaf in tree["leaves"]], tree["requested"])
+
+
+def load_own_kinds(plan: Plan) -> None:
+    """Load the plugin files of a plan that was made elsewhere, if they declare a stage kind of their own."""
+    if not KINDS.keys() >= {node.kind for node in plan.nodes.values()}:
+        for file in {node.file for node in plan.nodes.values()}:
+            load_file(Path(file))
 
 
 def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:

@@ -2,12 +2,20 @@
 import functools
 import shlex
 import sys
+from pathlib import Path
 
-from surfexp.workflow import launch, store
+from surfexp.workflow import store
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import stored_inputs
+from surfexp.workflow.plan import load_own_kinds, read_plan, stored_inputs
 
-plan_path, plan = launch.plan_for_snakemake(config)
+if "plan" in config:
+    plan_path = Path(config["plan"]).resolve()
+    plan = read_plan(plan_path)
+    load_own_kinds(plan)
+else:
+    from surfexp.workflow import launch  # which takes Hydra
+
+    plan_path, plan = launch.plan_for_snakemake(config)
 results = plan_path.parent.parent
 record = f"{results}/store/{{kind}}/{{key}}/record.json"
 
@@ -50,6 +58,8 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
             f"{results}/logs/{kind}/{{key}}.benchmark.tsv"
         threads: 1
         params:
-            command=shlex.join([sys.executable, "-m", "surfexp.workflow.stage", str(plan_path)]),
+            plan=str(plan_path),
+            state=lambda wildcards: plan.nodes[wildcards.key].cache,
+            command=shlex.join([sys.executable, "-m", "surfexp.workers.stage_process", str(plan_path)]),
         shell:
             "exec {params.command} {wildcards.key} > {log} 2>&1"

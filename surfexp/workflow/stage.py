@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import json
 import os
 import resource
-import signal
 import sys
 import time
 import traceback
@@ -19,12 +17,13 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 
 from surfexp.member import Member  # noqa: E402
 from surfexp.result_contract import check_result  # noqa: E402
+from surfexp.workers import compiled_code  # noqa: E402
 from surfexp.workflow import registry, store  # noqa: E402
 from surfexp.workflow.errors import DamagedResult  # noqa: E402
 from surfexp.workflow.fingerprint import code_digest, edited_since, file_digest  # noqa: E402
 from surfexp.workflow.kinds import KINDS  # noqa: E402
 from surfexp.workflow.outcome import event_path  # noqa: E402
-from surfexp.workflow.plan import Keys, Node, read_plan  # noqa: E402
+from surfexp.workflow.plan import Keys, Node, Plan, read_plan  # noqa: E402
 
 _progress: dict[str, Any] = {}
 
@@ -37,12 +36,12 @@ def report_progress(iteration: int, gap: float) -> None:
         store.write_text(_progress["path"], f"iteration {iteration:,}, gap {gap:.1e}")
 
 
-def run_stage(plan_path: Path, key: str) -> int:
-    """Make one result; return 0, or 1 after recording the failure."""
-    plan = read_plan(plan_path)
+def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
+    """Make one result of a plan, which is read unless it is given; return 0, or 1 after recording the failure."""
+    plan = plan or read_plan(plan_path)
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
-    os.environ["NUMBA_CACHE_DIR"] = str(results / "cache" / "numba" / node.cache)
+    compiled_code.use(results, node.cache)
     _progress.update(path=results / "events" / node.kind / f"{key}.progress", last=0.0, seconds=0.0)
     failure = ""
     store.write_text(_progress["path"], "started")
@@ -64,7 +63,7 @@ def run_stage(plan_path: Path, key: str) -> int:
         _progress["path"].unlink(missing_ok=True)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     event: dict[str, Any] = {"kind": node.kind, "plugin": node.plugin, "failure": failure}
-    event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory}
+    event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory, "warnings": compiled_code.complaints()}
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0
 
@@ -110,17 +109,3 @@ def _check_files(node: Node) -> None:
         file_digest.cache_clear()
         if not path.exists() or file_digest(path.resolve()) != planned:
             raise RuntimeError(f"{option} {path} was changed after this run was planned; run the same command again")
-
-
-def die_with_parent() -> None:
-    """Ask the kernel to kill this process when the one that started it has died (Linux; elsewhere nothing is done)."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
-
-
-if __name__ == "__main__":
-    # `python -m` runs this file as __main__; plugins import it by name and must find the same callback state.
-    from surfexp.workflow import stage
-
-    stage.die_with_parent()
-    sys.exit(stage.run_stage(Path(sys.argv[1]), sys.argv[2]))

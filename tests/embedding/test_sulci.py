@@ -296,6 +296,24 @@ def test_populations_without_a_common_subject() -> None:
         fresh_tests(differences, 2)
 
 
+def test_fresh_populations_leave_out_an_estimator_that_measures_too_few_pairs() -> None:
+    rng = np.random.default_rng(0)
+    whole = {side: rng.normal(100.0, 5.0, (9, 2)) for side in ("left", "right")}
+    # one complete pair; three, but never three in a population of three
+    single, scattered = (
+        {"left": np.where(np.isin(np.arange(9), kept)[:, None], whole["left"], np.nan), "right": whole["right"]}
+        for kept in ([4], [0, 3, 6])
+    )
+    alone = fresh_study({"whole": whole}, [3])
+    columns, metrics = fresh_study({"whole": whole, "single": single, "scattered": scattered}, [3])
+    assert not any("single" in name for name in (*columns, *metrics))
+    assert metrics["tests, scattered, 3"] == 0 and "false positives, scattered, 3" not in metrics
+    assert np.isnan(columns["scattered"]).all() and metrics["all subjects, scattered"] == 3
+    assert alone[1].items() <= metrics.items() and metrics["tests, whole, 3"] == 6
+    with pytest.raises(ValueError, match=r"no estimator \(single\) has 3 pairs of lengths in every sulcus"):
+        fresh_study({"single": single}, [3])
+
+
 @pytest.mark.slow
 def test_the_planted_difference_is_found(template) -> None:
     table = measure_population(template, range(8), asymmetry=0.1)

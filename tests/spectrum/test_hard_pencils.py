@@ -43,11 +43,16 @@ def assert_certified(system: EigenSystem, a: csr_array, b: csr_array, k: int, to
     assert np.abs(system.vectors.T @ (b @ system.vectors) - np.eye(k)).max() <= 1e-8
 
 
-def assert_equal(values: np.ndarray, pencil: Pencil, spacing: float) -> None:
-    exact = pencil.values[: len(values)]
-    errors = np.abs(values - exact) / np.maximum(exact, spacing)
+def assert_equal(system: EigenSystem, pencil: Pencil) -> None:
+    """Values as by dense algebra, up to what the rounding of the matrix entries by one unit does to a value: eps v'|A|v.
+
+    Beside a sliver of 1e-5 degrees entries of 1e7 cancel, and that is more than a ten millionth of the spacing.
+    """
+    exact, sizes = pencil.values[: len(system.values)], np.abs(system.vectors)
+    rounding = np.finfo(float).eps * np.einsum("ij,ij->j", sizes, abs(pencil.stiffness) @ sizes)
+    errors = np.abs(system.values - exact) / (np.maximum(exact, system.spacing) + 1e7 * rounding)
     worst = int(errors.argmax())
-    assert errors[worst] <= 1e-7, (worst, len(values), values[worst], exact[worst], spacing, pencil.values[-1])
+    assert errors[worst] <= 1e-7, (worst, len(exact), system.values[worst], exact[worst], system.spacing)
 
 
 @pytest.mark.parametrize(("count", "spread"), [(12, 1e-6), (12, 1e-9), (21, 0.0)])
@@ -288,7 +293,7 @@ def check_drawn(pencil: Pencil, k: int, method: str = "auto") -> None:
         system = eigenpairs(a, b, k, method, tolerance)
         assert rounding_floor(system, a, b) > 0.5e-8
     assert_certified(system, a, b, k, tolerance)
-    assert_equal(system.values, pencil, system.spacing)
+    assert_equal(system, pencil)
     for shift, count in system.inertia:
         apart = np.abs(pencil.values - shift).min() > 1e-7 * max(shift, system.spacing)
         assert not apart or count == (pencil.values < shift).sum()

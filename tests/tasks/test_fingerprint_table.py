@@ -89,3 +89,44 @@ def test_mistakes_are_one_line(
     working_folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
 ) -> None:
     assert main(arguments) == 2 and words in capsys.readouterr().err
+
+
+def segmentation(path: Path, extra: tuple[int, ...] = ()) -> None:
+    """An aseg with two hippocampi, a ball of 9 mm and one of half its volume, a stray voxel and a torus as brain stem."""
+    import nibabel
+
+    x, y, z = np.meshgrid(*[np.arange(60) - 30.0] * 3, indexing="ij")
+    labels = np.zeros(x.shape, dtype=np.int32)
+    labels[(x + 16) ** 2 + y**2 + z**2 <= 81] = 17
+    labels[(x - 16) ** 2 + y**2 + z**2 <= 81 * 0.5 ** (2 / 3)] = 53
+    labels[0, 0, 0] = 53
+    labels[(np.hypot(x, y) - 16) ** 2 + (z - 20) ** 2 <= 20] = 16
+    path.parent.mkdir(parents=True, exist_ok=True)
+    kind = nibabel.MGHImage if path.suffix == ".mgz" else nibabel.Nifti1Image
+    nibabel.save(kind(labels, np.diag([1.0, 1.0, 1.0, 1.0])), path)
+
+
+def test_structures_of_aseg_are_closed_surfaces(working_folder: Path) -> None:
+    segmentation(Path("people/anna/mri/aseg.mgz"))
+    table = sx.fingerprint("people", count=5)
+    # Cerebellum and Brain-Stem share a label, as in BrainPrint
+    assert set(table.columns) == {
+        f"anna {n}" for n in ("Left-Hippocampus", "Right-Hippocampus", "Brain-Stem", "Cerebellum")
+    }
+    left, right = (table.columns[f"anna {side}-Hippocampus"] for side in ("Left", "Right"))
+    assert left[1] == pytest.approx(4 / 3 * np.pi * 9**3, rel=0.06) and right[1] == pytest.approx(left[1] / 2, rel=0.08)
+    assert left[2] == 0 and left[3:6] == pytest.approx(2 / 81, rel=0.06)
+    assert "off the largest piece" in table.repairs["anna Right-Hippocampus"][0]
+    assert "genus 1 stays" in table.repairs["anna Brain-Stem"][0]
+    assert all(table.complete.values())
+
+
+def test_derivatives_and_damaged_volumes(working_folder: Path) -> None:
+    segmentation(Path("derivatives/sub-01/anat/sub-01_desc-aseg_dseg.nii.gz"))
+    sx.write("derivatives/sub-01/anat/sub-01_hemi-L_white.surf.gii", BODY)
+    names = list(sx.fingerprint("derivatives", count=2).columns)
+    assert names[0] == "sub-01/anat/sub-01_hemi-L_white" and "sub-01/anat/sub-01 Left-Hippocampus" in names
+    Path("bad/mri").mkdir(parents=True)
+    Path("bad/mri/aseg.mgz").write_bytes(b"\x1f\x8b nothing")
+    damaged = sx.fingerprint("bad")
+    assert not damaged.columns and "no volume that can be read" in damaged.refused["aseg.mgz"]

@@ -29,7 +29,9 @@ TRANSFORMERS = [sx.ShapeDNA(n=6), sx.NodalCounts(n=6), sx.SpectralDistance(n=4)]
 def test_shape_dna_is_that_of_eigenpairs_and_free_of_size() -> None:
     rows = sx.ShapeDNA(n=6).fit_transform(BODIES)
     system = sx.eigenpairs(BODIES[0], 7)
-    assert rows[0] == pytest.approx(system.values[1:] * BODIES[0].mesh.area, rel=1e-9)
+    published = sx.ShapeDNA(n=6, reweighted=False).fit_transform(BODIES)
+    assert published[0] == pytest.approx(system.values[1:] * BODIES[0].mesh.area, rel=1e-9)
+    assert rows * np.arange(1.0, 7.0) == pytest.approx(published)
     assert sx.ShapeDNA(n=6).fit_transform([stretched(3, 3.6, 4.5)])[0] == pytest.approx(rows[0], rel=1e-8)
     by_volume = sx.ShapeDNA(n=6, normalisation="volume")
     assert by_volume.fit_transform([stretched(3, 3.6, 4.5)])[0] == pytest.approx(by_volume.transform(BODIES[:1])[0])

@@ -83,7 +83,8 @@ def test_what_outlives_snakemake_is_ended_with_it(tmp_path: Path) -> None:
 def test_a_stage_dies_with_the_process_that_started_it() -> None:
     alive, hold = os.pipe()
     ready, tell = os.pipe()
-    stage = f"from surfexp.workflow import stage; import os, time; stage.die_with_parent(); os.write({tell}, b'1')"
+    stage = "from surfexp.workers.stage_process import die_with_parent; import os, time; die_with_parent(os.getppid())"
+    stage += f"; os.write({tell}, b'1')"
     parent = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {stage + '; time.sleep(1e5)'!r}], close_fds=False)"
     for end in (hold, tell):
         os.set_inheritable(end, True)

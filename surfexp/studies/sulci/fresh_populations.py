@@ -9,7 +9,7 @@ from scipy import stats
 
 from surfexp.arrays import Floats
 from surfexp.statistics.paired_tests import paired_tests
-from surfexp.studies.sulci.asymmetry import FEWEST_PAIRS
+from surfexp.studies.sulci.asymmetry import FEWEST_PAIRS, measured
 from surfexp.studies.sulci.population_study import Table
 
 
@@ -47,30 +47,41 @@ def fresh_tests(differences: Floats, size: int, level: float = 0.05) -> tuple[in
 def fresh_study(table: Table, sizes: Sequence[int], level: float = 0.05) -> tuple[dict[str, Floats], dict[str, float]]:
     """Return columns by size (subjects, tests, shares by estimator, the 95 % interval of the level) and metrics.
 
+    A share of no test at all is NaN and no metric. Estimators with too few pairs are left out, see `measured`.
+
     Parameters
     ----------
     table : mapping
         By estimator and side (subjects, sulci) lengths, with nothing planted.
     sizes : sequence of int
+
+    Raises
+    ------
+    ValueError
+        If a size is out of bounds, or no estimator has three pairs of lengths in every sulcus.
     """
+    table = measured(table)[0]
     columns: dict[str, list[float]] = {"subjects": [float(size) for size in sizes]}
     metrics: dict[str, float] = {}
     for estimator, lengths in table.items():
         differences = lengths["left"] - lengths["right"]
         for size in sizes:
             found, tests = fresh_tests(differences, size, level)
-            share = found / max(tests, 1)
-            columns.setdefault(estimator, []).append(share)
+            columns.setdefault(estimator, []).append(found / tests if tests else np.nan)
             columns.setdefault(f"tests, {estimator}", []).append(float(tests))
-            metrics |= {f"false positives, {estimator}, {size}": share, f"tests, {estimator}, {size}": float(tests)}
-        sides = [{str(k): lengths[side][:, k] for k in range(differences.shape[1])} for side in lengths]
+            metrics[f"tests, {estimator}, {size}"] = float(tests)
+            if tests:
+                metrics[f"false positives, {estimator}, {size}"] = found / tests
+        names = [f"sulcus {k + 1}, {estimator}" for k in range(differences.shape[1])]
+        sides = [dict(zip(names, lengths[side].T, strict=True)) for side in lengths]
         whole = paired_tests(sides[0], sides[1])
         metrics |= {
             f"least p of all, {estimator}": float(whole.p_t_holm.min()),
             f"largest difference, {estimator}": float(np.abs(whole.difference).max()),
             f"all subjects, {estimator}": float(whole.subjects.min()),
         }
-    tests_of_first = columns[f"tests, {next(iter(table))}"]
-    low, high = (stats.binom.ppf(q, tests_of_first, level) / np.maximum(tests_of_first, 1) for q in (0.025, 0.975))
+    of_first = np.array(columns[f"tests, {next(iter(table))}"])
+    counted = np.where(of_first > 0, of_first, np.nan)
+    low, high = (stats.binom.ppf(q, counted, level) / counted for q in (0.025, 0.975))
     arrays = {name: np.array(values) for name, values in columns.items()}
     return {**arrays, "low": np.asarray(low), "high": np.asarray(high)}, metrics

@@ -1,0 +1,1 @@
+"""The processes that make stages, and the compiled code that they share."""

@@ -1,0 +1,95 @@
+"""A warm process: all that the stages of a plan import is loaded once, and each stage is a fork of it.
+
+`python -m surfexp.workers.stage_server PLAN STATE` reads a line of JSON for each stage, `{"key": ..., "log": ...}`, and
+writes one when it has ended: its key, exit code, seconds, processor seconds and peak memory. It has one thread, so that
+a fork holds no lock of another, and it ends with its standard input, and all stages with it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import os
+import select
+import signal
+import sys
+import time
+from pathlib import Path
+
+from surfexp.workers import compiled_code
+from surfexp.workers.stage_process import die_with_parent, finished, fork_stage
+from surfexp.workflow import registry, store
+from surfexp.workflow.plan import Plan, read_plan
+
+NUMERICS = ("numpy", "scipy.sparse.linalg", "numba")
+
+
+def preload(plan: Plan, results: Path, state: str) -> None:
+    """Import what the missing stages of one state of the code need: their plugins' files and those of their inputs."""
+    compiled_code.use(results, state)
+    missing = [node for node in plan.nodes.values() if not store.is_done(results, node.kind, node.key)]
+    files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children) if node.cache == state}
+    for module in NUMERICS:
+        __import__(module)
+    for file in sorted(files):
+        with contextlib.suppress(Exception):  # the stage that needs it fails with the reason
+            registry.load_file(Path(file))
+    gc.collect()
+    gc.freeze()  # pages that no collection touches stay shared
+
+
+class Server:
+    """The stages that run, by process id, and where to tell that one has ended."""
+
+    def __init__(self, plan_path: Path, plan: Plan, replies: int) -> None:
+        self.plan_path, self.plan, self.replies = plan_path, plan, replies
+        self.running: dict[int, tuple[str, float]] = {}
+
+    def start(self, request: bytes) -> None:
+        """Fork one stage."""
+        wanted = json.loads(request)
+        child = fork_stage(self.plan_path, self.plan, wanted["key"], Path(wanted["log"]))
+        self.running[child] = wanted["key"], time.monotonic()
+
+    def reap(self) -> None:
+        """Tell of every stage that has ended."""
+        while self.running:
+            child, status, usage = os.wait4(-1, os.WNOHANG)
+            if not child:
+                return
+            key, started = self.running.pop(child)
+            code = finished(self.plan_path, self.plan, key, status, usage)
+            reply = {"key": key, "code": code, "seconds": time.monotonic() - started}
+            reply |= {"processor": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024.0}
+            os.write(self.replies, json.dumps(reply).encode() + b"\n")
+
+
+def main(plan_path: Path, state: str) -> None:
+    """Serve until standard input ends."""
+    die_with_parent(os.getppid())
+    replies = os.dup(1)
+    os.set_inheritable(replies, False)
+    os.dup2(2, 1)  # what a plugin prints is no reply
+    plan = read_plan(plan_path)
+    preload(plan, plan_path.resolve().parent.parent, state)
+    server, waiting = Server(plan_path, plan, replies), b""
+    ended, tell = os.pipe2(os.O_NONBLOCK)
+    signal.signal(signal.SIGCHLD, lambda number, frame: None)
+    signal.set_wakeup_fd(tell, warn_on_full_buffer=False)
+    while True:
+        readable = select.select([0, ended], [], [])[0]
+        if ended in readable:
+            os.read(ended, 4096)
+            server.reap()
+        if 0 in readable:
+            received = os.read(0, 65536)
+            if not received:
+                return
+            *requests, waiting = (waiting + received).split(b"\n")
+            for request in requests:
+                server.start(request)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2])

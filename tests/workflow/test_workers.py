@@ -1,0 +1,164 @@
+"""Stages forked from a warm process: a dead one is named and takes nothing else with it, what they took is measured."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from surfexp.workers.stage_process import death
+from surfexp.workflow import registry, store
+from surfexp.workflow.outcome import read_event
+from surfexp.workflow.plan import Plan, make_plan
+
+ENDS = """
+import os, signal, sys
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.workflow.registry import Options, register
+import numpy as np
+
+class End(Options):
+    how: str = "well"
+    size: float = 1.0
+
+@register("surface", "ending")
+def ending(options: End) -> Surface:
+    print("hello from", options.how, flush=True)
+    if options.how == "signal":
+        os.kill(os.getpid(), int(options.size))
+    if options.how == "exit":
+        os._exit(int(options.size))
+    if options.how == "sys.exit":
+        sys.exit(0)
+    if options.how == "memory":
+        np.ones(int(options.size * 2**17))
+    if options.how == "threads":
+        threads = open("/proc/self/status").read().split("Threads:")[1].split()[0]
+        raise ValueError(f"threads {threads}, loaded {'numba' in sys.modules}, parent {os.getppid()}")
+    return Surface(TriangleMesh(options.size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
+"""
+
+
+@pytest.fixture
+def results(working_folder: Path) -> Path:
+    (working_folder / "plugins" / "surface").mkdir(parents=True)
+    (working_folder / "plugins" / "surface" / "ending.py").write_text(ENDS)
+    return working_folder / "results"
+
+
+def plan_of(results: Path, *stages: tuple[str, float]) -> tuple[Plan, Path]:
+    registry.load_file(results.parent / "plugins" / "surface" / "ending.py")
+    registry._loaded.clear()
+    registry.PLUGINS.pop(("surface", "ending"), None)
+    registry.load_file(results.parent / "plugins" / "surface" / "ending.py")
+    surfaces = [{"name": "ending", "how": how, "size": size} for how, size in stages]
+    plan = make_plan([{"target": "surface", "results": str(results), "surface": surface} for surface in surfaces])
+    return plan, plan.write(results)
+
+
+class Server:
+    """The warm process as the executor starts it."""
+
+    def __init__(self, plan: Plan, path: Path) -> None:
+        self.logs = path.parent.parent / "logs"
+        state = next(iter(plan.nodes.values())).cache
+        command = [sys.executable, "-m", "surfexp.workers.stage_server", str(path), state]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+
+    def ask(self, keys: list[str]) -> dict[str, dict[str, Any]]:
+        assert self.process.stdin is not None and self.process.stdout is not None
+        for key in keys:
+            self.process.stdin.write(json.dumps({"key": key, "log": str(self.logs / key)}).encode() + b"\n")
+        self.process.stdin.flush()
+        replies = [json.loads(self.process.stdout.readline()) for _ in keys]
+        return {reply["key"]: reply for reply in replies}
+
+    def end(self) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.close()
+        assert self.process.wait() == 0
+
+
+DEATHS = {
+    ("signal", 11.0): "surface/ending: its process was killed by signal 11 (SIGSEGV)",
+    ("signal", 9.0): "killed by signal 9 (SIGKILL), as the kernel does when memory is short",
+    ("exit", 0.0): "its process ended with exit code 0 before there was a result",
+    ("exit", 3.0): "its process ended with exit code 3",
+    ("sys.exit", 0.0): "its process ended with exit code 1",
+}
+
+
+def test_a_stage_that_dies_is_named_and_the_others_go_on(results: Path) -> None:
+    plan, path = plan_of(results, *DEATHS, ("well", 1.0), ("well", 2.0))
+    keys = [leaf.key for leaf in plan.leaves]
+    server = Server(plan, path)
+    replies = server.ask(keys)
+    for key, (how, message) in zip(keys, DEATHS.items(), strict=False):
+        assert replies[key]["code"] == 1 and message in read_event(results, "surface", key)["failure"]
+        assert (results / "logs" / key).read_text().startswith(f"hello from {how[0]}")
+    for key in keys[len(DEATHS) :]:
+        assert replies[key]["code"] == 0 and store.is_done(results, "surface", key)
+    assert not list(results.rglob("*.progress"))
+    server.end()
+
+
+def test_a_stage_alone_is_named_as_well(results: Path) -> None:
+    plan, path = plan_of(results, ("signal", 11.0))
+    (leaf,) = plan.leaves
+    command = [sys.executable, "-m", "surfexp.workers.stage_process", str(path), leaf.key]
+    assert subprocess.run(command, capture_output=True).returncode == 1
+    assert "signal 11 (SIGSEGV)" in read_event(results, "surface", leaf.key)["failure"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
+def test_a_fork_finds_the_libraries_loaded_and_one_thread(results: Path) -> None:
+    plan, path = plan_of(results, ("threads", 1.0))
+    server = Server(plan, path)
+    server.ask([plan.leaves[0].key])
+    said = read_event(results, "surface", plan.leaves[0].key)["failure"]
+    assert f"threads 1, loaded True, parent {server.process.pid}" in said
+    server.end()
+
+
+def test_memory_is_that_of_the_stage(results: Path) -> None:
+    plan, path = plan_of(results, ("memory", 300.0), ("well", 1.0))
+    server = Server(plan, path)
+    large, small = (server.ask([leaf.key])[leaf.key]["memory"] for leaf in plan.leaves)
+    assert 290 < large - small < 310
+    events = [read_event(results, "surface", leaf.key)["peak_memory_mb"] for leaf in plan.leaves]
+    assert events == pytest.approx([large, small], rel=0.02)
+    server.end()
+
+
+def run(experiment: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", f"experiment={experiment}", *arguments]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def test_a_run_names_what_died_and_keeps_the_rest(results: Path) -> None:
+    (results.parent / "conf" / "experiment").mkdir(parents=True)
+    stages = [{"name": "ending", "how": how, "size": size} for how, size in (*DEATHS, ("well", 1.0))]
+    experiment = {"experiment": "ends", "target": "surface", "grid": {"surface": stages}}
+    text = "# @package _global_\n" + json.dumps(experiment)
+    (results.parent / "conf" / "experiment" / "ends.yaml").write_text(text)
+    done = run("ends")
+    assert done.returncode == 1 and "Traceback" not in done.stderr, done.stderr
+    for message in DEATHS.values():
+        assert message in done.stderr
+    (record,) = results.glob("store/*/*/record.json")
+    (benchmark,) = results.glob(f"logs/surface/{record.parent.name}.benchmark.tsv")
+    header, values = (line.split("\t") for line in benchmark.read_text().splitlines())
+    event = read_event(results, "surface", record.parent.name)
+    assert float(values[header.index("max_rss")]) == pytest.approx(event["peak_memory_mb"], rel=0.02)
+
+
+def test_a_death_by_a_signal_without_a_name() -> None:
+    assert "signal 40 (unnamed)" in death(-40) and "signal 15 (SIGTERM)" in death(-signal.SIGTERM)
+    assert os.waitstatus_to_exitcode(9) == -9
