@@ -27,6 +27,7 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "nilearn": ("nilearn", "anatomy"),
     "skimage": ("scikit-image", "anatomy"),
     "open3d": ("open3d-cpu", "open3d"),
+    "robust_laplacian": ("robust_laplacian", "robust"),
     "clarabel": ("clarabel", "conic"),
     "cvxpy": ("cvxpy", "conic"),
     "lapy": ("lapy", "peers"),

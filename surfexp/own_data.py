@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from surfexp.workflow.errors import UserError, check_known
 from surfexp.workflow.kinds import KINDS
 
 DATA = {"surface", "image", "axes", "variants", "grid"}
@@ -36,6 +37,48 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
     variants = [_wordless(variant, headings) for variant in configuration.get("variants") or []]
     words = {"title": f"{configuration.get('experiment', 'experiment')}, other data", "description": WORDS_LEFT_OUT}
     return _wordless(kept, headings) | words | {"variants": variants}
+
+
+def with_collections(axes: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the axes of an experiment with collections of one's own in place of its own.
+
+    Parameters
+    ----------
+    axes : mapping
+        Members by label, by name of the axis.
+    given : mapping
+        Collections by the name of the axis that they replace, each as its file has it: axes by name. Under "" the file's
+        axis replaces the one of its name, or the only axis of surfaces.
+
+    Raises
+    ------
+    UserError
+        If the axis is unknown, or it does not follow which one is to be replaced.
+    """
+    own = dict(axes)
+    for target, collection in given.items():
+        for name, members in collection.items():
+            if target:
+                check_known("axis", [target], axes)
+            own[target or _axis_to_replace(axes, name)] = members
+    return own
+
+
+def _axis_to_replace(axes: Mapping[str, Any], name: str) -> str:
+    if name in axes:
+        return name
+    of_surfaces = [axis for axis, members in axes.items() if any("surface" in member for member in _facts(members))]
+    if not of_surfaces:
+        raise UserError("axes: this experiment compares no collection of surfaces; set surface=file surface.path=FILE")
+    if len(of_surfaces) > 1:
+        known = ", ".join(f"axes.{axis}=NAME" for axis in of_surfaces)
+        raise UserError(f"axes: this experiment has {len(of_surfaces)} collections of surfaces, choose {known}")
+    return of_surfaces[0]
+
+
+def _facts(members: Any) -> list[Mapping[str, Any]]:
+    found = members.values() if isinstance(members, Mapping) else members or []
+    return [member for member in found if isinstance(member, Mapping)]
 
 
 def _wordless(part: Any, headings: dict[str, str]) -> Any:

@@ -256,6 +256,7 @@ CONTEXT = {
 }
 NEEDS = {
     ("surface", "point_cloud"): "open3d",
+    ("operator", "robust_laplacian"): "robust_laplacian",
     ("solver", "conic"): "cvxpy",
     ("signature", "brainprint"): "lapy",
     ("embedding", "umap"): "umap",

@@ -20,7 +20,7 @@ LOST = np.array([0.84, 0.38, 0.30])
 
 
 class Restoration(Options):
-    """The viewpoint, and where the picture is printed."""
+    """The viewpoint, and where the picture is published."""
 
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")

@@ -1,4 +1,4 @@
-"""The printed gradient (1.26)."""
+"""The published gradient (1.26)."""
 
 from pydantic import Field
 

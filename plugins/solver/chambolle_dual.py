@@ -16,7 +16,7 @@ from surfexp.workflow.stage import report_progress
 
 
 class ChambolleDual(Options):
-    """When to stop, and the scheme with its printed parameters."""
+    """When to stop, and the scheme with its published parameters."""
 
     tolerance: float | None = Field(
         None, gt=0, lt=1, description="bound of the relative gap; default: 1e-4, of segmentation models 1e-2"

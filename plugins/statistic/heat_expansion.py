@@ -30,5 +30,5 @@ METRICS = {
 
 @register("statistic", "heat_expansion", metrics=METRICS)
 def heat_expansion_statistic(options: HeatExpansion, *, surface: Surface, eigensolver: EigenSystem) -> Statistic:
-    """Heat trace of a spectrum beside the printed and the corrected expansion; what of the shape is heard in it."""
+    """Heat trace of a spectrum beside the published and the corrected expansion; what of the shape is heard in it."""
     return heat_expansion(surface, eigensolver)

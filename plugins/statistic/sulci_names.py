@@ -36,7 +36,7 @@ METRICS = {
 
 @register("statistic", "sulci_names", metrics=METRICS)
 def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statistic:
-    """Share of sulcal area named right, by the printed rule, by majority vote, and by majority vote of ZoomOut."""
+    """Share of sulcal area named right, by the published rule, by majority vote, and by majority vote of ZoomOut."""
     study = make_template(template, 1)
     scores: list[dict[str, float]] = []
     for subject in range(options.subjects):

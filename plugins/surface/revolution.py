@@ -1,4 +1,4 @@
-"""Surfaces of revolution, among them those on which the printed distance is no metric."""
+"""Surfaces of revolution, among them those on which the published distance is no metric."""
 
 from typing import Literal
 

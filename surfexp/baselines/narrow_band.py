@@ -99,7 +99,7 @@ def grid_step(mesh: TriangleMesh, shape: Sequence[int], radius: float) -> float:
     ----------
     mesh : TriangleMesh
     shape : sequence of int
-        Only the product counts, since the printed sizes of table 2.2 belong to boxes of other proportions.
+        Only the product counts, since the published sizes of table 2.2 belong to boxes of other proportions.
     radius : float
         Band radius in grid steps.
 

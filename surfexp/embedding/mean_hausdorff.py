@@ -29,7 +29,7 @@ class HausdorffObjective:
     direction : "forward", "backward" or "both"
         Source to target, target to source, or the larger of the two.
     summary : "mean" or "largest"
-        Area-weighted mean over the points, as printed in (6.7), or the largest: the Hausdorff distance, a metric.
+        Area-weighted mean over the points, as published in (6.7), or the largest: the Hausdorff distance, a metric.
     undecided : "absolute" or "prefix"
     seed : int
         Of the order in which points are visited.

@@ -39,7 +39,7 @@ def spectral_distance(
         (6.16) as printed is max_of_inf, whose two infima may be attained by different signs, so that "the" optimal basis is
         not defined; inf_of_max takes one choice for both directions, and its signs are the optimal basis.
     summary : "mean" or "largest"
-        Mean over the area as printed in (6.7), which breaks the triangle inequality, or the Hausdorff distance.
+        Mean over the area as published in (6.7), which breaks the triangle inequality, or the Hausdorff distance.
     undecided : "absolute" or "prefix"
         The bound of the search, see `HausdorffObjective`.
     samples : int

@@ -72,7 +72,7 @@ def sup_inf_distance(
     """Return the larger of sup over the one surface's bases of inf over the other's, both ways (6.9), on grids of bases.
 
     With the Hausdorff distance inside ("largest", both directions) this is the Hausdorff distance between two orbits, a
-    pseudo-metric up to the width of the grid. With "mean" the integrals are those printed, and it is not.
+    pseudo-metric up to the width of the grid. With "mean" the integrals are those published, and it is not.
 
     Parameters
     ----------

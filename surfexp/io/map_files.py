@@ -96,7 +96,8 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     """Return a mask of `count` vertices from a file.
 
     A FreeSurfer .label lists the vertices inside. Of labels with names (.label.gii, .annot, .dlabel.nii) all but unknown and
-    medial wall are inside, or those named behind a colon: `lh.aparc.annot:insula,precentral`. Of a map what is neither 0 nor NaN.
+    medial wall are inside, or those named behind a colon: `lh.aparc.annot:insula,precentral`. Of labels whose file names none,
+    and of a map, what is neither 0 nor NaN.
 
     Raises
     ------
@@ -111,7 +112,10 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
         labels = read_label_map(file, hemisphere)
         wanted = [name.strip() for name in names.split(",") if name.strip()]
         kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
-        inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
+        if not labels.names and not wanted:
+            inside = labels.keys != 0
+        else:
+            inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
     elif names:
         raise ValueError(
             f"{file} has no named labels, {names!r} can be chosen from .label.gii, .annot and .dlabel.nii only"

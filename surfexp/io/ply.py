@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
-from surfexp.io.polygons import triangulate
+from surfexp.io.polygons import triangles_of_strips, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 TYPES = {
@@ -48,16 +48,24 @@ def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
             columns[element.name], offset = _ascii_element(text, offset, element)
         else:
             columns[element.name], offset = _binary_element(data, offset, element, order)
-    vertex, face = columns.get("vertex", {}), columns.get("face", {})
-    polygons = face.get("vertex_indices", face.get("vertex_index"))
-    if not {"x", "y", "z"} <= set(vertex) or polygons is None:
-        raise ValueError("it has no element 'vertex' with x, y, z or no element 'face' with vertex_indices")
+    vertex, polygons, strips = columns.get("vertex", {}), _lists(columns, "face"), _lists(columns, "tristrips")
+    if not {"x", "y", "z"} <= set(vertex) or (polygons is None and strips is None):
+        raise ValueError(
+            "it has no element 'vertex' with x, y, z or no element 'face' or 'tristrips' with vertex_indices"
+        )
     positions = np.stack([np.asarray(vertex.pop(axis), dtype=np.float64) for axis in "xyz"], axis=1)
     scalars = {
         name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)
     }
-    faces = polygons.astype(np.int64) if isinstance(polygons, np.ndarray) else triangulate(polygons)
-    return positions, faces, scalars
+    parts = [] if strips is None else [triangles_of_strips(strips)]
+    if polygons is not None:
+        parts.append(polygons.astype(np.int64) if isinstance(polygons, np.ndarray) else triangulate(polygons))
+    return positions, np.concatenate(parts), scalars
+
+
+def _lists(columns: dict[str, dict[str, Any]], element: str) -> Any:
+    found = columns.get(element, {})
+    return found.get("vertex_indices", found.get("vertex_index"))
 
 
 def _header(data: bytes) -> tuple[str, list[Element], int]:

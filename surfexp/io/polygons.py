@@ -1,4 +1,4 @@
-"""Polygons to triangles."""
+"""Polygons and triangle strips to triangles."""
 
 from __future__ import annotations
 
@@ -27,3 +27,22 @@ def triangulate(polygons: Sequence[Sequence[int]]) -> Integers:
         return np.array(polygons, dtype=np.int64)
     corners = [[p[0], p[k], p[k + 1]] for p in polygons for k in range(1, len(p) - 1)]
     return np.array(corners, dtype=np.int64)
+
+
+def triangles_of_strips(strips: Sequence[Sequence[int]]) -> Integers:
+    """(m, 3) faces of triangle strips: every vertex makes a triangle with the two before it, -1 begins a new strip.
+
+    Every second triangle of a strip is turned over, so that all have one orientation; triangles with a repeated vertex,
+    which strips use to turn a corner, are left out.
+    """
+    ends = [np.append(np.asarray(strip, dtype=np.int64), -1) for strip in strips]
+    numbers = np.concatenate(ends) if ends else np.zeros(0, dtype=np.int64)
+    if len(numbers) < 3:
+        return np.zeros((0, 3), dtype=np.int64)
+    place = np.arange(len(numbers))
+    since_end = place - np.maximum.accumulate(np.where(numbers < 0, place, -1)) - 1
+    faces = np.stack([numbers[:-2], numbers[1:-1], numbers[2:]], axis=1)
+    odd = since_end[:-2] % 2 == 1
+    faces[odd] = faces[odd][:, [1, 0, 2]]
+    a, b, c = faces.T
+    return np.ascontiguousarray(faces[(faces >= 0).all(axis=1) & (a != b) & (b != c) & (c != a)])

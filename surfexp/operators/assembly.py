@@ -13,12 +13,16 @@ from surfexp.operators.surface_operator import SurfaceOperator
 
 def stiffness(operator: SurfaceOperator) -> csr_array:
     """Return Q of (2.37), Q_ij = int grad e_i . grad e_j: the cotangent matrix, positive semidefinite."""
+    if operator.matrices is not None:
+        return operator.matrices[0]
     pattern = operator.pattern
     return _matrix(pattern, _stiffness(operator.hat_gradients, operator.areas, pattern.slots, len(pattern.indices)))
 
 
 def mass_matrix(operator: SurfaceOperator) -> csr_array:
     """Return K of (2.37), K_ij = int e_i e_j: the consistent mass matrix; `SurfaceOperator.mass` is the lumped one."""
+    if operator.matrices is not None:
+        return operator.matrices[1]
     pattern = operator.pattern
     return _matrix(pattern, _mass(operator.areas, pattern.slots, len(pattern.indices)))
 

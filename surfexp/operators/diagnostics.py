@@ -15,7 +15,7 @@ FIELDS = 16
 def adjointness_defect(operator: SurfaceOperator, normals: Floats | None = None) -> float:
     """Return |G^T A + M D| / |G^T A| in the Frobenius norm, D the divergence that solvers use; 0 for an adjoint pair.
 
-    For face fields it is taken over random fields, D applied as solvers do. For the printed pair this is
+    For face fields it is taken over random fields, D applied as solvers do. For the published pair this is
     |C + C^T| / |C|, C_ij = int e_i grad e_j: zero on flat meshes without boundary only.
 
     Parameters

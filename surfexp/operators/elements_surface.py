@@ -126,7 +126,22 @@ def assemble_elements(
         stiffness_blocks.append(local[0])
         mass_blocks.append(local[1])
     stiffness_matrix = _sum_up(nodes, np.concatenate(stiffness_blocks))
-    consistent = _sum_up(nodes, np.concatenate(mass_blocks))
+    return pencil_of(nodes, stiffness_matrix, _sum_up(nodes, np.concatenate(mass_blocks)), mass, boundary)
+
+
+def pencil_of(
+    nodes: ElementNodes, stiffness_matrix: csr_array, consistent: csr_array, mass: Mass, boundary: Boundary
+) -> SurfaceElements:
+    """Make a pencil of two matrices over all nodes: the mass lumped or not, the boundary free or held at 0.
+
+    Parameters
+    ----------
+    nodes : ElementNodes
+    stiffness_matrix, consistent : (n, n) csr_array
+    mass, boundary
+        As in `surface_elements`.
+    """
+    _check(nodes, mass, boundary)
     lumped = csr_array(diags_array(consistent.sum(axis=1)))
     chosen = {"consistent": consistent, "lumped": lumped, "averaged": csr_array(0.5 * (consistent + lumped))}[mass]
     free = np.arange(nodes.count)

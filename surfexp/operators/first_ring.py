@@ -1,4 +1,4 @@
-"""The printed gradient and divergence by their definitions (1.17), (1.18), afresh from the positions at each call."""
+"""The published gradient and divergence by their definitions (1.17), (1.18), afresh from the positions at each call."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The printed gradient (1.26): the area-weighted mean of the face gradients around each vertex."""
+"""The published gradient (1.26): the area-weighted mean of the face gradients around each vertex."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 
 
 def vertex_averaged(mesh: TriangleMesh, tangent: bool = False) -> SurfaceOperator:
-    """Return the operator whose solvers use W of (1.26) and the printed divergence V -> W . V of (1.27).
+    """Return the operator whose solvers use W of (1.26) and the published divergence V -> W . V of (1.27).
 
     The pair is not adjoint: <W f, V> + <f, W . V> vanishes only on flat meshes without boundary. On tangent fields the
     defect falls with the square of the mesh size instead of the first power.

@@ -113,7 +113,7 @@ def weighted_operator(operator: SurfaceOperator, weights: Floats, name: str = "w
     metrics = {"smallest_weight": float(weights.min()), "largest_weight": float(weights.max())}
     return replace(
         operator,
-        hat_gradients=operator.hat_gradients * np.sqrt(on_faces)[:, None, None],
+        hats=operator.hat_gradients * np.sqrt(on_faces)[:, None, None],
         averaged_gradient=None,
         name=name,
         metrics={**operator.metrics, **metrics},

@@ -12,7 +12,7 @@ from surfexp.skeleton.skeleton import arc_components
 
 
 def printed_loops(mesh: TriangleMesh, values: Floats, levels: Floats) -> int:
-    """Independent loops of the graph by the printed rule.
+    """Independent loops of the graph by the published rule.
 
     A contour of one level and a contour of the next are joined if they bound one component of the slab between. A slab in
     which p contours become q gives p q arcs, so a saddle of two and two makes a loop; and a handle that closes below the first

@@ -1,4 +1,4 @@
-"""How long is an elongated surface? Four estimators, because the printed polyline falls short at its ends."""
+"""How long is an elongated surface? Four estimators, because the published polyline falls short at its ends."""
 
 from __future__ import annotations
 

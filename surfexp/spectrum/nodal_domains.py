@@ -13,7 +13,7 @@ BRIDGE, HIGHEST_BRIDGE, PEAK = 0.5, 0.25, 2.0
 
 
 def nodal_counts(graph: NodalGraph, vectors: Floats) -> Integers:
-    """Return the nodal number of each column as printed (definition 4.3.1, section 4.3): pieces of nodes of one sign.
+    """Return the nodal number of each column as published (definition 4.3.1, section 4.3): pieces of nodes of one sign.
 
     Nodes at exactly 0 (a Dirichlet boundary) belong to no piece. These raw counts are unreliable near crossings of nodal
     lines and where Dirichlet functions are tiny; see `filtered_nodal_counts`.

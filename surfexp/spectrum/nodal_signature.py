@@ -1,4 +1,4 @@
-"""Nodal count sequences of a spectrum: printed, filtered, soft, or averaged over the bases of its clusters."""
+"""Nodal count sequences of a spectrum: published, filtered, soft, or averaged over the bases of its clusters."""
 
 from __future__ import annotations
 

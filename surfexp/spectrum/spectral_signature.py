@@ -33,7 +33,7 @@ def spectral_signature(
     -------
     Signature
         The spectrum times the area. Parts: "shape_dna_raw", "shape_dna_reweighted" (over n), "nodal_counts" (filtered),
-        "nodal_raw" (printed), "nodal_soft", "combined", "heat_trace", "hks", "wks", "gps", "area".
+        "nodal_raw" (published), "nodal_soft", "combined", "heat_trace", "hks", "wks", "gps", "area".
     """
     pieces = surface.mesh.component_count
     system = surface_spectrum(surface, operator, count + pieces, order=order, seed=seed)

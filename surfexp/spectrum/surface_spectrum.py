@@ -10,7 +10,14 @@ from surfexp.arrays import Floats, Integers
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
 from surfexp.operators.elements_patches import patch_positions
-from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements, assemble_elements, surface_elements
+from surfexp.operators.elements_surface import (
+    Boundary,
+    Mass,
+    SurfaceElements,
+    assemble_elements,
+    pencil_of,
+    surface_elements,
+)
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -35,7 +42,7 @@ def elements_of(
     ----------
     surface : Surface
     operator : SurfaceOperator
-        Its triangles may be intrinsic; then order 1 only.
+        Its triangles may be intrinsic; then order 1 only. So with a pair of matrices, which is taken as it is.
     order : 1, 2 or 3
     curved : bool
         Put the new nodes of order 2 and 3 on the smooth shape of the surface, where it has one.
@@ -49,6 +56,12 @@ def elements_of(
     """
     if curved and patches:
         raise ValueError("curved and patches are two ways to place the same nodes: choose one")
+    if operator.matrices is not None:
+        if order > 1:
+            raise ValueError(
+                f"elements of order {order} of operator {operator.name!r}, a pair of matrices: choose order 1"
+            )
+        return pencil_of(number_nodes(operator.faces, operator.vertex_count, 1), *operator.matrices, mass, boundary)
     if curved:
         if surface.shape is None:
             raise ValueError(

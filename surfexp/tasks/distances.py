@@ -12,6 +12,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, eigenvalue_blocks
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
+from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -96,6 +97,16 @@ class ModeAlignment:
     optimal: bool
     vectors: Floats
     notes: tuple[str, ...] = ()
+
+    def _repr_html_(self) -> str:
+        facts = {
+            "single modes": sum(first == last for first, last in self.blocks),
+            "blocks of several": sum(first < last for first, last in self.blocks),
+            "spectral distance": self.value,
+            "lower bound": self.lower_bound,
+            "signs proved best": self.optimal,
+        }
+        return html_table(f"{len(self.basis)} aligned modes", facts, self.notes)
 
 
 def align(

@@ -15,6 +15,7 @@ from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.arrays import Floats
+from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -70,6 +71,15 @@ class Fingerprints:
         rows["complete"] = [int(self.complete[name]) for name in self.columns]
         rows["repairs"] = [len(self.repairs.get(name, ())) for name in self.columns]
         return rows
+
+    def _repr_html_(self) -> str:
+        facts = {
+            "complete": sum(self.complete.values()),
+            "largest residual": max(self.residuals.values(), default=None),
+            "repaired": len(self.repairs),
+            "left out": len(self.refused),
+        }
+        return html_table(f"fingerprints of {len(self.columns)} structures", facts, self.notes)
 
     def save(self, path: PathLike) -> None:
         """Write one CSV: a column a structure, rows as in BrainPrint, then those of the proof.

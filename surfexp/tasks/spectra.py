@@ -90,6 +90,7 @@ def eigsh(
     Minv: Any = None,
     OPinv: Any = None,
     mode: str = "normal",
+    rng: Any = None,
 ) -> Floats | tuple[Floats, Floats]:
     """Find the k lowest eigenpairs of A x = lambda M x, called as `scipy.sparse.linalg.eigsh` is, complete by inertia.
 
@@ -107,7 +108,7 @@ def eigsh(
     tol : float
         Largest relative residual; 0 means 1e-8.
     return_eigenvectors : bool
-    v0, ncv, maxiter, Minv, OPinv, mode
+    v0, ncv, maxiter, Minv, OPinv, mode, rng
         Accepted and not needed.
 
     Returns

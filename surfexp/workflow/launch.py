@@ -12,16 +12,17 @@ from typing import Any
 
 from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
+from hydra.core.object_type import ObjectType
 from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.utils import JobReturn, JobStatus
 from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
-from surfexp.own_data import without_foreign_words
+from surfexp.own_data import with_collections, without_foreign_words
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
-from surfexp.workflow.errors import UserError
+from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
@@ -45,9 +46,9 @@ class PlanLauncher(Launcher):
         file_digest.cache_clear()  # a file may have been replaced since the last batch
         batch, counts = [], []
         for overrides in job_overrides:
-            stages, rest = split_overrides(overrides, self.loader.repository)
+            stages, collections, rest = split_overrides(overrides, self.loader.repository)
             composed = _plain(self.loader.load_sweep_config(self.config, rest))
-            leaves = expand(without_foreign_words(composed, overrides), stages)
+            leaves = _leaves(composed, overrides, stages, collections)
             batch += leaves
             counts.append(make_plan(leaves))
         plan = make_plan(batch)
@@ -97,7 +98,9 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     prepare_hydra()
     PlanLauncher.action = staticmethod(action)
     os.environ["HYDRA_FULL_ERROR"] = "1"
-    ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=")
+    ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
+    # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
+    arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
     asks = {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
     sys.argv = ["surfexp run", *([] if asks else ["--multirun"]), *arguments]
@@ -114,30 +117,49 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
         overrides = [f"{key}={value}" for key, value in config.items()]
-        stages, rest = split_overrides(overrides, loader.repository)
+        stages, collections, rest = split_overrides(overrides, loader.repository)
         composed = _plain(compose("config", overrides=rest))
-        plan = make_plan(expand(without_foreign_words(composed, overrides), stages))
+        plan = make_plan(_leaves(composed, overrides, stages, collections))
     return plan.write(Path(plan.settings.results).resolve()), plan
 
 
-def split_overrides(overrides: Sequence[str], repository: Any) -> tuple[dict[str, Any], list[str]]:
+def _leaves(
+    composed: dict[str, Any], overrides: Sequence[str], stages: Mapping[str, Any], collections: Mapping[str, Any]
+) -> list[dict[str, Any]]:
+    composed["axes"] = with_collections(composed.get("axes") or {}, collections)
+    return expand(without_foreign_words(composed, overrides), stages)
+
+
+def split_overrides(
+    overrides: Sequence[str], repository: Any
+) -> tuple[dict[str, Any], dict[str, dict[str, Any]], list[str]]:
     """Part what the command line says of stages, which wins over variants and grids, from the rest, which Hydra composes.
 
     Returns the stage overrides in order, a plugin or preset as its configuration under the kind, an option as its value
-    under the dotted name; and the other overrides as they are.
+    under the dotted name; the collections of `axes=NAME` under "" and of `axes.AXIS=NAME` under AXIS; and the other
+    overrides as they are.
     """
     stages: dict[str, Any] = {}
+    collections: dict[str, dict[str, Any]] = {}
     rest = []
     for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
         key = override.key_or_group
-        if key.partition(".")[0] not in (*KINDS, *SETTABLE):
+        if re.fullmatch(r"axes(\.[^.]+)?", key) and isinstance(override.value(), str):
+            collections[key[5:].strip("_")] = _collection(str(override.value()), repository)
+        elif key.partition(".")[0] not in (*KINDS, *SETTABLE):
             rest.append(text)
         elif "." in key or key in SETTABLE:
             stages[key] = override.value()
         else:
             found = repository.load_config(f"{key}/{override.value()}")
             stages[key] = _plain(found.config) if found else {"name": str(override.value())}
-    return stages, rest
+    return stages, collections, rest
+
+
+def _collection(name: str, repository: Any) -> dict[str, Any]:
+    if found := repository.load_config(f"axes/{name}"):
+        return _plain(found.config)
+    raise unknown("collection", name, repository.get_group_options("axes", ObjectType.CONFIG))
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+from pathlib import Path
 
 import nibabel
 import numpy as np
 import pytest
 
 from surfexp.io.label_files import label_colors, read_labels, write_labels
+from surfexp.io.map_files import read_mask
 from surfexp.io.vtk import write_vtk
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.studies.sulci.sulcal_export import export_sulci, sulcus_names, write_length_table
@@ -94,3 +96,12 @@ def test_lengths_are_written_with_gaps(tmp_path) -> None:
         rows = list(csv.reader(stream))
     assert rows[0] == ["row", "sulcus", "geodesic"]
     assert rows[1] == ["anna, left, sulcus 1", "1", "12.25"] and rows[2][2] == ""
+
+
+def test_a_label_file_without_names_is_a_mask_by_its_numbers(tmp_path: Path) -> None:
+    keys = np.array([0, 1, 1, 0, 1], dtype=np.int32)
+    array = nibabel.gifti.GiftiDataArray(keys, intent="NIFTI_INTENT_LABEL")
+    nibabel.save(nibabel.gifti.GiftiImage(darrays=[array]), tmp_path / "medmask.label.gii")
+    assert read_mask(tmp_path / "medmask.label.gii", 5).tolist() == [False, True, True, False, True]
+    with pytest.raises(ValueError, match="cortex"):
+        read_mask(f"{tmp_path / 'medmask.label.gii'}:cortex", 5)

@@ -241,3 +241,31 @@ def test_point_files(tmp_path: Path) -> None:
     (tmp_path / "b.xyz").write_text("0 0\n")
     with pytest.raises(ValueError, match=r"b\.xyz"):
         read_points(tmp_path / "b.xyz")
+
+
+@pytest.mark.parametrize("order", ["ascii", "binary_little_endian", "binary_big_endian"])
+def test_triangle_strips_of_ply_have_one_orientation(tmp_path: Path, order: str) -> None:
+    rows, columns = 4, 6
+    vertices = np.array([[j, i, 0.0] for i in range(rows) for j in range(columns)], dtype=np.float64)
+    strip: list[int] = []
+    for i in range(rows - 1):
+        # the last row turns a corner by a repeated vertex instead of beginning a new strip
+        joint = [-1] if i < rows - 2 else [strip[-1], i * columns]
+        strip += (joint if strip else []) + [
+            k for j in range(columns) for k in (i * columns + j, (i + 1) * columns + j)
+        ]
+    head = f"ply\nformat {order} 1.0\nelement vertex {len(vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
+    head += "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+    if order == "ascii":
+        lines = [" ".join(map(repr, row)) for row in vertices.tolist()] + [f"{len(strip)} {' '.join(map(str, strip))}"]
+        data = "\n".join(lines).encode()
+    else:
+        kind = "<" if "little" in order else ">"
+        data = vertices.astype(f"{kind}f8").tobytes() + np.array([len(strip), *strip], f"{kind}i4").tobytes()
+    (tmp_path / "strips.ply").write_bytes(head.encode() + data)
+    read_vertices, faces, _ = read_mesh(tmp_path / "strips.ply")
+    assert (read_vertices == vertices).all() and len(faces) == 2 * (rows - 1) * (columns - 1)
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    doubled = np.cross(b - a, c - a)[:, 2]
+    assert (np.abs(doubled) == 1).all() and len(set(np.sign(doubled))) == 1
+    assert np.abs(doubled).sum() / 2 == (rows - 1) * (columns - 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -10,9 +11,17 @@ import pytest
 import surfexp as sx
 from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
+from surfexp.tasks.fingerprints import Fingerprints
 
 SPHERE = sx.shape("icosphere", levels=2)
 Z = SPHERE.mesh.vertices[:, 2]
+BODY = sx.shape("ellipsoid", levels=2)
+
+
+def fingerprints() -> Fingerprints:
+    with tempfile.TemporaryDirectory() as folder:
+        sx.write(f"{folder}/ball.ply", SPHERE)
+        return sx.fingerprint(folder, count=4)
 
 
 @pytest.mark.parametrize(
@@ -21,6 +30,8 @@ Z = SPHERE.mesh.vertices[:, 2]
         (lambda: Surface(SPHERE.mesh, "a <b> & c", "mm", scalars={"<z>": Z}), ["a <b> & c", "162", "<z>", "mm²"]),
         (lambda: sx.eigenpairs(SPHERE, 4), ["4 eigenpairs", "complete", "yes", "largest residual"]),
         (lambda: sx.denoise(SPHERE, Z, noise=0.1), ["map after rof", "relative gap", "known values"]),
+        (lambda: sx.align(BODY, BODY, 4), ["4 aligned modes", "single modes", "signs proved best", "yes"]),
+        (fingerprints, ["fingerprints of 1 structures", "largest residual", "left out"]),
         (lambda: sx.segment(SPHERE, Z), ["two regions", "vertices brighter", "labelling gap"]),
     ],
 )

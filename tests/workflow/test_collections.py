@@ -103,7 +103,7 @@ def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
         row = next(line for line in said.splitlines() if "surface" in line)
         assert row.split("│")[2].strip() == str(count), said
     unknown = subprocess.run([*command, "axes=min"], capture_output=True, text=True)
-    assert unknown.returncode == 2 and "articulated mine" in unknown.stderr
+    assert unknown.returncode == 2 and "'min'; did you mean 'mine'?" in unknown.stderr
 
 
 def test_people_by_a_regular_expression(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -235,11 +235,9 @@ def test_help_and_catalogue(laboratory: Path) -> None:
     assert "chain" in surfexp("list", "experiment").stdout
 
 
-def test_a_new_plugin_is_listed_and_its_test_passes(laboratory: Path) -> None:
+def test_a_new_plugin_is_listed(laboratory: Path) -> None:
     surfexp("new", "solver", "my_method")
     assert "my_method" in surfexp("list", "solver").stdout
-    done = subprocess.run([sys.executable, "-m", "pytest", "-q", "tests"], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
     assert "exists" in surfexp("new", "solver", "my_method", code=2).stderr
 
 

@@ -10,8 +10,9 @@ import yaml
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.own_data import CLAIMS_LEFT_OUT, without_foreign_words
+from surfexp.own_data import CLAIMS_LEFT_OUT, with_collections, without_foreign_words
 from surfexp.report.page import write_report
+from surfexp.workflow.errors import UserError
 from surfexp.workflow.launch import launch
 from surfexp.workflow.plan import Plan
 
@@ -70,3 +71,44 @@ def test_blobs_through_an_experiment_on_animals_show_nothing_of_animals(blobs: P
     assert len(plans[0].leaves) == 11 and "tosca_classification, other data" in page
     for foreign in ("figure 4.8", "Animals", ">reproduced<", "centaur", "Lioness", "several poses", 'class="claims"'):
         assert foreign not in page, foreign
+
+
+OWN = {"shapes": {"mine": {"surface": "file"}}}
+BALL = {"ball": {"surface": "icosphere"}}
+
+
+def test_a_collection_of_ones_own_replaces_the_one_collection_of_surfaces() -> None:
+    noise = {"low": {"image.noise": 1}}
+    assert with_collections({"people": BALL, "noise": noise}, {"": OWN}) == {"people": OWN["shapes"], "noise": noise}
+    assert with_collections({"people": BALL, "shapes": BALL}, {"": OWN}) == {"people": BALL, **OWN}
+    several = {"people": BALL, "gyri": BALL}
+    assert with_collections(several, {"gyri": OWN}) == {"people": BALL, "gyri": OWN["shapes"]}
+    assert with_collections(several, {}) == several
+
+
+@pytest.mark.parametrize(
+    ("axes", "given", "words"),
+    [
+        (
+            {"people": BALL, "gyri": BALL},
+            {"": OWN},
+            r"2 collections of surfaces, choose axes\.people=NAME, axes\.gyri=NAME",
+        ),
+        ({"noise": {"low": {}}}, {"": OWN}, "compares no collection of surfaces"),
+        ({"people": BALL}, {"peopel": OWN}, "people"),
+    ],
+)
+def test_it_is_said_which_collection_can_be_replaced(axes: dict, given: dict, words: str) -> None:
+    with pytest.raises(UserError, match=words):
+        with_collections(axes, given)
+
+
+def test_every_experiment_with_collections_takes_ones_own(blobs: Path) -> None:
+    plans: list[Plan] = []
+    launch(["experiment=spectral_mds", "axes.shapes=blobs", "axes.structures=blobs"], plans.append)
+    launch(["experiment=callosum_group", "axes=blobs"], plans.append)
+    for plan in plans:
+        surfaces = [node for node in plan.nodes.values() if node.kind == "surface" and node.plugin == "file"]
+        assert len(surfaces) == 6  # of the eight files two pairs hold the same bytes
+    with pytest.raises(UserError, match=r"unknown collection 'blob'; did you mean 'blobs'"):
+        launch(["experiment=callosum_group", "axes=blob"], plans.append)

@@ -1,4 +1,4 @@
-"""Surfaces on which the printed spectral distance fails to be a metric."""
+"""Surfaces on which the published spectral distance fails to be a metric."""
 
 from __future__ import annotations
 

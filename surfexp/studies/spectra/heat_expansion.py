@@ -1,4 +1,4 @@
-"""The heat trace of a computed spectrum beside its expansions, printed and right."""
+"""The heat trace of a computed spectrum beside its expansions, published and right."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SMALL_TIMES = (12.0, 48.0)
 
 
 def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
-    """Compare Z(t) with theorem 3.1.2 as printed and as it should read, and hear the geometry.
+    """Compare Z(t) with theorem 3.1.2 as published and as it should read, and hear the geometry.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
 
 
 def printed_expansion(times: Floats, area: float, boundary_length: float, euler_characteristic: int) -> Floats:
-    """Return (4 pi t)^-1 (c_0 + c_1 sqrt t + c_2 t), (3.9), with the printed (3.10).
+    """Return (4 pi t)^-1 (c_0 + c_1 sqrt t + c_2 t), (3.9), with the published (3.10).
 
     c_0 = A; c_1 = -(sqrt pi / 2) L whatever the condition on the boundary; c_2 = 2 chi / 3, which lacks a factor pi.
     """

@@ -105,7 +105,7 @@ def names_by_distance(
     template_areas: Floats,
     template_points: Floats,
 ) -> Integers:
-    """Return for each region the template region of least spectral pre-distance (6.7), the rule printed in 6.4.2.
+    """Return for each region the template region of least spectral pre-distance (6.7), the rule published in 6.4.2.
 
     Parameters
     ----------

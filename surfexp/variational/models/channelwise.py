@@ -1,4 +1,4 @@
-"""Channels denoised one by one, as printed for coordinates and colours; the result depends on the axes."""
+"""Channels denoised one by one, as published for coordinates and colours; the result depends on the axes."""
 
 from __future__ import annotations
 

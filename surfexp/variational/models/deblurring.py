@@ -25,7 +25,7 @@ class Deblurring:
     w : float
         mu sigma h, as in `ROF`.
     mu : float, optional
-        The printed weight, in place of w.
+        The published weight, in place of w.
     """
 
     width: float = 2.0

@@ -24,7 +24,7 @@ class Inpainting:
     w : float
         mu sigma h, as in `ROF`.
     mu : float, optional
-        The printed weight, in place of w; needed where the image has no noise.
+        The published weight, in place of w; needed where the image has no noise.
     """
 
     w: float = 0.9

@@ -23,9 +23,9 @@ class ROF:
         Weight without unit, w = mu sigma h with the noise sigma of the image and the edge length h; the error is least
         near 1, the residual is as large as the noise near 0.55.
     mu : float, optional
-        The printed weight, in 1 / (unit of the image * unit of length), in place of w.
+        The published weight, in 1 / (unit of the image * unit of length), in place of w.
     by_channel : bool
-        Denoise the channels one by one, as printed, in place of the rotation-invariant |D phi|_F.
+        Denoise the channels one by one, as published, in place of the rotation-invariant |D phi|_F.
     """
 
     w: float = 0.9

@@ -1,4 +1,4 @@
-"""Primal-dual steps with the printed pair of (1.26), (1.27) in place of a gradient and its adjoint."""
+"""Primal-dual steps with the published pair of (1.26), (1.27) in place of a gradient and its adjoint."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from surfexp.variational.solution import Solution
 def averaged_primal_dual(
     fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None, tau: float, limit: int
 ) -> Iterator[tuple[int, Floats]]:
-    """Yield (iteration, values) of the method of Chambolle and Pock with W and its printed divergence.
+    """Yield (iteration, values) of the method of Chambolle and Pock with W and its published divergence.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def averaged_primal_dual(
 
 
 def require_scalar(fidelity: Fidelity, operator: SurfaceOperator) -> None:
-    """Refuse several channels: the printed gradient has none.
+    """Refuse several channels: the published gradient has none.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Chambolle's dual iterations as printed: (2.26) for ROF, (2.29)-(2.32) for convex Chan-Vese."""
+"""Chambolle's dual iterations as published: (2.26) for ROF, (2.29)-(2.32) for convex Chan-Vese."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def published_chambolle(
     inner_steps: int = 10,
     progress: Progress | None = None,
 ) -> Solution:
-    """Run the printed dual iteration with one step tau everywhere.
+    """Run the published dual iteration with one step tau everywhere.
 
     Convex Chan-Vese is relaxed to min TV(phi) + theta/2 |phi - v|^2 + mu int v r with 0 <= v <= 1 and alternates between
     phi, by `inner_steps` of (2.32), and v; v is returned. It is biased unless theta is much larger than |mu r|.
@@ -43,7 +43,7 @@ def published_chambolle(
         ROF or a convex Chan-Vese step.
     operator : SurfaceOperator
     start : Solution, optional
-        Only its values are used: V = 0 as printed.
+        Only its values are used: V = 0 as published.
     tolerance : float
         Bound of the relative gap, or of the relative change where the operator is not consistent.
     iteration_limit : int
@@ -79,7 +79,7 @@ def published_chambolle(
 
 
 class _DualField:
-    """The field p = -V and its load, m div V, advanced by the printed step."""
+    """The field p = -V and its load, m div V, advanced by the published step."""
 
     def __init__(self, operator: SurfaceOperator, tau: float):
         self.pair, self.tau = VectorPair(operator), tau

@@ -1,4 +1,4 @@
-"""Split Bregman iterations as printed: (2.18) and (2.21), with (2.34)-(2.40) for the linear systems."""
+"""Split Bregman iterations as published: (2.18) and (2.21), with (2.34)-(2.40) for the linear systems."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def published_split_bregman(
     laplacian: Laplacian = "fem",
     progress: Progress | None = None,
 ) -> Solution:
-    """Run the printed iteration; where the operator is vertex-averaged, with W and FEM matrices mixed as printed.
+    """Run the published iteration; where the operator is vertex-averaged, with W and FEM matrices mixed as published.
 
     ROF solves (mu B + lambda Q) phi = B (mu I + lambda div(b - V)). Convex Chan-Vese solves the singular system
     Q phi = -B (mu r / lambda + div(V - b)) and clamps phi to [0, 1] afterwards, which is not the constrained minimiser.
@@ -52,7 +52,7 @@ def published_split_bregman(
         ROF or a convex Chan-Vese step.
     operator : SurfaceOperator
     start : Solution, optional
-        Only its values are used: V = b = 0 as printed.
+        Only its values are used: V = b = 0 as published.
     tolerance : float
         Bound of the relative gap, or of the relative change where the operator is not consistent.
     iteration_limit : int
@@ -60,7 +60,7 @@ def published_split_bregman(
         lambda, on which the result of the inconsistent pair depends. Default: 0.1 mu h^2 for ROF, 0.2 h^2 mean|mu r| for
         Chan-Vese, where that result was seen to be best.
     inner : {"gauss_seidel", "cg", "direct"}
-        How the linear system is solved; the printed result depends on it.
+        How the linear system is solved; the published result depends on it.
     sweeps : int
         Gauss-Seidel sweeps, or conjugate gradient iterations, an iteration.
     laplacian : {"fem", "(1.19)"}

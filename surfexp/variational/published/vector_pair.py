@@ -1,4 +1,4 @@
-"""The gradient and divergence that a scheme uses: the face-based adjoint pair, or the printed one."""
+"""The gradient and divergence that a scheme uses: the face-based adjoint pair, or the published one."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def chambolle_dual(
 ) -> Solution:
     """Minimise TV + H, H strongly convex, by the semi-implicit dual iteration.
 
-    With a vertex-averaged operator the printed iteration runs instead (`published_chambolle`).
+    With a vertex-averaged operator the published iteration runs instead (`published_chambolle`).
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ def split_bregman(
 
     A quadratic H enters the linear system of (2.18), solved with lumped mass. Any other H is split off as well,
     psi = phi, and enters by its proximal map; so a box is kept exactly, and psi is returned. With a vertex-averaged operator
-    the printed iteration runs instead (`published_split_bregman`), its system solved directly for ROF and by one
+    the published iteration runs instead (`published_split_bregman`), its system solved directly for ROF and by one
     Gauss-Seidel sweep for Chan-Vese.
 
     Parameters

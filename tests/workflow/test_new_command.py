@@ -1,0 +1,55 @@
+"""What `surfexp new` writes works at once: its tests pass, and it is as the formatter would have it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from surfexp.commands.new import command
+from surfexp.workflow.errors import UserError
+from surfexp.workflow.kinds import KINDS
+
+OWN = sorted(name for name, kind in KINDS.items() if kind.path.startswith("surfexp."))
+
+
+def called(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", *arguments], capture_output=True, text=True)
+
+
+@pytest.mark.parametrize("name", ["prox", "a_method_of_a_rather_long_name"])
+def test_whatever_is_new_is_formatted(working_folder: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for kind in [*OWN, "kind"]:
+        assert command("new", [kind, name]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 2 * (len(OWN) + 1)
+    for length in ("88", "120"):
+        done = called("ruff", "format", "--isolated", "--check", "--diff", "--line-length", length, "plugins", "tests")
+        assert done.returncode == 0, done.stderr + done.stdout
+    lint = called("ruff", "check", "--isolated", "--line-length", "120", "--select", "E,F,W,B,UP,C4,SIM", ".")
+    assert lint.returncode == 0, lint.stdout
+
+
+@pytest.mark.xdist_group("end_to_end")
+def test_the_tests_of_a_new_solver_and_a_new_kind_pass(working_folder: Path) -> None:
+    command("new", ["solver", "my_method"])
+    command("new", ["kind", "thickness"])
+    done = called("pytest", "-q", "tests")
+    assert done.returncode == 0, done.stdout
+    assert "3 passed" in done.stdout
+    # a solver that is wrong fails its test: the dual field leaves the unit ball
+    plugin = Path("plugins/solver/my_method.py")
+    text = plugin.read_text()
+    assert "np.maximum(1.0, " in text
+    plugin.write_text(text.replace("np.maximum(1.0, ", "np.maximum(1.5, "))
+    assert "failed" in called("pytest", "-q", "tests/test_solver_my_method.py").stdout
+
+
+def test_names_that_are_taken_are_refused(working_folder: Path) -> None:
+    with pytest.raises(UserError, match=r"^stage kind 'solver' exists: surfexp\.variational"):
+        command("new", ["kind", "solver"])
+    with pytest.raises(UserError, match=r"^solver/newton exists"):
+        command("new", ["solver", "newton"])
+    with pytest.raises(UserError, match="did you mean 'kind'"):
+        command("new", ["kinds", "x"])
