@@ -156,6 +156,9 @@ def test_analytic_embeddings_agree_with_each_other_and_with_elements() -> None:
     for embedding in (sphere, round_one, torus_embedding(1.3, 24)):
         gram = (embedding.points * embedding.weights[:, None]).T @ embedding.points
         assert gram * np.sqrt(np.outer(embedding.values, embedding.values)) == pytest.approx(np.eye(24), abs=0.02)
+    # a mirror at the equator turns the order of the points around
+    flat = spheroid_embedding(0.7, 5).weights
+    assert flat == pytest.approx(flat[::-1], rel=1e-12)
     assert torus_embedding(1.0, 4).values == pytest.approx(4.0 * np.pi**2)
     from surfexp.mesh.shapes.ellipsoid import ellipsoid
 

@@ -277,6 +277,9 @@ def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(len
     assert measured({**lengths, "none": nothing})[1] == (
         "none is left out: 0 complete pairs of sulcus 1, at least 3 are needed.",
     )
+    shorter = {side: 0.8 * values for side, values in lengths["true"].items()}
+    lines = {"own region, printed line": shorter, "own region, line with ends": lengths["true"]}
+    assert asymmetry_study(lines)[2]["printed share of line"] == pytest.approx(0.8)
     with pytest.raises(ValueError, match="take at least 3 subjects with both sides"):
         power_study({"none": nothing}, [5])
     two = {side: rows[:2] for side, rows in lengths["true"].items()}

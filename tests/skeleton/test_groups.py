@@ -95,7 +95,9 @@ def test_a_y_has_three_leaves_and_bending_changes_no_graph():
     poses = [eigenmap_skeleton(strip(bend=bend, jag=0.2).mesh, count=30)[0] for bend in (0.0, 1.0)]
     assert same_graph(*poses)
     assert np.abs(poses[0].lengths - poses[1].lengths).max() < 0.02 * poses[0].lengths.max()
-    assert topology_metrics(dict(zip("ab", poses, strict=True)))["chains"] == 1
+    alike = topology_metrics(dict(zip("ab", poses, strict=True)))
+    assert alike["chains"] == alike["topologies"] == 1 and alike["members"] == alike["leaves"] == 2
+    assert alike["branch_nodes"] == alike["loops"] == 0
     assert np.array_equal(np.diff(poses[0].values[chain_order(poses[0])]) > 0, np.ones(31, dtype=bool))
 
 

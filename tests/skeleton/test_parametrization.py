@@ -89,10 +89,14 @@ def test_the_region_found_is_told_in_u_and_v():
     u, v = np.linspace(0, 1, 5), np.linspace(0, 1, 3)
     statistic, corrected = np.zeros((5, 3)), np.ones((5, 3))
     statistic[3, 1:] = -5.0
-    corrected[3, 1:] = 0.01
+    # a p equal to the level is one that is found
+    corrected[3, 1:] = 0.05
+    uncorrected = corrected.copy()
+    uncorrected[0, 0] = 0.05
     empty = np.zeros((0, 5, 3))
-    test = PointwiseTest(statistic.ravel(), corrected.ravel(), corrected.ravel())
+    test = PointwiseTest(statistic.ravel(), uncorrected.ravel(), corrected.ravel())
     region = region_found(GridComparison(u, v, empty, empty, test, 0))
+    assert (region["points"], region["points_uncorrected"], region["smallest_corrected_p"]) == (15.0, 3.0, 0.05)
     assert (region["points_found"], region["centre_u"], region["centre_v"]) == (2.0, 0.75, 0.75)
     assert (region["from_v"], region["to_v"], region["from_u"]) == (0.5, 1.0, 0.75)
     nothing = PointwiseTest(statistic.ravel(), np.ones(15), np.ones(15))
