@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 from pydantic import Field
 
 from surfexp.io.map_files import read_scalars
@@ -22,9 +23,17 @@ class File(Options):
 
 @register("image", "file")
 def file_image(options: File, *, surface: Surface) -> Image:
-    """A scalar map of your own, one value a vertex; refused when its length is not the mesh's."""
-    values, count = read_scalars(options.path), len(surface.mesh.vertices)
-    if len(values) != count:
-        raise ValueError(f"image {options.path} has {len(values)} values, the surface has {count} vertices")
+    """A scalar map of your own, one value a vertex of the file's surface; refused when it does not fit."""
+    values, part = read_scalars(options.path), surface.part
+    if part is not None and len(values) == part.whole_count:
+        values = values[part.vertices]
+    if len(values) != len(surface.mesh.vertices):
+        raise ValueError(
+            f"image {options.path} has {len(values)} values, the surface has {len(surface.mesh.vertices)} vertices"
+        )
+    if unknown := int(np.isnan(values).sum()):
+        raise ValueError(
+            f"image {options.path} is NaN at {unknown} of {len(values)} vertices: cut them away by surface.finite={options.path}"
+        )
     image = Image(values, options.path.stem, options.unit)
     return add_noise(image, options.noise, options.seed) if options.noise else image  # a map as it came is not clean

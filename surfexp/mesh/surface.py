@@ -12,6 +12,7 @@ from surfexp.arrays import Floats, Integers
 from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
 
@@ -67,6 +68,8 @@ class Surface:
         Where the file said so.
     labels : dict of str to LabelMap
         Parcellations by name.
+    part : SurfacePart, optional
+        What of a larger surface this mesh is, where a mask has cut it out.
 
     Raises
     ------
@@ -86,6 +89,7 @@ class Surface:
     mask: NDArray[np.bool_] | None = None
     hemisphere: str = ""
     labels: dict[str, LabelMap] = field(default_factory=dict)
+    part: SurfacePart | None = None
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),
@@ -111,7 +115,7 @@ class Surface:
 
     def deformed(self, mesh: TriangleMesh) -> Surface:
         """The surface with its vertices moved: of the same connectivity, but of no known shape and midline."""
-        return replace(self, mesh=mesh, shape=None, truth=replace(self.truth, midline=None))
+        return replace(self, mesh=mesh, shape=None, part=None, truth=replace(self.truth, midline=None))
 
     def _repr_html_(self) -> str:
         size = f" {self.unit}²" if self.unit else ""

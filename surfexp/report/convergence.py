@@ -22,32 +22,34 @@ LARGEST_GAP = 1.0
 def unconverged(plan: Plan, results: Path) -> list[str]:
     """Return one line for each row, and for each stage below one, that did not converge or whose gap is over its bound.
 
-    The bound of a metric is the option that its declaration names, as the stage was configured; that of every relative gap is 1
-    besides. A stage that failed is not among them.
+    The bound of a metric is the option that its declaration names, as the stage was configured; it counts where a result does
+    not say itself whether it converged, as a published scheme does whose pair of operators has no gap of its own. The bound of
+    every relative gap is 1 besides. A stage that failed is not among them.
     """
     lines = []
     leaves = {leaf.key for leaf in plan.leaves}
     for group in comparisons(rows_of(plan, results)):
         for row in group.rows:
             node = plan.nodes[row.leaf.key]
-            if reason := _reason(row.metrics, node.options, declared(plan.nodes, node.key)):
+            if why := reason(row.metrics, node.options, declared(plan.nodes, node.key)):
                 shown = ", ".join(str(row.parameters.get(name, "–")) for name in group.varying)
-                lines.append(f"{group.title}: {shown}: {reason}")
+                lines.append(f"{group.title}: {shown}: {why}")
     for node in plan.stored:
         if node.key not in leaves and "converged" in getattr(KINDS[node.kind].result, "METRICS", {}):
             metrics = outcome(results, node).metrics
-            if reason := _reason(metrics, node.options, declared(plan.nodes, node.key)):
-                lines.append(f"{node.kind}/{node.plugin} {node.key}: {reason}")
+            if why := reason(metrics, node.options, declared(plan.nodes, node.key)):
+                lines.append(f"{node.kind}/{node.plugin} {node.key}: {why}")
     return lines
 
 
-def _reason(metrics: Mapping[str, float], options: Mapping[str, Any], meanings: Mapping[str, Metric]) -> str:
+def reason(metrics: Mapping[str, float], options: Mapping[str, Any], meanings: Mapping[str, Metric]) -> str:
+    """Why a result with these metrics is not what was asked for; "" where it is."""
     if metrics.get("converged") == 0.0:
         return "stopped at its iteration limit"
     gap = metrics.get("relative_gap", 0.0)
     if not gap <= LARGEST_GAP:
         return f"its relative gap is {gap:.3g}, over {LARGEST_GAP:g}"
-    for name, metric in meanings.items():
+    for name, metric in meanings.items() if "converged" not in metrics else ():
         bound = options.get(metric.bound) if metric.bound else None
         value = metrics.get(name)
         if bound is not None and value is not None and (math.isnan(value) or value > bound):

@@ -179,15 +179,14 @@ class _Resolver:
         self.visits += KINDS[method.kind].stored
         function, where = method.function.__qualname__, str(method.file)
         code, cache = code_digest(method.file, function), compiled_state(method.file)
-        files = {
-            name: _digest_of(Path(value))
-            for name, value in options.items()
-            if value is not None and "Path" in str(method.options.model_fields[name].annotation)
-        }
+        paths = {name for name, item in method.options.model_fields.items() if "Path" in str(item.annotation)}
+        named = {name: options[name] for name in paths if options.get(name) is not None}
+        files = {name: _digest_of(path) for name, path in _file_options(named).items()}
+        rest = {name: value for name, value in options.items() if name not in named}
         asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
         members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
         inputs = wired | {role: {member.label: key for member, key in keys.items()} for role, keys in asked.items()}
-        key = digest([method.kind, method.name, {**options, **files}, inputs, members, code])
+        key = digest([method.kind, method.name, {**rest, **files}, inputs, members, code])
         node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members, function)
         self.plan.nodes[key] = node
         return key
@@ -201,6 +200,15 @@ def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
         return method.options(**given).model_dump(mode="json")
     except ValidationError as error:
         raise UserError(one_line(where, error)) from None
+
+
+def _file_options(options: Mapping[str, Any]) -> dict[str, Path]:
+    """The files that options name, by option: one, or several by a name of their own ("maps.sulc")."""
+    found: dict[str, Path] = {}
+    for option, value in options.items():
+        several = isinstance(value, Mapping)
+        found |= {f"{option}.{key}": Path(path) for key, path in value.items()} if several else {option: Path(value)}
+    return found
 
 
 def _digest_of(path: Path) -> str:

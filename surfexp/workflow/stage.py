@@ -105,7 +105,8 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
 def _check_files(node: Node) -> None:
     """Refuse input files that are not those of the plan; called before a plugin reads them and when it has."""
     for option, planned in node.files.items():
-        path = Path(node.options[option])
+        name, _, key = option.partition(".")
+        path = Path(node.options[name][key] if key else node.options[name])
         file_digest.cache_clear()
         if not path.exists() or file_digest(path.resolve()) != planned:
             raise RuntimeError(f"{option} {path} was changed after this run was planned; run the same command again")
