@@ -90,6 +90,9 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
     arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
+    known = str(OmegaConf.load(registry.package_folder("surfexp.conf") / "config.yaml").defaults)
+    new = {kind for kind in KINDS if f"'{kind}':" not in known}  # of these Hydra asks for a +
+    arguments = [f"+{text}" if text.partition("=")[0] in new else text for text in arguments]
     if (plan := _plan_without_sweep(arguments)) is not None:
         action(plan)
         return
