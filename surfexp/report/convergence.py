@@ -45,7 +45,7 @@ def unconverged(plan: Plan, results: Path) -> list[str]:
 def reason(metrics: Mapping[str, float], options: Mapping[str, Any], meanings: Mapping[str, Metric]) -> str:
     """Why a result with these metrics is not what was asked for; "" where it is."""
     if metrics.get("converged") == 0.0:
-        return "stopped at its iteration limit"
+        return "did not converge"
     gap = metrics.get("relative_gap", 0.0)
     if not gap <= LARGEST_GAP:
         return f"its relative gap is {gap:.3g}, over {LARGEST_GAP:g}"

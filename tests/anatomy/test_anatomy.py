@@ -125,3 +125,23 @@ def test_a_skin_carried_along_keeps_its_vertices_and_most_lengths() -> None:
     assert np.linalg.norm(posed.vertices - rest.vertices, axis=1).max() > 0.2
     lengths = [np.linalg.norm(np.diff(mesh.vertices[rest.edges], axis=1), axis=2) for mesh in (rest, posed)]
     assert np.median(np.abs(lengths[1] / lengths[0] - 1.0)) < 0.02
+
+
+@pytest.mark.parametrize("body", ["biped", "worm"])
+def test_joints_turn_by_no_more_than_their_freedom_and_bones_keep_their_length(body: str) -> None:
+    freedom, rest = np.radians([bone[8] for bone in BODIES[body]]), posed_bones(body, 0, 0.0)
+    parents = [int(bone[0]) for bone in BODIES[body]]
+    largest = np.zeros(len(parents))
+    for pose in range(1, 30):
+        cones = posed_bones(body, pose, 1.0)
+        lengths = np.linalg.norm(cones[:, 3:6] - cones[:, :3], axis=1)
+        assert lengths == pytest.approx([bone[5] for bone in BODIES[body]])
+        directions = [(part[:, 3:6] - part[:, :3]) / lengths[:, None] for part in (rest, cones)]
+        for k, parent in enumerate(parents):
+            if parent < 0:
+                largest[k] = max(largest[k], np.arccos(np.clip(directions[0][k] @ directions[1][k], -1.0, 1.0)))
+                continue
+            # a joint changes the angle between two bones by no more than it turns
+            angles = [np.arccos(np.clip(part[k] @ part[parent], -1.0, 1.0)) for part in directions]
+            largest[k] = max(largest[k], abs(angles[1] - angles[0]))
+    assert (largest <= freedom + 1e-9).all() and (largest > 0.3 * freedom).any()

@@ -72,6 +72,11 @@ def test_the_orthogonal_map_takes_source_to_target() -> None:
     target = source[truth] @ turn.T
     assert orthogonal_map(source, target, rng.uniform(1.0, 2.0, 60), truth) == pytest.approx(turn, abs=1e-12)
     assert (vertex_map(turn, source, target) == truth).all()
+    # a pair that does not fit hardly counts where its area is tiny
+    target[7] += 50.0
+    areas = np.where(np.arange(60) == 7, 1e-9, 1.0)
+    assert orthogonal_map(source, target, areas, truth) == pytest.approx(turn, abs=1e-6)
+    assert np.abs(orthogonal_map(source, target, 1.0 / areas, truth) - turn).max() > 0.1
 
 
 def test_refinement_with_a_field_is_one_round_of_the_same_formula() -> None:

@@ -180,3 +180,17 @@ def test_a_map_from_wrong_signs_is_replaced(pair: Pair) -> None:
     assert (found.basis == best.basis).all() and "the map is that of the others" in found.notes[-1]
     assert (found.correspondence == best.correspondence).mean() > 0.99
     assert found.target_points == pytest.approx(best.target_points)
+
+
+def test_the_start_of_zoomout_takes_no_more_samples_than_zoomout(pair: Pair, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: list[int] = []
+    optimal = Pair.optimal
+
+    def recorded(self: Pair, n: int, samples: int, seed: int):
+        taken.append(samples)
+        return optimal(self, n, samples, seed)
+
+    monkeypatch.setattr(Pair, "optimal", recorded)
+    for samples in (150, 4000):
+        zoomout_map(pair, 4, 8, samples=samples)
+    assert taken == [150, 1500]

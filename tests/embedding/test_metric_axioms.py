@@ -104,6 +104,9 @@ def test_gaps_by_hand() -> None:
 def test_groups_of_bases() -> None:
     group = block_group(((0, 1), (1, 3)), angles=6)
     assert len(group) == 2 * 12
+    # closed under products: six turns of the plane, each with a reflection
+    products = np.array([first @ second for first in group for second in group])
+    assert cdist(products.reshape(-1, 9), np.reshape(group, (-1, 9))).min(axis=1).max() < 1e-12
     for matrix in group:
         assert matrix @ matrix.T == pytest.approx(np.eye(3), abs=1e-12)
         assert np.abs(matrix[0, 1:]).max() == 0.0

@@ -13,12 +13,19 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.statistics.paired_tests import paired_tests, power_by_subjects, rate_in_halves
+from surfexp.studies.sulci import population
 from surfexp.studies.sulci.asymmetry import asymmetry_study, measured, power_study
 from surfexp.studies.sulci.fresh_populations import fresh_study, fresh_tests
 from surfexp.studies.sulci.length_table import chosen, length_columns, table_of
 from surfexp.studies.sulci.population import random_displacement, stretch, synthetic_subject
 from surfexp.studies.sulci.population_study import measure_population, name_regions
-from surfexp.studies.sulci.sulcal_lengths import carried_ends, closed_region, geodesic_length, region_ends
+from surfexp.studies.sulci.sulcal_lengths import (
+    carried_ends,
+    carried_vertex,
+    closed_region,
+    geodesic_length,
+    region_ends,
+)
 from surfexp.studies.sulci.sulcal_lines import sulcal_line
 from surfexp.studies.sulci.sulcal_measurement import measure_sulci
 from surfexp.studies.sulci.sulcal_regions import (
@@ -159,6 +166,8 @@ def test_a_strip_has_its_length() -> None:
     assert geodesic_length(mesh, start, end) == pytest.approx(1.6, rel=0.06)
     assert geodesic_length(mesh, start, start) == 0.0
     assert carried_ends(mesh, np.arange(len(mesh.vertices)), (start, end)) == (start, end)
+    places = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, -3.0], [0.4, 0.0, 0.0]])
+    assert carried_vertex(places, np.zeros(3)) == 2
     line = sulcal_line(mesh, strip)
     assert line.chain
     assert line.lengths["line with ends"] == pytest.approx(1.6, rel=0.03)
@@ -358,3 +367,19 @@ def test_power_grows_with_the_subjects() -> None:
     rng = np.random.default_rng(5)
     power = power_by_subjects(rng.normal(0.6, 1.0, 200), [5, 20, 80], 300)
     assert power[0] < power[1] < power[2] and power[2] > 0.95
+
+
+def test_both_sides_share_half_of_the_square_of_the_strain(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: dict[str, list[tuple[float, int]]] = {"left": [], "right": []}
+    template = Surface(icosphere(2).mesh, "ball")
+    for side, calls in drawn.items():
+
+        def displaced(points: np.ndarray, strain: float, wavelength: float, seed: int, into=calls) -> np.ndarray:
+            into.append((strain, seed))
+            return np.zeros_like(points)
+
+        monkeypatch.setattr(population, "random_displacement", displaced)
+        synthetic_subject(template, 4, side, 0.06, remeshed=False)
+    assert sum(strain**2 for strain, _ in drawn["left"]) == pytest.approx(0.06**2)
+    assert drawn["left"][0] == drawn["right"][0] and drawn["left"][0][0] == drawn["left"][1][0]
+    assert len({seed for calls in drawn.values() for _, seed in calls}) == 3

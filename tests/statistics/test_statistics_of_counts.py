@@ -20,6 +20,9 @@ def test_agreement_is_counted() -> None:
     assert found.metrics["first 20 late"] == 1.0 and found.metrics["all late"] == pytest.approx(40 / 60)
     assert 30 < found.metrics["trusted late"] <= 40 and found.metrics["all"] == pytest.approx(100 / 120)
     assert found.metrics["mean_error"] == pytest.approx(20 / 60 / 2)
+    wrong[20:40] += 1.0
+    after = count_agreement(Signature(counts), {"after 20": Signature(wrong)})
+    assert after.metrics["first 20 after 20"] == 1.0 and after.metrics["all"] == pytest.approx(20 / 60)
     with pytest.raises(ValueError, match="at least 1 of 20"):
         count_agreement(Signature(counts[:5]), {"same": Signature(counts)})
 

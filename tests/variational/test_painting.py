@@ -192,3 +192,9 @@ def test_bad_requests_are_named() -> None:
     ]:
         with pytest.raises(ValueError, match=words):
             act()
+
+
+def test_the_frame_of_a_view_is_orthonormal_whatever_the_lengths_of_its_directions() -> None:
+    frame = view_frame((-3.0, 0.0, 0.0), (0.0, 0.0, 0.2))
+    assert frame @ frame.T == pytest.approx(np.eye(3), abs=1e-12) and np.linalg.det(frame) == pytest.approx(1.0)
+    assert frame == pytest.approx(view_frame((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))
