@@ -21,6 +21,7 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "pygeodesic": ("pygeodesic", "lab"),
     "rich": ("rich", "lab"),
     "snakemake": ("snakemake", "lab"),
+    "snakemake_interface_executor_plugins": ("snakemake-interface-executor-plugins", "lab"),
     "statsmodels": ("statsmodels", "lab"),
     "yaml": ("pyyaml", "lab"),
     "abagen": ("abagen", "anatomy"),

@@ -140,7 +140,7 @@ def _name(node: ast.AST) -> str:
 def imported_modules(part: Iterable[ast.stmt], file: Path) -> frozenset[str]:
     """Dotted names of all modules that statements of a file may import, relative ones resolved."""
     names: set[str] = set()
-    package = _dotted(file)
+    package = dotted(file)
     for node in _walk(part):
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
@@ -177,7 +177,8 @@ def _walk(part: Iterable[ast.stmt]) -> Iterator[ast.AST]:
         yield from ast.walk(statement)
 
 
-def _dotted(file: Path) -> list[str]:
+def dotted(file: Path) -> list[str]:
+    """The dotted name of a file's module, in parts."""
     parts, folder = ([] if file.name == "__init__.py" else [file.stem]), file.parent
     while (folder / "__init__.py").exists():
         parts.insert(0, folder.name)

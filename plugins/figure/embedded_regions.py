@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-from matplotlib.colors import hsv_to_rgb
 from pydantic import Field
 
 from surfexp.arrays import Floats
@@ -85,6 +84,8 @@ def _outward(mesh: TriangleMesh) -> TriangleMesh:
 
 def _colors(labels: np.ndarray) -> Floats:
     """Light grey for 0, then colours by turns of the golden angle in hue at three brightnesses."""
+    from matplotlib.colors import hsv_to_rgb
+
     k = labels.astype(float)
     hues = np.stack([(0.618034 * k) % 1.0, 0.6 + 0.25 * (k % 2), 0.95 - 0.2 * (k % 3)], axis=1)
     return np.where((labels > 0)[:, None], np.asarray(hsv_to_rgb(hues)), 0.85)

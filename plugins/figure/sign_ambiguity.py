@@ -3,7 +3,6 @@
 from itertools import product
 
 import numpy as np
-from matplotlib.patches import Ellipse
 from pydantic import Field
 
 from surfexp.embedding.distance import Distance
@@ -36,6 +35,8 @@ def sign_ambiguity_figure(
     options: SignAmbiguity, *, source_surface: Surface, target_surface: Surface, distance: Distance
 ) -> Figure:
     """All 2^n embeddings of the target over the source, with their distances, the least one ringed (figure 6.2)."""
+    from matplotlib.patches import Ellipse
+
     n = min(options.n, distance.source_points.shape[1])
     source = distance.source_points[:, :n]
     target = (distance.target_points @ distance.basis.T)[:, :n]

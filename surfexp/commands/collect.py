@@ -75,7 +75,7 @@ def _files(folder: Path, patterns: Sequence[str]) -> list[Path]:
 
 def _read(files: Sequence[Path], plugin: str) -> tuple[list[Path], dict[Path, str]]:
     """Read each file as a run will; return the good ones, and the others with one line why."""
-    registry.load_all(Path.cwd())
+    registry.open_catalogue(Path.cwd())
     method = registry.plugin("surface", plugin)
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")

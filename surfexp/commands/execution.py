@@ -9,12 +9,13 @@ import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from surfexp.catalogue.plugins import code_state
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
-from surfexp.report.page import write_report
 from surfexp.workers import compiled_code
 from surfexp.workflow import registry, store
 from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.outcome import event_path, read_event
 from surfexp.workflow.plan import Node, Plan, read_plan
 
@@ -126,9 +127,31 @@ def after_snakemake(path: Path) -> None:
 
 
 def finish(path: Path) -> None:
-    """Record a plan's events in MLflow and write its views: report, table, figures."""
+    """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
+    plan, results = read_plan(path), path.parent.parent
+    views, state = results / plan.settings.experiment, _state(path, plan, results)
+    done = results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
+    if (
+        all(file.exists() for file in (done, views / "report.html", results / "mlflow.db"))
+        and done.read_text() == state
+    ):
+        return
+    from surfexp.report.page import write_report  # which draws with matplotlib
     from surfexp.report.tracking import record
 
-    plan, results = read_plan(path), path.parent.parent
+    done.unlink(missing_ok=True)
     folder = write_report(plan, results)
     record(plan, results, folder)
+    store.write_text(done, state)
+
+
+def _state(path: Path, plan: Plan, results: Path) -> str:
+    """Digest of all that reports and records are made from: the plan, what its stages left, and our own code."""
+    files = [file for node in plan.stored for file in _left_by(results, node) if file.exists()]
+    facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
+    return digest([path.read_text(), facts, code_state(Path.cwd())])
+
+
+def _left_by(results: Path, node: Node) -> list[Path]:
+    record = store.result_folder(results, node.kind, node.key) / store.RECORD
+    return [record, event_path(results, node.kind, node.key)]

@@ -11,8 +11,6 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.report.page import write_report
-from surfexp.report.reproduction import reproduction
 from surfexp.report.table import comparisons, format_number, rows_of, short_name
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, unknown
@@ -32,12 +30,16 @@ def command(name: str, arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
     if name == "report" and given.claims:
+        from surfexp.report.reproduction import reproduction
+
         print(reproduction(plans, given.results.resolve()))
         return 0
     for plan in plans.values():
         if name == "table":
             print_tables(plan, given.results, wide_console())
         else:
+            from surfexp.report.page import write_report
+
             print(write_report(plan, given.results.resolve()) / "report.html")
     return 0
 

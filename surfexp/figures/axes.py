@@ -6,9 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullFormatter
-from scipy.optimize import isotonic_regression
 
 from surfexp.arrays import Floats
 from surfexp.figures.typography import points
@@ -59,6 +56,8 @@ def add_axes(figure: Any, title: str, x_label: str, y_label: str) -> Any:
 
 def logarithmic(axes: Any, names: str = "xy") -> None:
     """Logarithmic axes with ticks at powers of ten, or at 1, 2, 5 where less than two decades are seen."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     for name in names:
         axes.set(**{f"{name}scale": "log"})
         axis = getattr(axes, f"{name}axis")
@@ -75,6 +74,8 @@ def label_lines(axes: Any, labels: Sequence[Label]) -> None:
     Labels are moved apart as little as possible (least squares) and joined to their lines by thin leaders. The axes
     become narrower by the width of the longest label.
     """
+    from matplotlib.lines import Line2D
+
     if not labels:
         return
     axes.autoscale_view()
@@ -101,6 +102,8 @@ def spread(positions: Floats, spacing: float, lowest: float = -np.inf, highest: 
 
     They are not below `lowest` nor above `highest`, unless there is no room between the two: then the spacing gives way.
     """
+    from scipy.optimize import isotonic_regression
+
     if len(positions) > 1:
         spacing = min(spacing, (highest - lowest) / (len(positions) - 1))
     order = np.argsort(positions, kind="stable")

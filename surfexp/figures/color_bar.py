@@ -7,9 +7,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
-from matplotlib.ticker import MaxNLocator
 
 from surfexp.arrays import Floats
 from surfexp.figures.colormap import ColorScale
@@ -37,6 +34,10 @@ def values_on(scale: ColorScale, views: Sequence[SurfaceView]) -> Floats:
 
 def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
     """One bar for each scale, in the foot of a panel; an end is pointed where values lie beyond it."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+    from matplotlib.ticker import MaxNLocator
+
     views = [view for row in grid for view in row]
     length = min(
         LONGEST, 0.8 / max(len(scales), 1), 0.85 * min(layout.columns) / layout.width if len(scales) > 1 else 1.0

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-import matplotlib
 import numpy as np
 
 from surfexp.arrays import Floats
@@ -45,6 +44,8 @@ class ColorScale:
     percentiles: tuple[float, float] = (1.0, 99.0)
 
     def __post_init__(self) -> None:
+        import matplotlib
+
         if self.colormap not in matplotlib.colormaps:
             nearest = get_close_matches(self.colormap, list(matplotlib.colormaps), 1, 0.0)[0]
             raise ValueError(f"colour map {self.colormap!r} is unknown to matplotlib, the nearest name is {nearest!r}")
@@ -86,11 +87,15 @@ class ColorScale:
 
     def rgb(self, values: Floats) -> Floats:
         """(..., 3) colours in 0..1; the end colours beyond the limits, grey where values are NaN."""
+        import matplotlib
+
         colormap = matplotlib.colormaps[self.colormap].with_extremes(bad=MISSING)
         return np.asarray(colormap(self.position(values)))[..., :3]
 
     def table(self) -> Floats:
         """(k, 3) all colours of the map from the lower limit to the upper."""
+        import matplotlib
+
         colormap = matplotlib.colormaps[self.colormap]
         return np.asarray(colormap(np.arange(colormap.N)))[:, :3]
 

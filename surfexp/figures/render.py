@@ -6,7 +6,6 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 
 import numpy as np
-from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats
@@ -112,6 +111,8 @@ def draw(scene: SurfaceView, camera: Camera, supersampling: int = 2) -> Pixels:
     ValueError
         If supersampling is not in 1..4.
     """
+    from matplotlib.colors import to_rgb
+
     if not 1 <= supersampling <= 4:
         raise ValueError(f"supersampling is {supersampling}, choose 1 to 4 samples per pixel in each direction")
     mesh, fine = scene.mesh, camera.supersampled(supersampling)

@@ -6,10 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-import matplotlib.style
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure as MatplotlibFigure
 from numpy.typing import NDArray
 
 DOTS_PER_INCH = 100
@@ -48,6 +45,10 @@ def points(pixels: float) -> float:
 @contextmanager
 def canvas(width: int, height: int) -> Iterator[Any]:
     """A matplotlib figure of so many pixels, in the style of all pictures; draw it inside the context."""
+    import matplotlib.style
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure as MatplotlibFigure
+
     with matplotlib.style.context(["default", STYLE]):
         figure = MatplotlibFigure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=DOTS_PER_INCH)
         FigureCanvasAgg(figure)

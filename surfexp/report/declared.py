@@ -14,7 +14,7 @@ from surfexp.report.verdict import equal, selected
 from surfexp.workflow.errors import unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Leaf, Node, Plan
-from surfexp.workflow.registry import PLUGINS, plugin
+from surfexp.workflow.registry import names_of, plugin
 
 SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
 
@@ -64,7 +64,7 @@ def _check_parameters(where: str, wanted: Mapping[str, Any], rows: Sequence[Row]
         whole = not isinstance(value, list) or any(equal(value, other) for other in values)
         for one in [value] if whole else value:
             # another plugin of the name may be what the claim waits for, as data that has to be fetched first
-            elsewhere = name.endswith(".name") and any(known == one for _, known in PLUGINS)
+            elsewhere = name.endswith(".name") and any(one in names_of(kind) for kind in KINDS)
             if not elsewhere and not any(equal(one, other) for other in values):
                 raise unknown(f"value of {name} in {where}", str(one), {str(other) for other in values})
 

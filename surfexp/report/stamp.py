@@ -13,8 +13,9 @@ from pathlib import Path
 
 import yaml
 
+from surfexp.catalogue.source_facts import source_facts
 from surfexp.workflow import registry
-from surfexp.workflow.fingerprint import code_closure, digest, meaning
+from surfexp.workflow.fingerprint import code_closure, digest
 from surfexp.workflow.outcome import event_path, outcome
 from surfexp.workflow.plan import Plan
 
@@ -29,7 +30,7 @@ def state_of_code() -> tuple[str, str]:
     sources = {source for file in plugins for source in code_closure(file)[0]}
     files = sorted(registry.package_folder("surfexp.conf").rglob("*.yaml"))
     experiments = [[file.name, yaml.safe_load(file.read_text(encoding="utf-8"))] for file in files]
-    return digest(sorted(meaning(source) for source in sources)), digest(experiments)
+    return digest(sorted(source_facts(source).meaning for source in sources)), digest(experiments)
 
 
 def stamp(plans: Iterable[Plan], results: Path) -> str:

@@ -16,18 +16,18 @@ def class_distances(matrix: DistanceMatrix, first: str = "", second: str = "") -
     ----------
     matrix : DistanceMatrix
     first, second : str
-        A pair that is looked at.
+        A pair that is looked at, where the collection has both.
 
     Returns
     -------
     Statistic
         Rows are pairs of classes from near to far, column "distance". Metrics: members, nearest, farthest, and where a pair
-        is named relatives (its distance) and relatives_rank (1 is the closest).
+        is named relatives (its distance) and relatives_rank (1 is the closest). A note names a pair that is not there.
 
     Raises
     ------
     ValueError
-        If there are fewer than two classes, or the named pair is unknown.
+        If there are fewer than two classes.
     """
     names, distances = pair_distances(matrix)
     pairs = {(names[a], names[b]): float(distances[a, b]) for a in range(len(names)) for b in range(a + 1, len(names))}
@@ -35,15 +35,18 @@ def class_distances(matrix: DistanceMatrix, first: str = "", second: str = "") -
     ordered = sorted(pairs, key=lambda pair: pairs[pair])
     values = np.array([pairs[pair] / mean for pair in ordered])
     metrics = {"members": float(len(matrix.labels)), "nearest": float(values[0]), "farthest": float(values[-1])}
-    if first or second:
-        wanted = tuple(sorted((first, second)))
-        if wanted not in pairs:
-            raise ValueError(f"classes {first!r}, {second!r} are not both among {', '.join(names)}")
+    wanted = tuple(sorted((first, second)))
+    notes: tuple[str, ...] = ()
+    if wanted in pairs:
         metrics["relatives"] = float(values[ordered.index(wanted)])
         metrics["relatives_rank"] = float(ordered.index(wanted) + 1)
+    elif first or second:
+        notes = (f"The classes {first!r} and {second!r} are not both among {', '.join(names)}: they have no rank.",)
     closest = f"The closest classes are {ordered[0][0]} and {ordered[0][1]}, the farthest {ordered[-1][0]} and {ordered[-1][1]}."
     rows = tuple(f"{a}, {b}" for a, b in ordered)
-    return Statistic(f"distances between classes by {matrix.name}", {"distance": values}, rows, metrics, (closest,))
+    return Statistic(
+        f"distances between classes by {matrix.name}", {"distance": values}, rows, metrics, (closest, *notes)
+    )
 
 
 def pair_distances(matrix: DistanceMatrix) -> tuple[list[str], Floats]:

@@ -14,9 +14,9 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-import platformdirs
+from surfexp.catalogue.user_cache import fault, user_cache
 
-STATES_KEPT = 8
+STATES_KEPT = 50
 _temporary: list[tempfile.TemporaryDirectory[str]] = []
 
 
@@ -35,35 +35,22 @@ def use(results: Path, state: str) -> str:
 def choose(results: Path, state: str) -> tuple[Path, str]:
     """The folder of a state of the code, and in one line why it is not in the user's cache folder ("" when it is)."""
     faults: list[str] = []
-    for parent in (Path(platformdirs.user_cache_dir("surfexp")) / "compiled", results / "cache" / "numba"):
-        if fault := _fault(parent):
-            faults.append(fault)
+    for parent in (user_cache("compiled"), results / "cache" / "numba"):
+        if reason := fault(parent):
+            faults.append(reason)
             continue
         folder = parent / state
         if not folder.exists():
             _forget_oldest(parent)
             folder.mkdir(mode=0o700, exist_ok=True)
+        os.utime(folder)  # the states that nobody uses any more are the first to go
         return folder, f"compiled code is kept in {parent}: {faults[0]}" if faults else ""
     _temporary.append(tempfile.TemporaryDirectory(prefix="surfexp-"))
     return Path(_temporary[-1].name), f"compiled code is not kept: {'; '.join(faults)}"
 
 
-def _fault(folder: Path) -> str:
-    """Why compiled code cannot be kept below a folder, which is made if it can be; "" if it can."""
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        folder.mkdir(mode=0o700, exist_ok=True)
-        facts = folder.stat()
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError as error:
-        return f"{folder} cannot be written ({error.strerror})"
-    if facts.st_uid != os.getuid():
-        return f"{folder} belongs to another user ({facts.st_uid})"
-    return f"{folder} can be written by others (mode {facts.st_mode & 0o777:o})" if facts.st_mode & 0o022 else ""
-
-
 def _forget_oldest(folder: Path) -> None:
-    """Make room for a new state: the code of the latest ones stays."""
+    """Make room for a new state: the code of those that were used last stays."""
     states = sorted((path for path in folder.iterdir() if path.is_dir()), key=lambda path: path.stat().st_mtime)
     for path in states[: max(0, len(states) - STATES_KEPT + 1)]:
         with contextlib.suppress(OSError):

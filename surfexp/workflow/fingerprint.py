@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import importlib.util
 import json
 import sys
@@ -11,9 +10,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from surfexp import source_code
+from surfexp.catalogue.installed import package_version
+from surfexp.catalogue.source_facts import NOTHING, source_facts
+from surfexp.source_code import root_package
 
-distributions = cache(importlib.metadata.packages_distributions)
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
 PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -42,24 +42,29 @@ def code_closure(file: Path, function: str = "") -> tuple[frozenset[Path], froze
     With the name of a function, only what that function needs of the file counts; the file itself is then among the files only
     if all of it counts. The framework is left out (it moves results, it does not make them), and so is the standard library.
     """
-    own = {"surfexp", source_code.root_package(file)}
-    needed = source_code.needed_by(file, function) if function else None
-    files: set[Path] = set()
-    packages: set[str] = set()
-    waiting = [file] if needed is None else _own_files(source_code.imported_modules(needed, file), own, packages)
+    own = frozenset({"surfexp", root_package(file)})
+    facts = source_facts(file, function)
+    start, packages = (frozenset({file}), frozenset[str]()) if facts.whole else _reached(facts.imports, own)
+    files, waiting = set[Path](), set(start)
     while waiting:
         here = waiting.pop()
-        if here not in files:
-            files.add(here)
-            waiting += _own_files(_imported_names(here), own, packages)
-    return frozenset(files), frozenset(packages)
+        files.add(here)
+        reached, outside = _reached_from(here, own)
+        waiting |= reached - files
+        packages |= outside
+    return frozenset(files), packages
 
 
-def _own_files(names: frozenset[str], own: set[str], packages: set[str]) -> list[Path]:
-    """Files of the modules of one's own distributions; the roots of the others are added to `packages`."""
+@cache
+def _reached_from(file: Path, own: frozenset[str]) -> tuple[frozenset[Path], frozenset[str]]:
+    return _reached(source_facts(file).imports, own)
+
+
+def _reached(names: frozenset[str], own: frozenset[str]) -> tuple[frozenset[Path], frozenset[str]]:
+    """Files of the modules of one's own distributions, and the roots of the others outside the standard library."""
     roots = {name: name.split(".")[0] for name in names}
-    packages |= {root for root in roots.values() if root not in own and root not in sys.stdlib_module_names}
-    return [found for name, root in roots.items() if root in own for found in _module_files(name)]
+    files = {found for name, root in roots.items() if root in own for found in _module_files(name)}
+    return frozenset(files), frozenset(roots.values()) - own - sys.stdlib_module_names
 
 
 @cache
@@ -69,11 +74,12 @@ def code_digest(file: Path, function: str = "") -> str:
     Without the name of its function, or where it cannot be told what that needs, the whole file counts.
     """
     files, packages = code_closure(file, function)
-    needed = (source_code.needed_by(file, function) if function else None) or ()
+    needed = source_facts(file, function) if function else NOTHING
     versions = {name: package_version(name) for name in packages}
-    asked = source_code.data_packages(needed).union(*map(_data_packages, files))
+    asked = needed.data_packages.union(*(source_facts(path).data_packages for path in files))
     data = {name: data_digest(name) for name in sorted(asked)}
-    return digest([source_code.meaning(needed), sorted(map(meaning, files)), versions, *([data] if data else [])])
+    meanings = sorted(source_facts(path).meaning for path in files)
+    return digest([needed.meaning, meanings, versions, *([data] if data else [])])
 
 
 @cache
@@ -95,41 +101,9 @@ def edited_since(moment: float, file: Path) -> bool:
 @cache
 def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
     """Name of the compilation cache of a plugin: digest of every module that compiles and of all that it imports."""
-    compiled = [path for path in (*PACKAGE.rglob("*.py"), *code_closure(file)[0]) if _compiles(path)]
-    meanings = sorted({meaning(part) for path in compiled for part in code_closure(path)[0]})
+    compiled = [path for path in (*PACKAGE.rglob("*.py"), *code_closure(file)[0]) if source_facts(path).compiles]
+    meanings = sorted({source_facts(part).meaning for path in compiled for part in code_closure(path)[0]})
     return digest([meanings, package_version("numba"), sys.version_info[:2]])
-
-
-@cache
-def package_version(module: str) -> str:
-    """Version of the distribution that provides a top-level module, "unknown" when there is none."""
-    for name in (module, *distributions().get(module, ())):
-        try:
-            return importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            continue
-    return "unknown"
-
-
-@cache
-def _compiles(path: Path) -> bool:
-    return b"njit" in path.read_bytes()
-
-
-@cache
-def meaning(path: Path) -> str:
-    """Digest of a Python file without comments, layout and docstrings."""
-    return source_code.meaning(source_code.statements(path))
-
-
-@cache
-def _imported_names(file: Path) -> frozenset[str]:
-    return source_code.imported_modules(source_code.statements(file), file)
-
-
-@cache
-def _data_packages(file: Path) -> frozenset[str]:
-    return source_code.data_packages(source_code.statements(file))
 
 
 @cache
@@ -137,6 +111,11 @@ def _module_files(name: str) -> tuple[Path, ...]:
     if name.startswith("surfexp.workflow"):
         return ()
     files, parts = [], name.split(".")
+    # these parts of the package lie elsewhere in a checkout
+    if parts[0] == PACKAGE.name and parts[1:2] not in (["plugins"], ["conf"], ["profiles"]):
+        places = [PACKAGE.joinpath(*parts[1:length]) for length in range(1, len(parts) + 1)]
+        candidates = [file for place in places for file in (place / "__init__.py", place.with_suffix(".py"))]
+        return tuple(file for file in candidates if file.is_file())
     for length in range(1, len(parts) + 1):
         try:
             specification = importlib.util.find_spec(".".join(parts[:length]))

@@ -28,7 +28,6 @@ from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Plan, make_plan
 
-PLAIN = (bool, int, float, str, list, dict, type(None))
 SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
 
 
@@ -44,19 +43,17 @@ class PlanLauncher(Launcher):
     def launch(self, job_overrides: Sequence[Sequence[str]], initial_job_idx: int) -> list[JobReturn]:
         """Expand every job's variants, plan them together, act, and hand the objective back to the sweeper."""
         file_digest.cache_clear()  # a file may have been replaced since the last batch
-        batch, counts = [], []
+        jobs = []
         for overrides in job_overrides:
             stages, collections, rest = split_overrides(overrides, self.loader.repository)
             composed = _plain(self.loader.load_sweep_config(self.config, rest))
-            leaves = _leaves(composed, overrides, stages, collections)
-            batch += leaves
-            counts.append(make_plan(leaves))
-        plan = make_plan(batch)
+            jobs.append(_leaves(composed, overrides, stages, collections))
+        plan = make_plan(leaf for leaves in jobs for leaf in leaves)
         type(self).action(plan)
-        results = Path(plan.settings.results)
+        values = [_objective(make_plan(leaves)) if plan.settings.objective else None for leaves in jobs]
         return [
-            JobReturn(overrides, status=JobStatus.COMPLETED, _return_value=_objective(part, results))
-            for overrides, part in zip(job_overrides, counts, strict=True)
+            JobReturn(overrides, status=JobStatus.COMPLETED, _return_value=value)
+            for overrides, value in zip(job_overrides, values, strict=True)
         ]
 
 
@@ -72,17 +69,12 @@ class ConfigurationFolders(SearchPathPlugin):
 
 
 def prepare_hydra() -> None:
-    """Load all plugins and publish them and their defaults to Hydra; register the launcher and the search path."""
+    """Publish all plugins and their defaults to Hydra; register the launcher and the search path."""
     from hydra.core.plugins import Plugins
 
-    registry.load_all(Path.cwd())
     configurations = ConfigStore.instance()
-    for (kind, name), method in registry.PLUGINS.items():
-        fields = method.options.model_fields
-        defaults = {key: "???" if item.is_required() else item.get_default() for key, item in fields.items()}
-        defaults = {key: list(value) if isinstance(value, tuple) else value for key, value in defaults.items()}
-        plain = {key: value if isinstance(value, PLAIN) else str(value) for key, value in defaults.items()}
-        configurations.store(group=kind, name=name, node={"name": name, **plain}, provider="surfexp")
+    for (kind, name), method in registry.open_catalogue(Path.cwd()).plugins.items():
+        configurations.store(group=kind, name=name, node={"name": name, **method.defaults}, provider="surfexp")
     sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.
     for extension in (PlanLauncher, ConfigurationFolders):
         extension.__module__ = "hydra_plugins.surfexp"
@@ -92,34 +84,54 @@ def prepare_hydra() -> None:
 
 
 def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
-    """Hand the command line to Hydra; its sweeper sends one batch (or several) to `action` as plans."""
-    import hydra
-
+    """Compose what the command line says and act on its plan; a sweep is Hydra's, in one batch or several."""
     prepare_hydra()
-    PlanLauncher.action = staticmethod(action)
-    os.environ["HYDRA_FULL_ERROR"] = "1"
     ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
     # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
     arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
-    asks = {"--help", "-h", "--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
+    known = str(OmegaConf.load(registry.package_folder("surfexp.conf") / "config.yaml").defaults)
+    new = {kind for kind in KINDS if f"'{kind}':" not in known}  # of these Hydra asks for a +
+    arguments = [f"+{text}" if text.partition("=")[0] in new else text for text in arguments]
+    if (plan := _plan_without_sweep(arguments)) is not None:
+        action(plan)
+        return
+    import hydra
+
+    PlanLauncher.action = staticmethod(action)
+    os.environ["HYDRA_FULL_ERROR"] = "1"
+    asks = {"--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
     sys.argv = ["surfexp run", *([] if asks else ["--multirun"]), *arguments]
     folder = str(registry.package_folder("surfexp.conf"))
     hydra.main(version_base="1.3", config_path=folder, config_name="config")(lambda configuration: None)()
 
 
-def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
-    """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
+def _plan_without_sweep(overrides: list[str]) -> Plan | None:
+    """The plan of one job, composed once; None where Hydra is asked for more than that: a sweep, a sweeper, help."""
     from hydra import compose, initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
 
-    prepare_hydra()
+    if any(text.startswith("-") for text in overrides):
+        return None
+    parsed = OverridesParser.create().parse_overrides(overrides)
+    if any(item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed):
+        return None
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
-        overrides = [f"{key}={value}" for key, value in config.items()]
         stages, collections, rest = split_overrides(overrides, loader.repository)
-        composed = _plain(compose("config", overrides=rest))
-        plan = make_plan(_leaves(composed, overrides, stages, collections))
+        composed = compose("config", overrides=rest, return_hydra_config=True)
+    if composed.hydra.sweeper.get("params") or not composed.hydra.sweeper._target_.endswith(".BasicSweeper"):
+        return None
+    composed.hydra = None
+    return make_plan(_leaves(_plain(composed), overrides, stages, collections))
+
+
+def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
+    """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
+    prepare_hydra()
+    plan = _plan_without_sweep([f"{key}={value}" for key, value in config.items()])
+    if plan is None:
+        raise UserError("Snakemake runs one configuration; a sweep is run by surfexp run")
     return plan.write(Path(plan.settings.results).resolve()), plan
 
 
@@ -152,7 +164,9 @@ def split_overrides(
             stages[key] = override.value()
         else:
             found = repository.load_config(f"{key}/{override.value()}")
-            stages[key] = _plain(found.config) if found else {"name": str(override.value())}
+            if found is None:
+                raise registry.unknown_plugin(key, key, str(override.value()))
+            stages[key] = _plain(found.config)
     return stages, collections, rest
 
 
@@ -169,10 +183,9 @@ def _plain(composed: DictConfig) -> dict[str, Any]:
     return {str(key): value for key, value in configuration.items()}
 
 
-def _objective(plan: Plan, results: Path) -> float | None:
-    if (name := plan.settings.objective) is None:
-        return None
-    values = [outcome(results, plan.nodes[leaf.key]).metrics.get(name) for leaf in plan.leaves]
+def _objective(plan: Plan) -> float:
+    name, results = plan.settings.objective, Path(plan.settings.results)
+    values = [outcome(results, plan.nodes[leaf.key]).metrics.get(str(name)) for leaf in plan.leaves]
     numbers = [value for value in values if value is not None]
     if len(numbers) < len(values):
         raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")

@@ -15,7 +15,7 @@ from surfexp.workflow.configuration import Context, Settings, merge, one_line, s
 from surfexp.workflow.errors import UserError, check_known
 from surfexp.workflow.fingerprint import code_digest, compiled_state, digest, file_digest
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.registry import PLUGINS, Plugin, load_file, plugin
+from surfexp.workflow.registry import Plugin, load_file, names_of, plugin
 from surfexp.workflow.store import write_text
 
 Keys = str | list[str] | dict[str, str]
@@ -138,7 +138,7 @@ class _Resolver:
         """Resolve the stage of one kind in a context, its inputs first; return its key."""
         if context.get(kind) is None:
             wanted = f", wanted by {path[-1].split(' ')[0]}" if path else ""
-            names = ", ".join(sorted(name for of, name in PLUGINS if of == kind)) or "none registered"
+            names = ", ".join(sorted(names_of(kind))) or "none registered"
             raise UserError(f"no {kind} is configured{wanted}; choose {kind}= one of: {names}")
         configured = stage(context[kind])
         if not configured.get("name"):

@@ -14,11 +14,14 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict
 
+from surfexp.catalogue.folders import package_folder as package_folder
+from surfexp.catalogue.folders import plugin_files
+from surfexp.catalogue.plugins import Catalogue, catalogue
 from surfexp.member import Member
 from surfexp.metric import Metric
 from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.fingerprint import digest
-from surfexp.workflow.kinds import KINDS, kind_of
+from surfexp.workflow.kinds import KINDS, kind_of, stage_kind
 
 
 class Options(BaseModel):
@@ -56,6 +59,7 @@ class Plugin:
 
 PLUGINS: dict[tuple[str, str], Plugin] = {}
 BROKEN: dict[Path, str] = {}
+_described: dict[tuple[str, str], Path] = {}
 _loaded: set[str] = set()
 
 
@@ -113,12 +117,18 @@ def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type
 
 def plugin(kind: str, name: str) -> Plugin:
     """Look a plugin up; UserError with the nearest name, or with the file that failed to load."""
+    if (kind, name) not in PLUGINS and (kind, name) in _described:
+        load_file(_described[kind, name])
     if (kind, name) not in PLUGINS:
-        names = [known for of, known in PLUGINS if of == kind]
-        error = unknown(f"{kind} plugin", name, names) if kind in KINDS else unknown("stage kind", kind, KINDS)
-        broken = next((message for file, message in BROKEN.items() if file.stem == name), "")
-        raise UserError(f"{error}{f' ({broken})' if broken else ''}")
+        check_known("stage kind", [kind], KINDS)
+        raise unknown_plugin(f"{kind} plugin", kind, name)
     return PLUGINS[kind, name]
+
+
+def unknown_plugin(thing: str, kind: str, name: str) -> UserError:
+    """Say that a plugin does not exist: the nearest name, and the file of that name that failed to load."""
+    broken = next((f" ({message})" for file, message in BROKEN.items() if file.stem == name), "")
+    return UserError(f"{unknown(thing, name, names_of(kind))}{broken}")
 
 
 def load_file(file: Path) -> None:
@@ -137,16 +147,24 @@ def load_file(file: Path) -> None:
         raise
     except SyntaxError as error:
         raise UserError(f"plugin file {file}, line {error.lineno}: {error.msg}") from error
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
         raise UserError(f"plugin file {file}, line {lines[-1] if lines else '?'}: {error}") from error
 
 
-def package_folder(name: str) -> Path:
-    """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
-    specification = importlib.util.find_spec(name)
-    assert specification is not None and specification.submodule_search_locations
-    return Path(next(iter(specification.submodule_search_locations))).resolve()
+def names_of(kind: str) -> list[str]:
+    """Names of the plugins of a kind, loaded or not."""
+    return list(dict.fromkeys(name for of, name in (*PLUGINS, *_described) if of == kind))
+
+
+def open_catalogue(working_folder: Path) -> Catalogue:
+    """Make every plugin known without loading it: its file is loaded when it is looked up."""
+    known = catalogue(working_folder)
+    for name, (path, stored) in known.kinds.items():
+        stage_kind(name, path, stored)
+    _described.update({key: Path(item.file) for key, item in known.plugins.items()})
+    BROKEN.update({Path(file): message for file, message in known.broken.items()})
+    return known
 
 
 def load_all(working_folder: Path) -> None:
@@ -154,10 +172,8 @@ def load_all(working_folder: Path) -> None:
 
     A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused.
     """
-    for folder in dict.fromkeys((package_folder("surfexp.plugins"), (working_folder / "plugins").resolve())):
-        for file in sorted(folder.glob("*/*.py")):
-            if file.name != "__init__.py":
-                _guarded(file, lambda file=file: load_file(file))  # type: ignore[misc]
+    for file in plugin_files(working_folder):
+        _guarded(file, lambda file=file: load_file(file))  # type: ignore[misc]
     for point in entry_points(group="surfexp.plugins"):
         _guarded(Path(point.value), point.load)
 

@@ -29,6 +29,7 @@ def test_a_named_pair_has_its_distance_and_rank_in_any_order(pair: str, distance
     assert metrics["relatives"] == pytest.approx(distance) and metrics["relatives_rank"] == rank
 
 
-def test_an_unknown_pair_is_refused() -> None:
-    with pytest.raises(ValueError, match="'a', 'x' are not both among a, b, c"):
-        class_distances(MATRIX, "a", "x")
+def test_a_pair_that_the_collection_lacks_has_no_rank_and_a_note() -> None:
+    found = class_distances(MATRIX, "a", "x")
+    assert found.metrics == class_distances(MATRIX).metrics
+    assert "'a' and 'x' are not both among a, b, c" in found.notes[-1]

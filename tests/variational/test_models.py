@@ -241,7 +241,7 @@ def test_any_convex_fidelity_works_by_its_value_and_prox(surface: Surface) -> No
         ("smoothness is 0", lambda s, i: ConvexChanVese(smoothness=0).run(i, fem(s.mesh), primal_dual)),
         ("initial has 3", lambda s, i: ConvexChanVese(initial=np.ones(3, bool)).run(i, fem(s.mesh), primal_dual)),
         ("updates is 0", lambda s, i: ConvexChanVese(updates=0).run(i, fem(s.mesh), primal_dual)),
-        ("noise 0.0", lambda s, i: ROF().run(Image(i.values), fem(s.mesh), primal_dual)),
+        ("noise 0.0", lambda s, i: ROF().run(Image(i.values, clean=i.values), fem(s.mesh), primal_dual)),
         ("w is -1", lambda s, i: ROF(w=-1).run(i, fem(s.mesh), primal_dual)),
         ("mu is 0", lambda s, i: ROF(mu=0).run(i, fem(s.mesh), primal_dual)),
         ("does not say which", lambda s, i: Inpainting().run(Image(i.values, noise=1.0), fem(s.mesh), primal_dual)),

@@ -10,7 +10,10 @@ from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
+from surfexp.variational.image import Image
+from surfexp.variational.models.rof import ROF
 from surfexp.variational.noise_level import affine_relations, noise_level
+from surfexp.variational.solvers.primal_dual import primal_dual
 
 
 def jittered_rectangle() -> TriangleMesh:
@@ -54,3 +57,18 @@ def test_too_few_triangles_are_refused() -> None:
     mesh = TriangleMesh(np.eye(3), np.array([[0, 1, 2]]))
     with pytest.raises(ValueError, match="0 pairs of triangles"):
         noise_level(fem(mesh), np.arange(3.0))
+
+
+def test_rof_estimates_the_noise_of_a_map_that_came_as_it_is() -> None:
+    surface = icosphere(4).mesh
+    operator = fem(surface)
+    rng = np.random.default_rng(3)
+    noisy = np.where(surface.vertices[:, 2] > 0, 5.0, 1.0) + 0.4 * rng.normal(size=len(surface.vertices))
+    as_it_is = ROF().run(Image(noisy, "map", "mm"), operator, primal_dual)
+    known = ROF().run(Image(noisy, "map", "mm", noise=noise_level(operator, noisy)), operator, primal_dual)
+    assert (as_it_is.values == known.values).all() and as_it_is.converged
+    assert "estimated as 0.4" in as_it_is.notes[-1] and " mm." in as_it_is.notes[-1]
+    assert not any("estimated" in note for note in known.notes)
+    assert ROF(mu=1.0).run(Image(noisy, "map"), operator, primal_dual).notes == known.notes
+    with pytest.raises(ValueError, match="needs sigma > 0"):
+        ROF().run(Image(noisy, "clean", clean=noisy), operator, primal_dual)

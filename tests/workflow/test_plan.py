@@ -12,7 +12,7 @@ import pytest
 from surfexp.workflow import outcome, registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import make_plan, read_plan, stored_inputs
+from surfexp.workflow.plan import Plan, make_plan, read_plan, stored_inputs
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = {
@@ -215,3 +215,12 @@ def test_where_clocks_matter_the_first_call_is_not_timed(tmp_path: Path, monkeyp
         plan, _ = run({**configuration, "timing": timing}, tmp_path / str(timing))
         event = outcome.read_event(tmp_path / str(timing), "surface", plan.leaves[0].key)
         assert len(calls) == expected and (event["seconds"] < 0.2) == timing
+
+
+def test_no_stage_kind_needs_a_plus_on_the_command_line(working_folder: Path) -> None:
+    """`operator=` is in the list of Hydra's defaults and `eigensolver=` is not: nobody should have to know."""
+    from surfexp.workflow.launch import launch
+
+    plans: list[Plan] = []
+    launch(["experiment=spectral_mds", "eigensolver=arpack", "operator=fem"], plans.append)
+    assert {node.plugin for node in plans[0].nodes.values() if node.kind == "eigensolver"} == {"arpack"}

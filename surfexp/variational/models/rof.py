@@ -8,6 +8,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Method
 from surfexp.variational.image import Image
 from surfexp.variational.models.channelwise import solve_by_channel
+from surfexp.variational.noise_level import noise_level
 from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive, rof
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import restoration_metrics
@@ -33,21 +34,36 @@ class ROF:
     by_channel: bool = False
 
     def fidelity(self, image: Image, operator: SurfaceOperator) -> SeparableQuadratic:
-        """Return the data term.
+        """Return the data term; the noise of a map that came without one is estimated (`noise_level`).
 
         Raises
         ------
         ValueError
-            If a weight is not positive, or w is to be used and the noise of the image is not known.
+            If a weight is not positive, or w is to be used for an image that is known to have no noise.
         """
-        return rof(operator.mass, image.values, weight_of(self.w, self.mu, image, operator))
+        noisy = with_noise_level(image, operator) if self.mu is None else image
+        return rof(operator.mass, image.values, weight_of(self.w, self.mu, noisy, operator))
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
         """Return the denoised image, with rmse and psnr where the clean one is known."""
         fidelity = self.fidelity(image, operator)
         separate = self.by_channel and len(fidelity.shape) > 1
         solution = solve_by_channel(fidelity, operator, method) if separate else method(fidelity, operator)
-        return replace(solution, metrics=solution.metrics | restoration_metrics(image, operator, solution.values))
+        metrics = solution.metrics | restoration_metrics(image, operator, solution.values)
+        notes = solution.notes
+        if self.mu is None and (noisy := with_noise_level(image, operator)) is not image:
+            unit = f" {image.unit}" if image.unit else ""
+            notes += (
+                f"The noise of the map is not known: its standard deviation is estimated as {noisy.noise:.3g}{unit}.",
+            )
+        return replace(solution, metrics=metrics, notes=notes)
+
+
+def with_noise_level(image: Image, operator: SurfaceOperator) -> Image:
+    """Return an image with its noise estimated, where neither the noise nor the clean image is known; others as they are."""
+    if image.noise > 0 or image.clean is not None:
+        return image
+    return replace(image, noise=noise_level(operator, image.values))
 
 
 def weight_of(w: float, mu: float | None, image: Image, operator: SurfaceOperator) -> float:

@@ -1,0 +1,34 @@
+"""Where plugins and configurations lie: beside the package, in installed packages, in the working folder."""
+
+from __future__ import annotations
+
+import importlib.util
+from importlib.metadata import entry_points
+from pathlib import Path
+
+
+def package_folder(name: str) -> Path:
+    """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
+    specification = importlib.util.find_spec(name)
+    assert specification is not None and specification.submodule_search_locations
+    return Path(next(iter(specification.submodule_search_locations))).resolve()
+
+
+def installed_packages() -> list[str]:
+    """Names of the installed packages that bring plugins: those of the entry points `surfexp.plugins`."""
+    return sorted({point.module.split(".")[0] for point in entry_points(group="surfexp.plugins")})
+
+
+def plugin_files(working_folder: Path) -> list[Path]:
+    """Plugin files of the package and of `plugins/` in a working folder, one folder a kind."""
+    folders = dict.fromkeys((package_folder("surfexp.plugins"), (working_folder / "plugins").resolve()))
+    files = (file for folder in folders for file in sorted(folder.glob("*/*.py")))
+    return [file for file in files if file.name != "__init__.py"]
+
+
+def experiments() -> dict[str, Path]:
+    """Experiment name to YAML file, of the package, of installed plugin packages and of the working folder."""
+    names = [f"{name}.conf" for name in installed_packages()]
+    others = [package_folder(name) for name in names if importlib.util.find_spec(name)]
+    folders = (package_folder("surfexp.conf"), *others, Path("conf"))
+    return {file.stem: file for folder in folders for file in sorted((folder / "experiment").glob("*.yaml"))}

@@ -1,0 +1,114 @@
+"""All plugins by kind and name, described without importing them: the description is renewed when a file changes."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from surfexp.catalogue.folders import installed_packages, package_folder, plugin_files
+from surfexp.catalogue.installed import installed_state
+from surfexp.catalogue.user_cache import Memory
+
+PLAIN = (bool, int, float, str, list, dict, type(None))
+_memory = Memory("plugins")
+
+
+@dataclass(frozen=True)
+class Described:
+    """A plugin as a person or Hydra asks for it.
+
+    `options` are rows (name, default, values, meaning); `defaults` is what Hydra composes, "???" where an option is
+    required; `inputs` are kind and shape by role, `accepts` the plugins that may feed a kind.
+    """
+
+    kind: str
+    name: str
+    file: str
+    summary: str
+    inputs: dict[str, list[str]]
+    accepts: dict[str, list[str]]
+    options: list[list[str]]
+    defaults: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Plugins by kind and name, the stage kinds in order with their result types, and what could not be loaded by file."""
+
+    plugins: dict[tuple[str, str], Described]
+    kinds: dict[str, tuple[str, bool]]
+    broken: dict[str, str]
+
+    def names(self, kind: str) -> list[str]:
+        """Names of the plugins of a kind."""
+        return [name for of, name in self.plugins if of == kind]
+
+
+@cache
+def catalogue(working_folder: Path) -> Catalogue:
+    """What there is to choose from in a working folder; UserError where two plugins have one name."""
+    key = code_state(working_folder)
+    known = _memory.get(key) or _describe_all(working_folder)
+    if not known["broken"]:  # what failed may work the next time, for another reason than a changed file
+        _memory.put(key, known)
+    plugins = {(item["kind"], item["name"]): Described(**item) for item in known["plugins"]}
+    return Catalogue(plugins, {name: (path, stored) for name, path, stored in known["kinds"]}, known["broken"])
+
+
+@cache
+def code_state(working_folder: Path) -> str:
+    """Digest of the names, sizes and times of all files that plugins are made of, and of what is installed."""
+    packages = [Path(__file__).resolve().parent.parent, *map(package_folder, installed_packages())]
+    files = [*plugin_files(working_folder), *(file for package in packages for file in _python_files(str(package)))]
+    facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
+    points = sorted(f"{point.name}={point.value}" for point in entry_points(group="surfexp.plugins"))
+    return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()
+
+
+def _python_files(folder: str) -> Iterator[Path]:
+    return (Path(file) for file in sorted(map(str, Path(folder).rglob("*.py"))))
+
+
+def _describe_all(working_folder: Path) -> dict[str, Any]:
+    from surfexp.workflow import registry
+    from surfexp.workflow.kinds import KINDS
+
+    registry.load_all(working_folder)
+    plugins = [asdict(_described(method)) for method in registry.PLUGINS.values()]
+    kinds = [(kind.name, kind.path, kind.stored) for kind in KINDS.values()]
+    return {"plugins": plugins, "kinds": kinds, "broken": {str(f): text for f, text in registry.BROKEN.items()}}
+
+
+def _described(method: Any) -> Described:
+    fields = method.options.model_fields
+    defaults = {name: "???" if field.is_required() else field.get_default() for name, field in fields.items()}
+    defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in defaults.items()}
+    plain = {name: value if isinstance(value, PLAIN) else str(value) for name, value in defaults.items()}
+    shown = {
+        name: "required" if field.is_required() else repr(field.get_default(call_default_factory=True))
+        for name, field in fields.items()
+    }
+    rows = [[name, shown[name], domain(field), field.description or ""] for name, field in fields.items()]
+    inputs = {role: [item.kind, item.shape] for role, item in method.inputs.items()}
+    accepts = {kind: list(names) for kind, names in method.accepts.items()}
+    return Described(method.kind, method.name, str(method.file), method.summary, inputs, accepts, rows, plain)
+
+
+def domain(field: Any) -> str:
+    """The values that an option (a field of pydantic) takes: its choices, or its type and bounds."""
+    annotation: Any = field.annotation
+    text = getattr(annotation, "__name__", None) if isinstance(annotation, type) else None
+    text = text or str(annotation).replace("typing.", "").replace("pathlib.", "").replace("Literal", "one of ")
+    signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "min_length": "length ≥", "max_length": "length ≤"}
+    bounds = [
+        f"{sign} {getattr(rule, name)}"
+        for rule in field.metadata
+        for name, sign in signs.items()
+        if hasattr(rule, name)
+    ]
+    return ", ".join([text, *bounds])

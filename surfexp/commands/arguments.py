@@ -1,0 +1,63 @@
+"""The arguments of `surfexp run` and `surfexp plan`: their help, and names that nothing has, before Hydra is asked."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from surfexp.catalogue.folders import experiments, installed_packages, package_folder
+from surfexp.catalogue.plugins import Catalogue, catalogue
+from surfexp.workflow.configuration import Settings
+from surfexp.workflow.errors import UserError, unknown
+
+EXAMPLES = """\
+examples:
+  surfexp run                                      the default experiment
+  surfexp run experiment=NAME                      another (surfexp list experiment)
+  surfexp run solver=primal_dual,split_bregman     a sweep: comma lists, range(1,5), glob(*)
+  surfexp run surface=file surface.path=mesh.ply   your own surface
+  surfexp info solver/primal_dual                  the options of a plugin"""
+
+
+def usage(command: str) -> str:
+    """The help text of `surfexp run --help`."""
+    known = catalogue(Path.cwd())
+    width = max(map(len, (*Settings.model_fields, *known.kinds)))
+    settings = [f"  {name:{width}}  {field.description}" for name, field in Settings.model_fields.items()]
+    kinds = [f"  {kind:{width}}  {', '.join(sorted(known.names(kind)))}" for kind in known.kinds]
+    heading = f"usage: surfexp {command} [experiment=NAME] [KIND=PLUGIN] [KIND.OPTION=VALUE] [SETTING=VALUE] ..."
+    asked = "--cfg job prints the composed configuration"
+    return "\n".join([heading, "", EXAMPLES, "", "settings:", *settings, "", "kinds and plugins:", *kinds, "", asked])
+
+
+def check_arguments(arguments: list[str]) -> None:
+    """Refuse an experiment, a plugin, an option or a setting that does not exist, naming the nearest one."""
+    known = catalogue(Path.cwd())
+    for argument in arguments:
+        key, given, value = argument.partition("=")
+        head, _, option = key.lstrip("+~").partition(".")
+        if not given or argument.startswith("-") or head.startswith("hydra"):
+            continue
+        if head not in (*known.kinds, *Settings.model_fields):
+            raise unknown("configuration key", head, [*Settings.model_fields, *known.kinds])
+        if head in known.kinds and option:
+            _check_option(known, head, option)
+        elif head in known.kinds or head == "experiment":
+            names = list(experiments()) if head == "experiment" else [*known.names(head), *_presets(head)]
+            for name in (re.fullmatch(r"[\w,-]+", value) and value.split(",")) or ():
+                if name not in names and name != "null":
+                    broken = next((f" ({text})" for file, text in known.broken.items() if Path(file).stem == name), "")
+                    raise UserError(f"{unknown(head, name, names)}{broken}")
+
+
+def _check_option(known: Catalogue, kind: str, option: str) -> None:
+    names = {row[0] for (of, _), item in known.plugins.items() if of == kind for row in item.options}
+    if option.partition(".")[0] not in names | {"inputs", "name"}:
+        raise unknown(f"option of {kind}", option, names)
+
+
+def _presets(kind: str) -> list[str]:
+    """Names of the configurations of a kind in `conf/` of the package, of plugin packages and of the working folder."""
+    folders = [package_folder("surfexp.conf"), Path("conf")]
+    folders += [package_folder(name).parent / "conf" for name in installed_packages()]
+    return [file.stem for folder in folders for file in (folder / kind).glob("*.yaml")]
