@@ -53,6 +53,8 @@ def declared_twice() -> Iterator[tuple[str, Any, Any]]:
 
 
 def comparable(value: Any) -> Any:
+    if value == {}:
+        return None
     return tuple(value) if isinstance(value, list) else value
 
 

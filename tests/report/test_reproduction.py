@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -76,5 +77,5 @@ def test_lint_warns_of_a_stale_page_and_does_not_fail(
 def test_the_state_follows_the_meaning_of_the_numerics_only(monkeypatch: pytest.MonkeyPatch) -> None:
     first = stamp.state_of_code()
     assert all(len(part) == 20 for part in first) and first == stamp.state_of_code()
-    monkeypatch.setattr(stamp, "meaning", lambda source: str(source))
+    monkeypatch.setattr(stamp, "source_facts", lambda source: SimpleNamespace(meaning=str(source)))
     assert stamp.state_of_code()[0] != first[0] and stamp.state_of_code()[1] == first[1]
