@@ -315,7 +315,12 @@ def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
         assert declaration.meaning and declaration.better in ("", "lower", "higher"), f"{kind}/{name}: {metric}"
 
 
-@pytest.mark.parametrize(("kind", "name"), [key for key in PLUGINS if KINDS[key[0]].stored])
+# a population on a whole cortex, computed twice
+LONG = {("statistic", name) for name in ("sulcal_population", "sulcal_table", "sulci_names")}
+STORED = [pytest.param(*key, marks=[pytest.mark.slow] * (key in LONG)) for key in PLUGINS if KINDS[key[0]].stored]
+
+
+@pytest.mark.parametrize(("kind", "name"), STORED)
 def test_the_same_bytes_twice_and_a_result_of_its_kind(kind: str, name: str, tmp_path: Path) -> None:
     if (kind, name) in NEEDS:
         pytest.importorskip(NEEDS[kind, name], exc_type=ImportError)
@@ -342,7 +347,10 @@ def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> No
     values = np.linspace(0, 1, 642)
     values[3] = np.nan
     np.save(tmp_path / "nan.npy", values)
-    for name, message in (("short", "has 10 values, the surface has 642 vertices"), ("nan", "1 values of 642")):
+    for name, message in (
+        ("short", "has 10 values, the surface has 642 vertices"),
+        ("nan", "NaN at 1 of 642 vertices"),
+    ):
         context = {**CONTEXT, "image": {"name": "file", "path": str(tmp_path / f"{name}.npy")}, "target": "image"}
         assert message in solve(context, tmp_path / name)
 

@@ -241,6 +241,7 @@ def test_a_new_plugin_is_listed(laboratory: Path) -> None:
     assert "exists" in surfexp("new", "solver", "my_method", code=2).stderr
 
 
+@pytest.mark.slow
 def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
     surfexp("run", "experiment=chain")
     kept = store_bytes(laboratory)
@@ -252,7 +253,7 @@ def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
     assert not (laboratory / "results" / "store").exists()
 
 
-@pytest.mark.parametrize("by", ["ctrl-c", "kill"])
+@pytest.mark.parametrize("by", ["ctrl-c", pytest.param("kill", marks=pytest.mark.slow)])
 def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path, by: str) -> None:
     command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     # a test that itself runs in the background of a shell would hand on that Ctrl-C is ignored
