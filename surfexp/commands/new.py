@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import keyword
+from collections.abc import Mapping
+from importlib.resources import files
 from pathlib import Path
 
-from surfexp.commands import scaffolds
 from surfexp.workflow import registry
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
@@ -52,9 +53,9 @@ def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
     title, camel = name.replace("_", " ").capitalize(), name.title().replace("_", "")
     values = {"kind": kind, "name": name, "path": path.as_posix(), "title": title, "model": camel}
     if kind == "kind":
-        return scaffolds.KIND.format(**values, result=camel), scaffolds.KIND_TEST.format(**values)
+        return _filled("kind", values | {"result": camel}), _filled("kind_test", values)
     if kind == "solver":
-        return scaffolds.SOLVER.format(**values), scaffolds.SOLVER_TEST.format(**values)
+        return _filled("solver", values), _filled("solver_test", values)
     roles = INPUTS.get(kind, ("surface",))
     classes = sorted({KINDS[one].result for one in (*roles, kind)}, key=lambda item: item.__module__)
     signature = [f"    {ROLES.get(one, one)}: {KINDS[one].result.__name__},\n" for one in roles]
@@ -63,4 +64,10 @@ def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
         "parameters": "".join(["    *,\n", *signature] if signature else []),
         "result": KINDS[kind].result.__name__,
     }
-    return scaffolds.PLUGIN.format(**values), scaffolds.PLUGIN_TEST.format(**values)
+    return _filled("plugin", values), _filled("plugin_test", values)
+
+
+def _filled(template: str, values: Mapping[str, str]) -> str:
+    """A file of `templates`, which works before a line of it is changed, with its names filled in."""
+    text = files("surfexp.commands").joinpath("templates", f"{template}.txt").read_text(encoding="utf-8")
+    return text.format_map(values)

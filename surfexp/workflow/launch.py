@@ -157,7 +157,7 @@ def split_overrides(
     for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
         key = override.key_or_group
         if re.fullmatch(r"axes(\.[^.]+)?", key) and isinstance(override.value(), str):
-            collections[key[5:].strip("_")] = _collection(str(override.value()), repository)
+            collections["" if key == "axes._" else key[5:]] = _collection(str(override.value()), repository)
         elif key.partition(".")[0] not in (*KINDS, *SETTABLE):
             rest.append(text)
         elif "." in key or key in SETTABLE:

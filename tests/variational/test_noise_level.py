@@ -11,6 +11,7 @@ from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
+from surfexp.variational.models.deblurring import Deblurring
 from surfexp.variational.models.rof import ROF
 from surfexp.variational.noise_level import affine_relations, noise_level
 from surfexp.variational.solvers.primal_dual import primal_dual
@@ -69,6 +70,8 @@ def test_rof_estimates_the_noise_of_a_map_that_came_as_it_is() -> None:
     assert (as_it_is.values == known.values).all() and as_it_is.converged
     assert "estimated as 0.4" in as_it_is.notes[-1] and " mm." in as_it_is.notes[-1]
     assert not any("estimated" in note for note in known.notes)
+    sharpened = Deblurring(width=1.0).run(Image(noisy, "map"), operator, primal_dual)
+    assert "estimated as 0.4" in sharpened.notes[-1] and sharpened.converged
     assert ROF(mu=1.0).run(Image(noisy, "map"), operator, primal_dual).notes == known.notes
     with pytest.raises(ValueError, match="needs sigma > 0"):
         ROF().run(Image(noisy, "clean", clean=noisy), operator, primal_dual)

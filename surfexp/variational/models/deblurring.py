@@ -8,7 +8,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Method
 from surfexp.variational.heat_blur import HeatBlur
 from surfexp.variational.image import Image
-from surfexp.variational.models.rof import weight_of
+from surfexp.variational.models.rof import noise_notes, weight_of, with_noise_level
 from surfexp.variational.separable_quadratic import check_positive
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import restoration_metrics
@@ -33,7 +33,7 @@ class Deblurring:
     mu: float | None = None
 
     def fidelity(self, image: Image, operator: SurfaceOperator) -> HeatBlur:
-        """Return the data term.
+        """Return the data term; the noise of a map that came without one is estimated.
 
         Raises
         ------
@@ -41,10 +41,13 @@ class Deblurring:
             If a parameter is not positive or the image has several channels.
         """
         check_positive("width", self.width)
-        mu = weight_of(self.w, self.mu, image, operator)
+        noisy = with_noise_level(image, operator) if self.mu is None else image
+        mu = weight_of(self.w, self.mu, noisy, operator)
         return HeatBlur(operator, image.values, mu, 0.5 * (self.width * operator.edge_length) ** 2)
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
         """Return the sharpened image, with rmse and psnr where the clean one is known."""
-        solution = method(self.fidelity(image, operator), operator)
-        return replace(solution, metrics=solution.metrics | restoration_metrics(image, operator, solution.values))
+        noisy = with_noise_level(image, operator) if self.mu is None else image
+        solution = method(self.fidelity(noisy, operator), operator)
+        metrics = solution.metrics | restoration_metrics(image, operator, solution.values)
+        return replace(solution, metrics=metrics, notes=solution.notes + noise_notes(image, noisy))

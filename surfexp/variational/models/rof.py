@@ -46,7 +46,8 @@ class ROF:
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
         """Return the denoised image, with rmse and psnr where the clean one is known."""
-        fidelity = self.fidelity(image, operator)
+        noisy = with_noise_level(image, operator) if self.mu is None else image
+        fidelity = self.fidelity(noisy, operator)
         separate = self.by_channel and len(fidelity.shape) > 1
         solution = solve_by_channel(fidelity, operator, method) if separate else method(fidelity, operator)
         metrics = solution.metrics | restoration_metrics(image, operator, solution.values)
@@ -64,6 +65,14 @@ def with_noise_level(image: Image, operator: SurfaceOperator) -> Image:
     if image.noise > 0 or image.clean is not None:
         return image
     return replace(image, noise=noise_level(operator, image.values))
+
+
+def noise_notes(image: Image, noisy: Image) -> tuple[str, ...]:
+    """Say what `with_noise_level` has estimated, if it had to."""
+    if noisy is image:
+        return ()
+    unit = f" {image.unit}" if image.unit else ""
+    return (f"The noise of the map is not known: its standard deviation is estimated as {noisy.noise:.3g}{unit}.",)
 
 
 def weight_of(w: float, mu: float | None, image: Image, operator: SurfaceOperator) -> float:
