@@ -1,4 +1,4 @@
-"""Three surfaces on which the printed spectral distance breaks the triangle inequality, and a distance that does not."""
+"""Three surfaces on which the published spectral distance breaks the triangle inequality, and a distance that does not."""
 
 from surfexp.embedding.distance_methods import Pairing, pairwise_distances, triangle_metrics
 from surfexp.embedding.spectral_embedding import spectral_embedding

@@ -1,4 +1,4 @@
-"""The printed vertex-averaged gradient inside split Bregman against the face gradient and its adjoint."""
+"""The published vertex-averaged gradient inside split Bregman against the face gradient and its adjoint."""
 
 import numpy as np
 

@@ -54,7 +54,7 @@ GEOMETRY_FAULTS = (
         (DISK,),
     ),
     Fault(
-        "constant of the heat trace without pi, as printed",
+        "constant of the heat trace without pi, as published",
         "spectrum/heat_trace.py",
         "return euler_characteristic / 6.0",
         "return euler_characteristic / (6.0 * np.pi)",

@@ -56,7 +56,7 @@ VARIATIONAL_FAULTS = (
         "operators/vertex_averaged.py",
         "1.0 / (3.0 * operator.mass)",
         "1.0 / operator.mass",
-        ("operators/test_vertex_averaged.py::test_agrees_with_the_formula_as_printed",),
+        ("operators/test_vertex_averaged.py::test_agrees_with_the_formula_as_published",),
     ),
     Fault(
         "fidelity without its factor 1/2",

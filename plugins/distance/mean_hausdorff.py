@@ -31,7 +31,7 @@ class MeanHausdorff(Embedded):
     """Distances that are minimised over signs."""
 
     reading: Literal["inf_of_max", "max_of_inf"] = Field(
-        "inf_of_max", description="one choice of signs for both directions, or one for each as printed in (6.16)"
+        "inf_of_max", description="one choice of signs for both directions, or one for each as published in (6.16)"
     )
     undecided: Literal["absolute", "prefix"] = Field("absolute", description="bound of the search over signs")
     samples: int = Field(1500, ge=10, le=100000, description="points on which the search starts, drawn by area")

@@ -14,7 +14,7 @@ class Flux(Options):
     """Flux, or the weight made of it."""
 
     alpha: float | None = Field(None, gt=0, le=10, description="exponent of (5.10) for the weight; default: the flux")
-    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent; 1 as printed")
+    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent; 1 as published")
 
 
 METRICS = {

@@ -13,7 +13,7 @@ class DeblurringOptions(Options):
 
     width: float = Field(2.0, gt=0, le=100, description="standard deviation of the blur in edge lengths")
     w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
+    mu: float | None = Field(None, gt=0, description="the published weight in place of w; needed without noise")
 
 
 @register("model", "deblurring", metrics=RESTORATION_METRICS)

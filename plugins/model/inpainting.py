@@ -12,7 +12,7 @@ class InpaintingOptions(Options):
     """The weight of the data."""
 
     w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of w; needed without noise")
+    mu: float | None = Field(None, gt=0, description="the published weight in place of w; needed without noise")
 
 
 @register("model", "inpainting", metrics=RESTORATION_METRICS)

@@ -12,7 +12,7 @@ class RofOptions(Options):
     """The weight of the data."""
 
     w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of w")
+    mu: float | None = Field(None, gt=0, description="the published weight in place of w")
 
 
 @register("model", "rof", metrics=RESTORATION_METRICS)

@@ -14,7 +14,7 @@ class VectorialRof(Options):
     """The weight of the data, and whether the channels are coupled."""
 
     w: float = Field(0.9, gt=0, description="weight without unit, w = mu sigma h")
-    mu: float | None = Field(None, gt=0, description="the printed weight in place of w")
+    mu: float | None = Field(None, gt=0, description="the published weight in place of w")
     scheme: Literal["sound", "as_published"] = Field(
         "sound", description="sound: channels share the norm of their gradient; as_published: each on its own"
     )

@@ -18,7 +18,7 @@ class FluxWeighted(Options):
 
     alpha: float = Field(0.25, gt=0, le=10, description="exponent of (5.10); smaller is nearer to two values")
     contrast: float = Field(
-        1.0, gt=0, le=20, description="factor in the exponent; 1 as printed, where w lies in 1/e..e"
+        1.0, gt=0, le=20, description="factor in the exponent; 1 as published, where w lies in 1/e..e"
     )
     method: Literal["fast_marching", "exact", "heat"] = Field("fast_marching", description="how D of (5.6) is found")
 

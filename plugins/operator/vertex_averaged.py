@@ -16,5 +16,5 @@ class VertexAveraged(Options):
 
 @register("operator", "vertex_averaged")
 def vertex_averaged_operator(options: VertexAveraged, *, surface: Surface) -> SurfaceOperator:
-    """The printed gradient and divergence, averaged over the first ring (1.26); not adjoint, so no energy is minimised."""
+    """The published gradient and divergence, averaged over the first ring (1.26); not adjoint, so no energy is minimised."""
     return vertex_averaged(surface.mesh, tangent=options.tangent)

@@ -17,7 +17,7 @@ from surfexp.workflow.registry import Options, register
 class NodalCounts(Options):
     """How domains are counted."""
 
-    counting: Literal["raw", "filtered", "soft", "averaged"] = Field("filtered", description="raw is as printed")
+    counting: Literal["raw", "filtered", "soft", "averaged"] = Field("filtered", description="raw is as published")
     seed: int = Field(0, ge=0, description="seed of the random bases that averaged takes")
 
 

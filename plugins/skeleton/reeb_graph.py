@@ -22,7 +22,7 @@ class ReebGraph(Options):
     count: int = Field(50, ge=1, le=5000, description="number of levels")
     levels: Literal["uniform", "area_quantile", "arc_length", "critical"] = Field(
         "arc_length",
-        description="where they lie: uniform as printed, or evenly in area, in distance, between critical values",
+        description="where they lie: uniform as published, or evenly in area, in distance, between critical values",
     )
     persistence: float = Field(0.0, ge=0, le=0.5, description="branches below this share of the range are cut off")
 

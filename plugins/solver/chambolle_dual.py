@@ -26,7 +26,7 @@ class ChambolleDual(Options):
         "sound", description="sound: strongly convex models; as_published: ROF and convex Chan-Vese, options below"
     )
     tau: float | None = Field(
-        None, gt=0, description="as_published: the printed step; default: its largest stable value"
+        None, gt=0, description="as_published: the published step; default: its largest stable value"
     )
     theta: float | None = Field(
         None, gt=0, description="as_published: weight of |phi - v|^2 in (2.29); default: 10 mean |mu r|"
@@ -40,5 +40,5 @@ def chambolle_dual_solver(options: ChambolleDual, *, image: Image, operator: Sur
     shared = options.model_dump(include={"tolerance", "iteration_limit"}) | {"progress": report_progress}
     if options.scheme == "sound":
         return model.run(image, operator, partial(chambolle_dual, **shared))
-    printed = options.model_dump(include={"tau", "theta", "inner_steps"})
-    return model.run(image, operator, partial(published_chambolle, **shared, **printed))
+    published = options.model_dump(include={"tau", "theta", "inner_steps"})
+    return model.run(image, operator, partial(published_chambolle, **shared, **published))

@@ -16,7 +16,7 @@ from surfexp.workflow.registry import Options, register
 class PartitionEnergy(Options):
     """The weight of the data in the energy."""
 
-    mu: float = Field(1e-3, gt=0, description="the printed weight of the data term, as in the solver compared")
+    mu: float = Field(1e-3, gt=0, description="the published weight of the data term, as in the solver compared")
 
 
 METRICS = {

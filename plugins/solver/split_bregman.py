@@ -22,10 +22,13 @@ class SplitBregman(Options):
         None, gt=0, lt=1, description="bound of the relative gap; default: 1e-4, of segmentation models 1e-2"
     )
     iteration_limit: int = Field(5000, ge=1, description="most iterations of one convex problem")
-    penalty: float | None = Field(None, gt=0, description="the printed lambda; default: from the model and edge length")
+    penalty: float | None = Field(
+        None, gt=0, description="the published lambda; default: from the model and edge length"
+    )
     relaxation: float = Field(1.8, gt=0, lt=2, description="over-relaxation")
     scheme: Literal["sound", "as_published"] = Field(
-        "sound", description="as_published: the printed iteration, for ROF and convex Chan-Vese, with the options below"
+        "sound",
+        description="as_published: the published iteration, for ROF and convex Chan-Vese, with the options below",
     )
     inner: Literal["gauss_seidel", "cg", "direct"] = Field(
         "gauss_seidel", description="as_published: how the linear system is solved, on which the result depends"
@@ -42,5 +45,5 @@ def split_bregman_solver(options: SplitBregman, *, image: Image, operator: Surfa
     shared = options.model_dump(include={"tolerance", "iteration_limit", "penalty"}) | {"progress": report_progress}
     if options.scheme == "sound":
         return model.run(image, operator, partial(split_bregman, relaxation=options.relaxation, **shared))
-    printed = options.model_dump(include={"inner", "sweeps", "laplacian"})
-    return model.run(image, operator, partial(published_split_bregman, **shared, **printed))
+    published = options.model_dump(include={"inner", "sweeps", "laplacian"})
+    return model.run(image, operator, partial(published_split_bregman, **shared, **published))

@@ -10,7 +10,7 @@ from surfexp.metric import Metric
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
 from surfexp.skeleton.level_selection import choose_levels
-from surfexp.skeleton.published_reeb_graph import printed_loops
+from surfexp.skeleton.published_reeb_graph import published_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import arc_components
 from surfexp.statistics.statistic import Statistic
@@ -36,7 +36,7 @@ METRICS = {
     "hidden_extent": Metric("largest extent of a hidden handle, share of the range"),
     "right_at_finest": Metric("share of runs right at most levels", better="higher"),
     "exact_right": Metric("share right with critical levels", better="higher"),
-    "printed_right": Metric("share right by the published rule", better="higher"),
+    "published_right": Metric("share right by the published rule", better="higher"),
     "too_many": Metric("runs with more loops than handles", better="lower"),
     "runs": Metric("number of runs"),
 }
@@ -59,10 +59,10 @@ def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic
             found, hidden = reeb_graph(mesh, height, levels).metrics["b1"], hidden_handles(mesh, height, levels)
             said = sum(item.handles for item in hidden)
             largest = max((item.high - item.low for item in hidden), default=0.0) / float(np.ptp(height))
-            rows.append((number, count, found, said, largest, loops, printed_loops(mesh, height, levels)))
+            rows.append((number, count, found, said, largest, loops, published_loops(mesh, height, levels)))
     columns = dict(
         zip(
-            ("direction", "levels", "loops", "said", "hidden_extent", "exact_loops", "printed_loops"),
+            ("direction", "levels", "loops", "said", "hidden_extent", "exact_loops", "published_loops"),
             np.array(rows, float).T,
             strict=True,
         )
@@ -77,7 +77,7 @@ def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic
         "hidden_extent": float(columns["hidden_extent"].max()),
         "right_at_finest": float(right[finest].mean()),
         "exact_right": float((columns["exact_loops"] == mesh.genus).mean()),
-        "printed_right": float((columns["printed_loops"] == mesh.genus).mean()),
+        "published_right": float((columns["published_loops"] == mesh.genus).mean()),
         "too_many": float((columns["loops"] > mesh.genus).sum()),
         "runs": float(len(rows)),
     }

@@ -14,7 +14,7 @@ class HeatExpansion(Options):
 
 METRICS = {
     "corrected_error": Metric("mean relative error of the corrected expansion", better="lower"),
-    "printed_error": Metric("mean relative error of the published expansion", better="lower"),
+    "published_error": Metric("mean relative error of the published expansion", better="lower"),
     "area": Metric("area", "unit of length squared"),
     "area_heard": Metric("area heard from the eigenvalues", "unit of length squared"),
     "area_ratio": Metric("area heard over the true one"),

@@ -17,7 +17,7 @@ class SkeletonStudy(Options):
 
     group: str = Field("", description="what the members are, for the name")
     alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
-    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent of the weights; 1 as printed")
+    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent of the weights; 1 as published")
     levels: Literal["uniform", "area_quantile", "arc_length"] = Field("arc_length", description="where the levels lie")
     count: int = Field(50, ge=5, le=1000, description="number of levels")
     persistence: float = Field(0.01, ge=0, le=0.5, description="branches below this share of the range are cut off")

@@ -73,7 +73,7 @@ SULCAL_ASYMMETRY_METRICS = {
     "found in halves, {estimator}": Metric("share of random halves of the subjects with a difference"),
     "length, {estimator}": Metric("mean length of the first sulcus", "mm"),
     "pairs, {estimator}": Metric("complete pairs of the first sulcus"),
-    "printed share of line": Metric("length of the published line over that with its ends"),
+    "published share of line": Metric("length of the published line over that with its ends"),
 }
 
 

@@ -26,7 +26,7 @@ class SulciNames(Options):
 METRICS = {
     "regions": Metric("mean number of sulcal regions"),
     "majority, n = {n}": Metric("share of sulcal area named right by majority vote", better="higher"),
-    "printed rule, n = {n}": Metric("share of sulcal area named right by the published rule", better="higher"),
+    "published rule, n = {n}": Metric("share of sulcal area named right by the published rule", better="higher"),
     "distance, n = {n}": Metric("mean spectral distance to the template"),
     "majority, ZoomOut": Metric(
         "share of sulcal area named right by majority vote of the refined map", better="higher"
@@ -48,7 +48,7 @@ def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statisti
         report_progress(subject + 1, 1.0 - (subject + 1) / options.subjects)
     metrics = {name: float(np.mean([score[name] for score in scores])) for name in scores[0]}
     columns = {"n": np.array(options.sizes, float)}
-    for rule in ("majority", "printed rule", "distance"):
+    for rule in ("majority", "published rule", "distance"):
         columns[rule] = np.array([metrics[f"{rule}, n = {n}"] for n in options.sizes])
     notes = (
         f"{2 * options.subjects} synthetic hemispheres, deformed copies of {template.name}, strain {options.strain:g}.",

@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.html_table import html_table
 from surfexp.metric import Metric
 
 
@@ -78,3 +79,13 @@ class Distance:
             "evaluations": float(self.evaluations),
         }
         object.__setattr__(self, "metrics", {**known, **self.metrics})
+
+    def _repr_html_(self) -> str:
+        facts = {
+            "distance": self.value,
+            "lower bound": self.lower_bound,
+            "proved least": self.optimal,
+            "eigenfunctions": self.basis.shape[0],
+            "vertices mapped": int((self.correspondence >= 0).sum()),
+        }
+        return html_table(f"spectral distance {self.method}".rstrip(), facts, self.notes)

@@ -30,7 +30,7 @@ class Pairing:
     ----------
     method : str
         `mean_hausdorff`, `hausdorff`, `wasserstein` least over signs; `block_orthogonal` by alignment;
-        `least_over_blocks` on a grid of bases; `sup_inf` (6.9) with the Hausdorff distance inside, `sup_inf_mean` as printed.
+        `least_over_blocks` on a grid of bases; `sup_inf` (6.9) with the Hausdorff distance inside, `sup_inf_mean` as published.
     exact : bool
         Search signs on all points, with proof, or on samples.
     samples : int

@@ -36,7 +36,7 @@ def spectral_distance(
     source, target : SpectralEmbedding
         Of the same n and weighting.
     reading : "inf_of_max" or "max_of_inf"
-        (6.16) as printed is max_of_inf, whose two infima may be attained by different signs, so that "the" optimal basis is
+        (6.16) as published is max_of_inf, whose two infima may be attained by different signs, so that "the" optimal basis is
         not defined; inf_of_max takes one choice for both directions, and its signs are the optimal basis.
     summary : "mean" or "largest"
         Mean over the area as published in (6.7), which breaks the triangle inequality, or the Hausdorff distance.

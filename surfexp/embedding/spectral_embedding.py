@@ -78,7 +78,7 @@ class SpectralEmbedding:
 def mode_weights(values: Floats, weighting: Weighting = "global_point", time: float = 0.02) -> Floats:
     """Return w(lambda): 1 / sqrt(lambda) (6.4), 1 / lambda, exp(-lambda t / 2) (3.11) or exp(-lambda t).
 
-    Only the first of them, as printed in (6.4), does not map into l2: sum phi_i^2 / lambda_i grows like (1 / 4 pi) ln n.
+    Only the first of them, as published in (6.4), does not map into l2: sum phi_i^2 / lambda_i grows like (1 / 4 pi) ln n.
 
     Parameters
     ----------

@@ -50,5 +50,5 @@ def vertex_averaged(mesh: TriangleMesh, tangent: bool = False) -> SurfaceOperato
         rows = [rows[x] - diags_array(normals[:, x]) @ along for x in range(3)]
     x, y, z = (csr_array(row) for row in rows)
     name = "vertex_averaged_tangent" if tangent else "vertex_averaged"
-    notes = ("The printed divergence is not the adjoint of the printed gradient: no energy gap of its own exists.",)
+    notes = ("The published divergence is not the adjoint of the published gradient: no energy gap of its own exists.",)
     return replace(operator, averaged_gradient=(x, y, z), name=name, consistent=False, notes=notes)

@@ -30,7 +30,7 @@ def choose_levels(mesh: TriangleMesh, values: Floats, count: int, choice: Choice
     count : int
         At least 1.
     choice : {"uniform", "area_quantile", "arc_length", "critical"}
-        `uniform` (as printed): equal steps of value. `area_quantile`: equal areas between levels. `arc_length`: equal mean
+        `uniform` (as published): equal steps of value. `area_quantile`: equal areas between levels. `arc_length`: equal mean
         distances between levels, the area between two over the length of the line. `critical`: as evenly as possible in
         value with at least one level between any two neighbouring critical values, those of branches under a hundredth of
         the range aside; more branches give way, the smallest first, if there are more gaps than levels.

@@ -11,7 +11,7 @@ from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.skeleton import arc_components
 
 
-def printed_loops(mesh: TriangleMesh, values: Floats, levels: Floats) -> int:
+def published_loops(mesh: TriangleMesh, values: Floats, levels: Floats) -> int:
     """Independent loops of the graph by the published rule.
 
     A contour of one level and a contour of the next are joined if they bound one component of the slab between. A slab in

@@ -18,7 +18,7 @@ def reeb_graph(mesh: TriangleMesh, values: Floats, levels: Floats, name: str = "
     """The Reeb graph of a piecewise linear function (section 5.2), sampled at levels.
 
     Two contours are joined if one component of the slab between their levels touches both; where more than two do, or where
-    the slab ends in an extremum, the component itself becomes a node, a junction or a cap. (The printed rule joins contours
+    the slab ends in an extremum, the component itself becomes a node, a junction or a cap. (The published rule joins contours
     pairwise, which makes a loop of each saddle, and leaves the caps out.)
 
     Parameters

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
+from surfexp.html_table import html_table
 from surfexp.metric import Metric
 
 if TYPE_CHECKING:
@@ -101,6 +102,16 @@ class Skeleton:
         sizes = np.linalg.norm(self.positions[self.arcs[:, 1]] - self.positions[self.arcs[:, 0]], axis=1)
         graph.add_edges_from((a, b, {"length": size}) for (a, b), size in zip(self.arcs.tolist(), sizes, strict=True))
         return graph
+
+    def _repr_html_(self) -> str:
+        facts = {
+            "levels": len(self.levels),
+            "loops": int(self.metrics["b1"]),
+            "components": int(self.metrics["components"]),
+            "branches": int(self.metrics["branch_nodes"]),
+            "end points": int(self.metrics["leaves"]),
+        }
+        return html_table(f"{self.name}, {self.method}", facts, self.notes)
 
 
 def chain_order(skeleton: Skeleton) -> Integers:

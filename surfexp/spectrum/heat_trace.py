@@ -68,7 +68,7 @@ def heat_trace_expansion(
 ) -> Floats:
     """Return A / (4 pi t) -+ L / (8 sqrt(pi t)) + constant (McKean and Singer 1967), - Dirichlet, + Neumann.
 
-    This is theorem 3.1.2 with c_0 = A, c_1 = -+ (sqrt pi / 2) L, c_2 = 4 pi constant; the printed one has no pi in c_2 and
+    This is theorem 3.1.2 with c_0 = A, c_1 = -+ (sqrt pi / 2) L, c_2 = 4 pi constant; the published one has no pi in c_2 and
     the Dirichlet sign only.
     """
     _check(condition)

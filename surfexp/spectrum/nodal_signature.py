@@ -26,7 +26,7 @@ NODES_PER_MODE = 100
 def trusted_modes(node_count: int) -> int:
     """Return up to which mode nodal counts can be trusted: one for each 100 nodes.
 
-    That far nine of ten printed counts agree with those of a mesh ten times finer, on shapes without symmetry (experiment
+    That far nine of ten published counts agree with those of a mesh ten times finer, on shapes without symmetry (experiment
     nodal_stability).
     """
     return max(1, node_count // NODES_PER_MODE)

@@ -34,7 +34,7 @@ def wave_kernel_signature(system: EigenSystem, count: int = 100, width: float = 
 def global_point_signature(system: EigenSystem, power: float = 0.5) -> Floats:
     """Return phi_i(x) / lambda_i^power for each point, (n, k - c) (Rustamov 2007).
 
-    With power 1/2, as printed in (6.4), sum_i phi_i^2 / lambda_i diverges like the logarithm of the number of modes; 1 gives
+    With power 1/2, as published in (6.4), sum_i phi_i^2 / lambda_i diverges like the logarithm of the number of modes; 1 gives
     the biharmonic embedding, which converges.
     """
     values, vectors = _moving(system)

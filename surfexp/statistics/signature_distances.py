@@ -18,7 +18,7 @@ WORDS = {
     "shape_dna_raw": "shape DNA, raw",
     "shape_dna_reweighted": "shape DNA, reweighted",
     "nodal_counts": "nodal counts, filtered",
-    "nodal_raw": "nodal counts, printed",
+    "nodal_raw": "nodal counts, published",
     "nodal_soft": "nodal counts, soft",
     "combined": "spectrum and counts combined",
     "hks": "heat kernel signature",

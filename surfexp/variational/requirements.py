@@ -15,13 +15,13 @@ SOLVABLE_MODELS: dict[str, frozenset[str]] = {
     "published_split_bregman": frozenset({"rof", "convex_chan_vese"}),
     "published_chambolle": frozenset({"rof", "convex_chan_vese"}),
 }
-PRINTED = frozenset({"rof", "convex_chan_vese"})
+PUBLISHED = frozenset({"rof", "convex_chan_vese"})
 AVERAGED_MODELS: dict[str, frozenset[str]] = {
-    "primal_dual": PRINTED | {"inpainting", "deblurring"},
-    "split_bregman": PRINTED,
-    "chambolle_dual": PRINTED,
-    "published_split_bregman": PRINTED,
-    "published_chambolle": PRINTED,
+    "primal_dual": PUBLISHED | {"inpainting", "deblurring"},
+    "split_bregman": PUBLISHED,
+    "chambolle_dual": PUBLISHED,
+    "published_split_bregman": PUBLISHED,
+    "published_chambolle": PUBLISHED,
 }
 
 
@@ -47,7 +47,7 @@ def check_combination(solver: str, model: str, consistent: bool = True) -> None:
     able = [name for name, models in table.items() if model in models]
     if not able:
         raise ValueError(
-            f"model {model!r} needs a consistent operator such as fem, the printed one has no solver for it"
+            f"model {model!r} needs a consistent operator such as fem, the published one has no solver for it"
         )
     if solver not in able:
         where = "" if consistent else " with a vertex-averaged operator"

@@ -77,7 +77,7 @@ def test_an_open_surface_has_a_band():
     np.testing.assert_allclose(np.abs(band.distance[inside]), np.abs(band.positions[inside, 2]), atol=1e-12)
 
 
-def test_grid_of_a_printed_size():
+def test_grid_of_a_published_size():
     mesh = icosphere(2).mesh
     radius = interpolation_radius(1)
     for shape in ((65, 162, 99), (30, 30, 30)):

@@ -82,8 +82,8 @@ def test_symmetry_and_the_order_of_the_readings() -> None:
     first, second = embed(ellipsoid(3, (1, 1.3, 0.8)), 7), embed(ellipsoid(3, (1, 1.9, 0.5)), 7)
     one, other = spectral_distance(first, second), spectral_distance(second, first)
     assert one.value == pytest.approx(other.value, rel=1e-9)
-    printed = spectral_distance(first, second, "max_of_inf")
-    assert printed.value <= one.value * (1 + 1e-12)
+    published = spectral_distance(first, second, "max_of_inf")
+    assert published.value <= one.value * (1 + 1e-12)
     assert spectral_distance(first, second, summary="largest").value >= one.value
     assert one.metrics["forward"] <= one.value * (1 + 1e-12) and one.lower_bound == one.value
 
@@ -104,9 +104,9 @@ def test_two_directions_may_want_different_signs() -> None:
     differ = 0
     for seed in range(30):
         first, second = cloud(3, 8, seed), cloud(3, 8, seed + 100)
-        printed, common = (spectral_distance(first, second, reading) for reading in ("max_of_inf", "inf_of_max"))
-        assert printed.value <= common.value + 1e-12
-        differ += printed.metrics["same_signs"] == 0.0 and printed.value < common.value - 1e-3
+        published, common = (spectral_distance(first, second, reading) for reading in ("max_of_inf", "inf_of_max"))
+        assert published.value <= common.value + 1e-12
+        differ += published.metrics["same_signs"] == 0.0 and published.value < common.value - 1e-3
     assert differ > 3
 
 

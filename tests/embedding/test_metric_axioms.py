@@ -1,4 +1,4 @@
-"""Counterexamples to the printed metric, the distances that hold, and growth on analytic spectra."""
+"""Counterexamples to the published metric, the distances that hold, and growth on analytic spectra."""
 
 from __future__ import annotations
 

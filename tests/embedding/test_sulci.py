@@ -175,7 +175,7 @@ def test_a_strip_has_its_length() -> None:
     assert line.lengths["mean distance"] == pytest.approx(1.6, rel=0.03)
     # of a cosine, the outermost of 50 uniform levels leave a tenth at either end
     share = 1.0 - 2.0 / np.pi * np.arccos(1.0 - 2.0 / 51.0)
-    assert line.lengths["printed line"] == pytest.approx(share * 1.6, rel=0.03)
+    assert line.lengths["published line"] == pytest.approx(share * 1.6, rel=0.03)
     assert np.linalg.norm(line.points, axis=1) == pytest.approx(1.0, abs=0.01)
     assert np.abs(line.points[:, 2]).max() < 0.08
     with pytest.raises(ValueError, match="no whole face"):
@@ -185,7 +185,7 @@ def test_a_strip_has_its_length() -> None:
 def test_regions_of_a_subject_are_named(template, cortex) -> None:
     scores = name_regions(template, synthetic_subject(cortex, 3, "right"), (4,))
     assert scores["majority, ZoomOut"] > 0.97
-    assert scores["printed rule, n = 4"] > 0.85
+    assert scores["published rule, n = 4"] > 0.85
 
 
 def test_a_ring_of_growth_and_shrinking_closes_a_gap_and_no_more() -> None:
@@ -278,8 +278,8 @@ def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(len
         "none is left out: 0 complete pairs of sulcus 1, at least 3 are needed.",
     )
     shorter = {side: 0.8 * values for side, values in lengths["true"].items()}
-    lines = {"own region, printed line": shorter, "own region, line with ends": lengths["true"]}
-    assert asymmetry_study(lines)[2]["printed share of line"] == pytest.approx(0.8)
+    lines = {"own region, published line": shorter, "own region, line with ends": lengths["true"]}
+    assert asymmetry_study(lines)[2]["published share of line"] == pytest.approx(0.8)
     with pytest.raises(ValueError, match="take at least 3 subjects with both sides"):
         power_study({"none": nothing}, [5])
     two = {side: rows[:2] for side, rows in lengths["true"].items()}

@@ -1,4 +1,4 @@
-"""The printed gradient: what is right about it, and its documented defects."""
+"""The published gradient: what is right about it, and its documented defects."""
 
 import numpy as np
 from scipy.sparse import diags_array
@@ -11,7 +11,7 @@ from surfexp.operators.diagnostics import adjointness_defect
 from surfexp.operators.vertex_averaged import vertex_averaged
 
 
-def printed_weights(points: np.ndarray) -> np.ndarray:
+def published_weights(points: np.ndarray) -> np.ndarray:
     """w of (1.24) by the metric of (1.12), for the three corners of one triangle."""
     edges = np.stack([points[1] - points[0], points[2] - points[0]])
     inverse = np.linalg.inv(edges @ edges.T)
@@ -19,11 +19,11 @@ def printed_weights(points: np.ndarray) -> np.ndarray:
     return np.stack([-w1 - w2, w1, w2])
 
 
-def test_agrees_with_the_formula_as_printed() -> None:
+def test_agrees_with_the_formula_as_published() -> None:
     mesh = icosphere(1).mesh
     matrix = np.zeros((len(mesh.vertices), len(mesh.vertices), 3))
     for face, area in zip(mesh.faces, mesh.areas, strict=True):
-        weights = printed_weights(mesh.vertices[face])
+        weights = published_weights(mesh.vertices[face])
         for i in face:
             matrix[i, face] += area * weights
     ring = np.bincount(mesh.faces.ravel(), np.repeat(mesh.areas, 3))
@@ -33,7 +33,7 @@ def test_agrees_with_the_formula_as_printed() -> None:
         assert np.abs(rows[x].toarray() - matrix[:, :, x] / ring[:, None]).max() <= 1e-12
 
 
-def test_the_defect_of_the_printed_pair_is_of_first_order() -> None:
+def test_the_defect_of_the_published_pair_is_of_first_order() -> None:
     defects = [adjointness_defect(vertex_averaged(icosphere(levels).mesh)) for levels in (2, 3, 4)]
     assert np.allclose(defects, [0.48, 0.25, 0.125], rtol=0.02)
 

@@ -21,7 +21,7 @@ from surfexp.skeleton.interlevel_components import slab_components
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.pruning import pruned
-from surfexp.skeleton.published_reeb_graph import printed_loops
+from surfexp.skeleton.published_reeb_graph import published_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.simplification import contracted, simplified
 from surfexp.skeleton.skeleton import arc_components
@@ -222,12 +222,12 @@ def test_pruning_cuts_teeth_and_neither_loops_nor_ends():
         pruned(clean, -0.1)
 
 
-def test_the_printed_rule_is_right_on_chains_and_loses_handles_at_the_ends():
+def test_the_published_rule_is_right_on_chains_and_loses_handles_at_the_ends():
     sphere = SURFACES[0]
-    assert printed_loops(sphere, sphere.vertices[:, 2], np.linspace(-0.9, 0.9, 9)) == 0
+    assert published_loops(sphere, sphere.vertices[:, 2], np.linspace(-0.9, 0.9, 9)) == 0
     ring = torus(60, 24).mesh
     along = ring.vertices[:, 0]
     # the inner saddles at -0.6 and 0.6 bound the loop: levels inside them alone see two arcs and no loop
     assert reeb_graph(ring, along, np.array([-0.4, 0.0, 0.4])).metrics["b1"] == 1
-    assert printed_loops(ring, along, np.array([-0.4, 0.0, 0.4])) == 0
-    assert printed_loops(ring, along, np.linspace(-1.3, 1.3, 20)) == 1
+    assert published_loops(ring, along, np.array([-0.4, 0.0, 0.4])) == 0
+    assert published_loops(ring, along, np.linspace(-1.3, 1.3, 20)) == 1

@@ -44,7 +44,7 @@ def test_weyl_limit_of_slope_and_area() -> None:
     assert shape_dna(sphere, "area", 4.0 * np.pi, reweighted=True)[-1] == pytest.approx(4.0 * np.pi, rel=0.05)
 
 
-def test_weighted_distance_is_a_metric_with_the_printed_weights() -> None:
+def test_weighted_distance_is_a_metric_with_the_published_weights() -> None:
     a, b, c = np.random.default_rng(0).normal(size=(3, 30))
     assert weighted_distance(a, b) <= weighted_distance(a, c) + weighted_distance(c, b)
     assert weighted_distance(np.array([1.0, 4.0]), np.array([0.0, 0.0]), alpha=2.0) == pytest.approx(np.sqrt(2.0))
@@ -62,7 +62,7 @@ def test_point_signatures_keep_the_symmetry_of_the_ellipsoid() -> None:
     assert np.allclose(np.abs(points), np.abs(points[mirror]), atol=1e-6)
 
 
-def test_printed_point_signature_diverges_and_the_biharmonic_one_does_not() -> None:
+def test_published_point_signature_diverges_and_the_biharmonic_one_does_not() -> None:
     system, _ = ellipsoid_system(1.0, 150)
     for power, growth in ((0.5, (0.05, 1.0)), (1.0, (0.0, 0.02))):
         norms = (global_point_signature(system, power) ** 2).cumsum(axis=1).mean(axis=0)

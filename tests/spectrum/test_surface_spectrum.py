@@ -168,13 +168,13 @@ def test_orders_of_convergence_are_fitted() -> None:
         )
 
 
-def test_heat_trace_tells_the_corrected_expansion_from_the_printed_one() -> None:
+def test_heat_trace_tells_the_corrected_expansion_from_the_published_one() -> None:
     sphere = icosphere(3)
     closed = heat_expansion(sphere, spectrum(sphere, 120, order=2, curved=True)).metrics
-    assert closed["corrected_error"] < 0.01 < closed["printed_error"]
+    assert closed["corrected_error"] < 0.01 < closed["published_error"]
     assert closed["constant_heard"] == pytest.approx(1 / 3, abs=0.1)
     free = heat_expansion(rectangle(25, 17), spectrum(rectangle(25, 17), 300, order=3)).metrics
-    assert free["corrected_error"] < 0.005 < 0.1 < free["printed_error"]
+    assert free["corrected_error"] < 0.005 < 0.1 < free["published_error"]
     assert free["boundary_ratio"] == pytest.approx(1.0, abs=0.05) and free["constant"] == pytest.approx(0.25)
 
 

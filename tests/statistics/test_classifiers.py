@@ -118,7 +118,7 @@ def test_retrieval_by_hand() -> None:
         retrieval(distances, list("abcde"))
 
 
-def test_weighted_distance_is_the_printed_one() -> None:
+def test_weighted_distance_is_the_published_one() -> None:
     rng = np.random.default_rng(0)
     signatures = {
         Member(f"a {i}", "a"): Signature(rng.normal(size=9), "test", {"other": rng.normal(size=4)}) for i in range(4)

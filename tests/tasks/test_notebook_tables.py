@@ -31,6 +31,8 @@ def fingerprints() -> Fingerprints:
         (lambda: sx.eigenpairs(SPHERE, 4), ["4 eigenpairs", "complete", "yes", "largest residual"]),
         (lambda: sx.denoise(SPHERE, Z, noise=0.1), ["map after rof", "relative gap", "known values"]),
         (lambda: sx.align(BODY, BODY, 4), ["4 aligned modes", "single modes", "signs proved best", "yes"]),
+        (lambda: sx.distance(BODY, BODY, 4), ["spectral distance", "lower bound", "proved least", "yes", "162"]),
+        (lambda: sx.reeb_graph(SPHERE, Z, count=5), ["levels", "loops", "end points", "2"]),
         (fingerprints, ["fingerprints of 1 structures", "largest residual", "left out"]),
         (lambda: sx.segment(SPHERE, Z), ["two regions", "vertices brighter", "labelling gap"]),
     ],

@@ -1,4 +1,4 @@
-"""Energies and duals computed again by other means than the package: the printed weights (1.24), in space, by numpy."""
+"""Energies and duals computed again by other means than the package: the published weights (1.24), in space, by numpy."""
 
 import numpy as np
 

@@ -51,9 +51,9 @@ def build(model: str, operator: SurfaceOperator, image: Image) -> Fidelity:
     return SimplexLabelling(operator.mass, np.sqrt(2.0) * costs)
 
 
-printed = partial(published_split_bregman, laplacian="(1.19)", inner="direct", penalty=0.01, iteration_limit=5000)
+published = partial(published_split_bregman, laplacian="(1.19)", inner="direct", penalty=0.01, iteration_limit=5000)
 MODELS = {
-    "rof": [*anything, *strong, newton, printed],
+    "rof": [*anything, *strong, newton, published],
     "vector rof": [*anything, *strong],
     "inpainting": anything,
     "chan-vese": anything,

@@ -96,10 +96,10 @@ def test_convex_chan_vese_finds_the_regions(surface: Surface, image: Image, meth
 
 def test_means_that_are_not_divided_by_the_area_do_not_settle(surface: Surface, image: Image) -> None:
     operator = fem(surface.mesh)
-    printed = ConvexChanVese(smoothness=0.3, divide_by_area=False, updates=6).run(
+    published = ConvexChanVese(smoothness=0.3, divide_by_area=False, updates=6).run(
         image, operator, partial(primal_dual, tolerance=1e-4)
     )
-    assert not printed.converged and "repeat with period" in printed.reason
+    assert not published.converged and "repeat with period" in published.reason
     assert ConvexChanVese(smoothness=0.3, updates=6).run(image, operator, primal_dual).converged
 
 

@@ -1,4 +1,4 @@
-"""What belongs to one solver: limits, refusals, bias, tangency, and the printed schemes with their known defects."""
+"""What belongs to one solver: limits, refusals, bias, tangency, and the published schemes with their known defects."""
 
 import importlib.util
 from functools import partial
@@ -140,7 +140,7 @@ def test_conic_agrees_or_names_what_is_missing(surface: Surface, image: Image) -
 
 
 def test_remark_2_3_1_fields_stay_tangent(surface: Surface, image: Image) -> None:
-    """Exact for fields on faces; with the printed vertex gradient V and b leave the tangent plane."""
+    """Exact for fields on faces; with the published vertex gradient V and b leave the tangent plane."""
     mesh, parts = surface.mesh, {}
     for operator, normals in ((fem(mesh), mesh.face_normals), (vertex_averaged(mesh), mesh.vertex_normals)):
         pair, field = VectorPair(operator), 0.0
@@ -155,7 +155,7 @@ def test_remark_2_3_1_fields_stay_tangent(surface: Surface, image: Image) -> Non
 
 
 @pytest.mark.parametrize("method", [primal_dual, split_bregman, chambolle_dual])
-def test_printed_pair_is_audited_under_the_consistent_energy(surface: Surface, image: Image, method: object) -> None:
+def test_published_pair_is_audited_under_the_consistent_energy(surface: Surface, image: Image, method: object) -> None:
     fidelity, operator, averaged = denoising(surface, image), fem(surface.mesh), vertex_averaged(surface.mesh)
     solution = method(fidelity, averaged, iteration_limit=300)  # type: ignore[operator]
     sound = primal_dual(fidelity, operator, tolerance=1e-5)
@@ -167,7 +167,7 @@ def test_printed_pair_is_audited_under_the_consistent_energy(surface: Surface, i
     assert solution.error_bound > np.sqrt(operator.mass @ (solution.values - sound.values) ** 2) - sound.error_bound
 
 
-def test_limit_of_the_printed_pair_depends_on_lambda_and_that_of_the_sound_one_does_not(
+def test_limit_of_the_published_pair_depends_on_lambda_and_that_of_the_sound_one_does_not(
     surface: Surface, image: Image
 ) -> None:
     fidelity, operator, averaged = denoising(surface, image), fem(surface.mesh), vertex_averaged(surface.mesh)
@@ -183,7 +183,7 @@ def test_limit_of_the_printed_pair_depends_on_lambda_and_that_of_the_sound_one_d
     assert distances[0] > 7.0 and distances[1] < 0.2
 
 
-def test_the_better_the_printed_poisson_step_is_solved_the_worse_the_answer(surface: Surface, image: Image) -> None:
+def test_the_better_the_published_poisson_step_is_solved_the_worse_the_answer(surface: Surface, image: Image) -> None:
     truth = image.labels["bright"]
     mass, operator = fem(surface.mesh).mass, vertex_averaged(surface.mesh)
     fidelity = segmenting(surface, image, 1.0)
@@ -207,7 +207,7 @@ def test_conjugate_gradients_and_sweeps_tend_to_the_direct_solve(surface: Surfac
         assert np.abs(run.values - runs["direct"].values).max() <= 1e-4
 
 
-def test_printed_dual_segmentation_is_biased_by_theta(surface: Surface, image: Image) -> None:
+def test_published_dual_segmentation_is_biased_by_theta(surface: Surface, image: Image) -> None:
     fidelity, operator = segmenting(surface, image, 0.5), fem(surface.mesh)
     best = primal_dual(fidelity, operator, tolerance=1e-6)
     size, excess = np.abs(fidelity.slope).mean(), []

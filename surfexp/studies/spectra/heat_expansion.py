@@ -28,7 +28,7 @@ def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
     Returns
     -------
     Statistic
-        Columns: time, trace, corrected, printed, and the two relative errors. Metrics: corrected_error and printed_error
+        Columns: time, trace, corrected, published, and the two relative errors. Metrics: corrected_error and published_error
         (mean over the times), and the area, boundary length and Euler characteristic (or constant term, on polygons) that
         are heard with those of the mesh.
     """
@@ -43,13 +43,13 @@ def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
     times = np.geomspace(shortest, longest, TIMES)
     trace = heat_trace(system.values, times, system.area)
     corrected = heat_trace_expansion(times, system.area, length, constant, condition)
-    printed = printed_expansion(times, system.area, length, mesh.euler_characteristic)
+    published = published_expansion(times, system.area, length, mesh.euler_characteristic)
     heard = hear_geometry(system.values, condition)
-    columns = {"time": times, "trace": trace, "corrected": corrected, "printed": printed}
-    columns |= {"error corrected": np.abs(corrected / trace - 1.0), "error printed": np.abs(printed / trace - 1.0)}
+    columns = {"time": times, "trace": trace, "corrected": corrected, "published": published}
+    columns |= {"error corrected": np.abs(corrected / trace - 1.0), "error published": np.abs(published / trace - 1.0)}
     metrics = {
         "corrected_error": float(columns["error corrected"].mean()),
-        "printed_error": float(columns["error printed"].mean()),
+        "published_error": float(columns["error published"].mean()),
         "area": system.area,
         "area_heard": heard.area,
         "area_ratio": heard.area / system.area,
@@ -65,7 +65,7 @@ def heat_expansion(surface: Surface, system: EigenSystem) -> Statistic:
     return Statistic(f"heat trace of the {surface.name}, {condition}", columns, metrics=metrics)
 
 
-def printed_expansion(times: Floats, area: float, boundary_length: float, euler_characteristic: int) -> Floats:
+def published_expansion(times: Floats, area: float, boundary_length: float, euler_characteristic: int) -> Floats:
     """Return (4 pi t)^-1 (c_0 + c_1 sqrt t + c_2 t), (3.9), with the published (3.10).
 
     c_0 = A; c_1 = -(sqrt pi / 2) L whatever the condition on the boundary; c_2 = 2 chi / 3, which lacks a factor pi.

@@ -10,7 +10,7 @@ from surfexp.studies.sulci.population_study import Table
 
 LARGEST = 1e9
 FEWEST_PAIRS = 3
-PRINTED, WHOLE = "own region, printed line", "own region, line with ends"
+PUBLISHED, WHOLE = "own region, published line", "own region, line with ends"
 
 
 def measured(table: Table, sulci: int | None = None) -> tuple[Table, tuple[str, ...]]:
@@ -80,8 +80,8 @@ def asymmetry_study(
             f"length, {estimator}": float(np.nanmean([lengths["left"][:, 0], lengths["right"][:, 0]])),
             f"pairs, {estimator}": float(tests.subjects[0]),
         }
-    if all(f"length, {name}" in metrics for name in (PRINTED, WHOLE)):
-        metrics["printed share of line"] = metrics[f"length, {PRINTED}"] / metrics[f"length, {WHOLE}"]
+    if all(f"length, {name}" in metrics for name in (PUBLISHED, WHOLE)):
+        metrics["published share of line"] = metrics[f"length, {PUBLISHED}"] / metrics[f"length, {WHOLE}"]
     return tuple(rows), {name: np.array(values) for name, values in columns.items()}, metrics
 
 

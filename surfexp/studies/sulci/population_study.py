@@ -32,11 +32,11 @@ def name_regions(template: Template, target: Surface, sizes: tuple[int, ...] = (
         pair = spectral_embedding(template.system, template_areas, n), spectral_embedding(system, areas, n)
         found = spectral_distance(pair[0], pair[1], samples=800, exact=False)
         majority = names_by_majority(regions, areas, template.regions, found.correspondence)
-        printed = names_by_distance(
+        published = names_by_distance(
             regions, areas, found.target_points, template.regions, template_areas, found.source_points
         )
         scores[f"majority, n = {n}"] = naming_accuracy(majority, truth, regions, areas)
-        scores[f"printed rule, n = {n}"] = naming_accuracy(printed, truth, regions, areas)
+        scores[f"published rule, n = {n}"] = naming_accuracy(published, truth, regions, areas)
         scores[f"distance, n = {n}"] = found.value
     rows = template_map(template, system, target.mesh)
     majority = names_by_majority(regions, areas, template.regions, rows)

@@ -19,7 +19,7 @@ from surfexp.studies.sulci.sulcal_lengths import region_mesh
 
 LEVELS = 50
 LINE_ESTIMATORS = {
-    "printed line": "polyline_length",
+    "published line": "polyline_length",
     "line with ends": "length_with_extrema",
     "geodesic": "geodesic_length",
     "mean distance": "mean_distance_length",
@@ -35,7 +35,7 @@ class SulcalLine:
     points : (p, 3) float64
         From one end of the region to the other, in the space of the surface.
     lengths : dict of str to float
-        By estimator, in the unit of the surface: "printed line" through the middles of uniform level lines (section 5.2),
+        By estimator, in the unit of the surface: "published line" through the middles of uniform level lines (section 5.2),
         which stops short of both ends; "line with ends" with them; "geodesic" between the ends inside the region; and
         "mean distance", the mean widths between level lines, summed.
     chain : bool

@@ -61,7 +61,7 @@ def published_chambolle(
         If tau exceeds its bound or the fidelity is another one.
     """
     if not isinstance(fidelity, SeparableQuadratic) or np.ptp(fidelity.weight) > 0:
-        raise ValueError(f"the printed dual iteration solves ROF and convex Chan-Vese, not {fidelity.name}")
+        raise ValueError(f"the published dual iteration solves ROF and convex Chan-Vese, not {fidelity.name}")
     require_scalar(fidelity, operator)
     bound = 1.0 / VectorPair(operator).squared_norm()
     if tau is not None and not 0 < tau <= bound:

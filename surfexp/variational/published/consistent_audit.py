@@ -18,7 +18,7 @@ from surfexp.variational.solvers.chambolle_pock import chambolle_pock_iterates
 AUDIT_TOLERANCE = 1e-5
 AUDIT_LIMIT = 3000
 NOTE = (
-    "The printed gradient and divergence are not adjoint, so this iteration has no energy gap of its own; the gap given "
+    "The published gradient and divergence are not adjoint, so this iteration has no energy gap of its own; the gap given "
     "is that of its result under the face-based total variation, with the lower bound of a consistent solve."
 )
 

@@ -68,7 +68,7 @@ def published_split_bregman(
     progress : callable, optional
     """
     if not isinstance(fidelity, SeparableQuadratic) or np.ptp(fidelity.weight) > 0:
-        raise ValueError(f"the printed split Bregman iteration solves ROF and convex Chan-Vese, not {fidelity.name}")
+        raise ValueError(f"the published split Bregman iteration solves ROF and convex Chan-Vese, not {fidelity.name}")
     require_scalar(fidelity, operator)
     if penalty is None:
         scale = max(0.1 * fidelity.strong_convexity, 0.2 * float(np.abs(fidelity.slope).mean()))

@@ -24,7 +24,7 @@ def primal_dual(
 ) -> Solution:
     """Minimise TV + H by the primal-dual method, accelerated where H is strongly convex.
 
-    With a vertex-averaged operator the same steps are taken with W and its printed divergence, which minimise nothing:
+    With a vertex-averaged operator the same steps are taken with W and its published divergence, which minimise nothing:
     `tolerance` then bounds the relative change, and the result carries the gap under the consistent energy.
 
     Parameters

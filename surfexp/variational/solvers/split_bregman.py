@@ -63,7 +63,7 @@ def split_bregman(
         raise ValueError(f"relaxation is {relaxation}, must lie in (0, 2); 1.8 is usual")
     if operator.averaged_gradient is not None:
         inner: Inner = "direct" if fidelity.strong_convexity > 0 else "gauss_seidel"
-        printed = published_split_bregman(
+        published = published_split_bregman(
             fidelity,
             operator,
             start,
@@ -73,7 +73,7 @@ def split_bregman(
             inner=inner,
             progress=progress,
         )
-        return replace(printed, solver="split_bregman")
+        return replace(published, solver="split_bregman")
     h = operator.edge_length
     if isinstance(fidelity, SeparableQuadratic) and fidelity.is_quadratic:
         chosen = 6.0 * fidelity.strong_convexity * h**2 if penalty is None else penalty
