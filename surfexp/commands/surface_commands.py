@@ -167,7 +167,8 @@ def distance(first: str, second: str, count: int, target: Path | None) -> None:
     from surfexp.tasks.distances import distance as task
 
     started = time.perf_counter()
-    found = task(first, second, count)
+    with progress_line("distance") as progress:
+        found = task(first, second, count, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     click.echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
@@ -193,7 +194,8 @@ def align(first: str, second: str, count: int, target: Path) -> None:
     from surfexp.tasks.distances import align as task
 
     started = time.perf_counter()
-    found = task(first, second, count)
+    with progress_line("align") as progress:
+        found = task(first, second, count, progress=progress)
     facts = {
         "value": found.value,
         "lower_bound": found.lower_bound,
