@@ -39,7 +39,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "info": ("catalogue", "options of a plugin with bounds, choices and meaning: surfexp info KIND/NAME"),
     "table": ("views", "print the tables of an experiment again: surfexp table [EXPERIMENT]"),
     "report": ("views", "where the report page of an experiment is: surfexp report [EXPERIMENT]"),
-    "export": ("export", "tables as CSV, sulci as label files: surfexp export EXPERIMENT [--to FOLDER]"),
+    "export": ("export", "results as files for other programs: surfexp export EXPERIMENT|RUN --to FOLDER"),
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
     "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
     "verify": ("verify", "hash every stored result again and name what is damaged: surfexp verify"),
