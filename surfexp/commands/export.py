@@ -11,8 +11,20 @@ from surfexp.commands.click_command import run_click, shown
 LINES_LEFT_OUT = 10
 
 
+def _targets(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    from surfexp.commands.choices import finished_experiments
+
+    return [name for name in finished_experiments(Path("results")) if name.startswith(incomplete)]
+
+
+def _kinds(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    from surfexp.commands.choices import kinds
+
+    return [name for name in kinds() if name.startswith(incomplete)]
+
+
 @click.command(**shown("export", "quickstart --to exported", "quickstart --kind solver --kind surface --to exported"))
-@click.argument("target", metavar="EXPERIMENT|RUN")
+@click.argument("target", metavar="EXPERIMENT|RUN", shell_complete=_targets)
 @click.option(
     "--to", "folder", type=click.Path(path_type=Path), default="export", show_default=True, help="made if not there"
 )
@@ -21,6 +33,7 @@ LINES_LEFT_OUT = 10
     "--kind",
     "kinds",
     multiple=True,
+    shell_complete=_kinds,
     help="only stages of this kind, wherever they stand; repeatable",
 )
 @click.option("--matrix-market", is_flag=True, help="write the matrices of operators as .mtx too")
