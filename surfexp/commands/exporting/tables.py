@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -44,7 +45,7 @@ def _embedding(embedding: PointEmbedding, place: Place) -> None:
     _write_points(place, ".csv", facts, embedding.points)
 
 
-def _write_points(place: Place, suffix: str, facts: list[tuple[str, ...]], points: np.ndarray) -> None:
+def _write_points(place: Place, suffix: str, facts: Sequence[tuple[str, ...]], points: np.ndarray) -> None:
     rows = [(*member, *point) for member, point in zip(facts, points, strict=True)]
     write_csv(place.file(suffix), (*MEMBER, *(f"x{k + 1}" for k in range(points.shape[1]))), rows)
 
