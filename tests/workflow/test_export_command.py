@@ -6,6 +6,7 @@ import csv
 import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import networkx
@@ -405,6 +406,11 @@ def test_what_is_not_finished_is_named_with_the_way_to_finish_it(
     damaged.write_bytes(damaged.read_bytes()[:-1])
     assert {row["kind"] for row in laboratory.export(to=tmp_path / "out").values()} == {"feature"}
     assert "arrays.npz does not have the digest" in capsys.readouterr().err
+    for number in range(20):
+        other = laboratory.stage("feature", f"other{number}", surface=surface)
+        laboratory.leaf(other, feature__name=f"other{number}")
+    laboratory.export("--kind", "feature", to=tmp_path / "out")
+    assert capsys.readouterr().err.splitlines()[-2] == "surfexp: left out: and 11 more"
 
 
 def test_one_run_is_exported_by_the_key_of_its_row(
@@ -448,6 +454,34 @@ def test_a_run_of_the_dashboard_is_exported_by_its_id(laboratory: Laboratory, sp
     for run in runs:
         index = laboratory.export(to=tmp_path / "out", target=run.info.run_id)
         assert {row["key"] for row in index.values()} == {surface}
+
+
+def test_sulci_have_the_names_of_their_surfaces_and_one_that_is_missing_is_said(
+    laboratory: Laboratory,
+    sphere: Surface,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    from surfexp.studies.sulci import sulcal_measurement, sulcal_template
+
+    regions = np.where(sphere.mesh.vertices[:, 2] > 0, 1, -1)
+    named = sulcal_measurement.NamedSulci(np.arange(len(regions)), regions, regions)
+    monkeypatch.setattr(sulcal_template, "make_template", lambda surface, count: SimpleNamespace(regions=regions))
+    monkeypatch.setattr(sulcal_measurement, "name_sulci", lambda study, surface: named)
+    ball = laboratory.stage("surface", "ball", sphere)
+    members = {"left anna": ball, "../LEFT anna": ball, "right": laboratory.stage("surface", "missing")}
+    lengths = Statistic("lengths", {"length": np.array([1.0])}, ("left anna, sulcus 1",))
+    table = laboratory.stage(
+        "statistic", "sulcal_table", lengths, template=ball, surfaces=members, options={"regions": 2}
+    )
+    laboratory.leaf(table, statistic__name="sulcal_table")
+    index = laboratory.export("--kind", "statistic", to=tmp_path / "out")
+    stems = {name.partition(".")[0] for name in index}
+    assert stems == {"statistic-sulcal_table", "left_anna", "left_anna-2"} and len(index) == 7
+    keys, names = read_labels(tmp_path / "out" / "left_anna-2.annot")
+    assert np.array_equal(keys, regions + 1) and names == ("unknown", "region 1", "region 2")
+    assert "left out: labels of sulci" in capsys.readouterr().err
 
 
 PIAL = {"surface": {"name": "fsaverage5", "sheet": "pial"}}
