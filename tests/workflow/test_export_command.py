@@ -428,6 +428,8 @@ def test_one_run_is_exported_by_the_key_of_its_row(
         assert "feature-2.shape.gii" in index, "files are called as in an export of everything"
     laboratory.export(to=tmp_path / "out", target="hnad", code=2)
     assert "unknown experiment or run" in (said := capsys.readouterr().err) and "did you mean 'hand'?" in said
+    laboratory.export(to=tmp_path / "out", target="quickstart", code=2)
+    assert "surfexp run experiment=quickstart" in capsys.readouterr().err
     for unknown in ("0" * 20, "0" * 32):
         laboratory.export(to=tmp_path / "out", target=unknown, code=2)
     capsys.readouterr()

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from surfexp.catalogue.folders import experiments
 from surfexp.commands.views import latest_plan
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, check_known, unknown
@@ -37,6 +38,8 @@ def find(results: Path, target: str) -> tuple[Plan, str]:
         plan, key = latest_plan(results, key), ""
     elif found := _plan_of_key(plans, key):
         plan, key = found
+    elif target in experiments():
+        raise UserError(f"{target!r} has no results in {results}: surfexp run experiment={target}")
     else:
         raise unknown(f"experiment or run in {results}", target, names)
     load_own_kinds(plan)
