@@ -136,7 +136,9 @@ def test_surfaces_carry_the_maps_that_were_made_on_them(
     assert {Path(name).suffixes[-1] for name in index} == {".vtp", ".gii", ".npz", ".csv"}
     vertices, faces, maps = read_mesh(tmp_path / "out" / "surface-ball.vtp")
     assert np.array_equal(vertices, sphere.mesh.vertices) and np.array_equal(faces, sphere.mesh.faces)
-    assert np.array_equal(maps["solver-0.1"], solution.values) and np.array_equal(maps["image-noisy 1"], values[:, 1])
+    assert np.array_equal(maps["solver-rof-weight_0.1"], solution.values) and np.array_equal(
+        maps["image-noisy 1"], values[:, 1]
+    )
     assert np.array_equal(maps["image-noisy clean 0"], 2 * values[:, 0])
     assert np.array_equal(maps["halves"], sphere.labels["halves"].keys)
 
@@ -149,18 +151,18 @@ def test_surfaces_carry_the_maps_that_were_made_on_them(
     halves = nibabel.load(tmp_path / "out" / "surface-ball-halves.label.gii")
     assert np.array_equal(halves.agg_data(), sphere.labels["halves"].keys)
     assert halves.labeltable.get_labels_as_dict() == {-1: "no label -1", 0: "south", 1: "north"}
-    regions = nibabel.load(tmp_path / "out" / "solver-0.1-segmentation.label.gii").agg_data()
+    regions = nibabel.load(tmp_path / "out" / "solver-rof-weight_0.1-segmentation.label.gii").agg_data()
     assert np.array_equal(regions, solution.segmentation)
     reference = nibabel.load(tmp_path / "out" / "image-noisy-half.label.gii").agg_data()
     assert np.array_equal(reference, picture.labels["top/half"])
 
-    exact = arrays(tmp_path / "out" / "solver-0.1.npz")
+    exact = arrays(tmp_path / "out" / "solver-rof-weight_0.1.npz")
     assert np.array_equal(exact["values"], solution.values) and np.array_equal(exact["dual"], solution.dual)
-    history = pandas.read_csv(tmp_path / "out" / "solver-0.1-history.csv")
+    history = pandas.read_csv(tmp_path / "out" / "solver-rof-weight_0.1-history.csv")
     assert np.array_equal(history["gap"], solution.history["gap"])
-    row = index["solver-0.2.npz"]
+    row = index["solver-rof-weight_0.2.npz"]
     assert (row["solver.weight"], row["converged"], row["plugin"]) == ("0.2", "1.0", "rof")
-    proof = json.loads((tmp_path / "out" / "solver-0.2.npz.json").read_text())
+    proof = json.loads((tmp_path / "out" / "solver-rof-weight_0.2.npz.json").read_text())
     assert proof["method"] == "solver/rof" and proof["options"] == {"weight": 0.2} and proof["notes"] == ["said"]
     assert proof["inputs"] == {"surface": surface, "image": image} and proof["key"] == row["key"]
     assert proof["result"]["lower_bound"] == 1.4 and proof["metrics"]["converged"] == 1.0 and proof["versions"]["numpy"]
@@ -425,7 +427,7 @@ def test_one_run_is_exported_by_the_key_of_its_row(
     for target in (keys[1], keys[1][:8]):
         index = laboratory.export(to=tmp_path / target, target=target)
         assert {row["key"] for row in index.values()} == {keys[1], surface}
-        assert "feature-2.shape.gii" in index, "files are called as in an export of everything"
+        assert "feature-height-level_2.shape.gii" in index, "files are called as in an export of everything"
     laboratory.export(to=tmp_path / "out", target="hnad", code=2)
     assert "unknown experiment or run" in (said := capsys.readouterr().err) and "did you mean 'hand'?" in said
     laboratory.export(to=tmp_path / "out", target="quickstart", code=2)

@@ -57,8 +57,8 @@ def names_of(plan: Plan, results: Path) -> dict[str, Named]:
         said = list(dict.fromkeys(titles[leaf] for leaf in leaves))
         label = next(iter(labels[node.key])) if len(labels.get(node.key, ())) == 1 else ""
         title = slug(said[0], TITLE) if len(groups) > 1 and len(said) == 1 else ""
-        method = "" if node.key in varying and shared else node.plugin
-        parts = [node.kind, title, method, *(slug(value, VALUE) for value in (label, *shared.values()))]
+        values = [_valued(name, value) for name, value in shared.items()]
+        parts = [node.kind, title, node.plugin, slug(label, VALUE), *values]
         stem = slug("-".join(filter(None, dict.fromkeys(parts))))
         named[node.key] = Named(stem, "; ".join(said), label, shared)
     counts = Counter(name.stem for name in named.values())
@@ -68,6 +68,12 @@ def names_of(plan: Plan, results: Path) -> dict[str, Named]:
         else name
         for key, name in named.items()
     }
+
+
+def _valued(parameter: str, value: Any) -> str:
+    """A value that speaks for itself, or a number with the name of its option."""
+    option = parameter.rpartition(".")[2]
+    return f"{slug(option, TITLE)}_{slug(value)}" if isinstance(value, int | float) else slug(value, VALUE)
 
 
 def _users(plan: Plan, below: Mapping[str, list[str]]) -> dict[str, list[str]]:
