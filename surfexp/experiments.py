@@ -31,6 +31,8 @@ class ExperimentRun:
         Finished pictures by the name of their file.
     folder : Path
         Where `report.html` is.
+    _kinds : dict of str to str
+        Stage kind of each row by its key.
     """
 
     name: str
@@ -46,6 +48,11 @@ class ExperimentRun:
         ----------
         key : str
             From the index of `table`.
+
+        Returns
+        -------
+        object
+            Of the class that the kind of the row's stage declares.
 
         Raises
         ------
@@ -67,6 +74,10 @@ class ExperimentRun:
         ----------
         key : str
             From the index of `table`.
+
+        Returns
+        -------
+        dict of str to array
 
         Raises
         ------
