@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections import Counter
 from collections.abc import Callable
@@ -65,7 +66,7 @@ def _run(doubtful: list[str], plan: Plan) -> None:
         failure = error
     print_tables(plan, results, console)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
-    folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"
+    folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
     lines = unconverged(plan, results.resolve())
     doubtful += lines

@@ -15,6 +15,7 @@ from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.registry import plugin
 
 Context = dict[str, Any]
+NAME = r"^[A-Za-z0-9][\w.-]*$"
 Facts = TypedDict("Facts", {"class": str, "group": str, "level": float}, total=False)
 Facts.__pydantic_config__ = ConfigDict(extra="allow", coerce_numbers_to_str=True)  # type: ignore[attr-defined]
 
@@ -24,7 +25,9 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    experiment: str = Field("unnamed", description="name of the experiment: its folder in results and in the dashboard")
+    experiment: str = Field(
+        "unnamed", pattern=NAME, max_length=100, description="its folder in results and in the dashboard"
+    )
     title: str = Field("", description="heading of the report page")
     description: str = Field("", description="paragraph below the heading")
     results: str = Field("results", description="folder of all output")
