@@ -30,6 +30,7 @@ lint: .venv/ready
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
+	$(BIN)/python tests/check_docstrings.py
 	$(BIN)/python -m surfexp.report.stamp check
 
 bench: optional # the rivals come with it

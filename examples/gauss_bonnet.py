@@ -1,10 +1,10 @@
-"""The angle defects of the white matter surface of a human cortex sum to 4 pi."""
+"""Do the angle defects of the white matter surface of a human cortex sum to 4 pi?"""
 
 import igl
 import numpy as np
 
-from surfexp.anatomy.fsaverage5 import fsaverage5
+import surfexp as sx
 
-cortex = fsaverage5("left", "white")
+cortex = sx.shape("fsaverage5", hemisphere="left", surface="white")
 curvature = igl.gaussian_curvature(cortex.mesh.vertices, np.array(cortex.mesh.faces))
 print(f"{cortex.name}: area {cortex.mesh.area / 100:.0f} cm^2, total curvature {curvature.sum() / np.pi:.6f} pi")

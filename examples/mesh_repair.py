@@ -1,17 +1,18 @@
-"""Turn some faces over, glue a fin to an edge, and mend both."""
+"""What is wrong with a file in which faces are turned over and a fin is glued to an edge, and can it be repaired?"""
 
 import numpy as np
 
-from surfexp.mesh.repair import repair
-from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.mesh.validate import validate
+import surfexp as sx
 
-sphere = icosphere(3).mesh
+sphere = sx.shape("icosphere", levels=3).mesh
 faces = np.vstack([sphere.faces, [*sphere.faces[0][:2], len(sphere.vertices)]])
 faces[:10] = faces[:10, ::-1]
-vertices = np.vstack([sphere.vertices, [[2.0, 2.0, 2.0]]])
-print("\n".join(validate(vertices, faces).lines()))
+np.savez("fin.npz", vertices=np.vstack([sphere.vertices, [[2.0, 2.0, 2.0]]]), faces=faces)
 
-mesh, changes, origin = repair(vertices, faces)
-print("\n".join(changes))
+try:
+    sx.read("fin.npz")
+except ValueError as refused:
+    print(refused)
+mesh = (repaired := sx.read("fin.npz", repair=True)).mesh
+print("\n".join(repaired.notes))
 print(f"genus {mesh.genus}, {len(mesh.vertices)} vertices, area error {abs(mesh.area - sphere.area):.1e}")

@@ -46,13 +46,11 @@ def imported_files(path: Path) -> frozenset[Path]:
     files = {file for name in names if (file := module_file(name)) is not None}
     helpers = {file for name in names if (file := path.parent / f"{name}.py").exists()}
     texts = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
-    examples = (
-        {ROOT / "examples" / f"{text}.py" for text in texts if text.isidentifier()} if "examples" in texts else set()
-    )
-    functions = {node.name.removeprefix("test_") for node in tree.body if isinstance(node, ast.FunctionDef)}
+    examples: set[Path] = set()
     if "examples" in texts:
-        examples |= {ROOT / "examples" / f"{name}.py" for name in functions}
-    return frozenset(files | helpers | {file for file in examples if file.exists()})
+        functions = {node.name.removeprefix("test_") for node in tree.body if isinstance(node, ast.FunctionDef)}
+        examples = {file for file in (ROOT / "examples").rglob("*.py") if file.stem in texts | functions}
+    return frozenset(files | helpers | examples)
 
 
 @cache

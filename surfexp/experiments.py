@@ -32,6 +32,8 @@ class ExperimentRun:
         Finished pictures by the name of their file.
     folder : Path
         Where `report.html` is.
+    _kinds : dict of str to str
+        Stage kind of each row by its key.
     """
 
     name: str
@@ -47,6 +49,11 @@ class ExperimentRun:
         ----------
         key : str
             From the index of `table`.
+
+        Returns
+        -------
+        object
+            Of the class that the kind of the row's stage declares.
 
         Raises
         ------
@@ -68,6 +75,10 @@ class ExperimentRun:
         ----------
         key : str
             From the index of `table`.
+
+        Returns
+        -------
+        dict of str to array
 
         Raises
         ------

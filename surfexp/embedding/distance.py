@@ -34,7 +34,8 @@ class Distance:
     closed, bounds : (c, n) int8, (c,) float64
         The log of the search over signs (see `SignSearch`); empty where blocks were rotated.
     method : str
-    metrics, notes
+    metrics : dict of str to float
+    notes : tuple of str
         As in `Surface`.
     """
 

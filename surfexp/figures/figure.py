@@ -18,7 +18,8 @@ class Figure:
     caption : str
         One or two sentences: what is seen, its unit, and the figure of the dissertation that it answers.
     title : str
-    metrics, notes
+    metrics : dict of str to float
+    notes : tuple of str
         As in `Surface`.
     """
 

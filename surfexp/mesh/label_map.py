@@ -40,6 +40,14 @@ class LabelMap:
     def where(self, name: str) -> NDArray[np.bool_]:
         """Return which vertices have the label of a name.
 
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        (n,) bool
+
         Raises
         ------
         ValueError

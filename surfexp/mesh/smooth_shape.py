@@ -35,25 +35,89 @@ class SmoothShape:
         return None
 
     def project(self, points: Floats) -> Floats:
-        """Return the points of the smooth surface nearest to (n, 3) points."""
+        """Return the points of the smooth surface nearest to points.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+
+        Returns
+        -------
+        (n, 3) float64
+
+        Raises
+        ------
+        ValueError
+            If the shape has no curved elements.
+        """
         raise ValueError(f"{self.words} has no curved elements: choose curved=false")
 
     def project_boundary(self, points: Floats) -> Floats:
-        """Return the points of the smooth boundary nearest to (n, 3) points near it."""
+        """Return the points of the smooth boundary nearest to points near it.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+
+        Returns
+        -------
+        (n, 3) float64
+
+        Raises
+        ------
+        ValueError
+            If the shape has no curved elements.
+        """
         return self.project(points)
 
     def spectrum(self, count: int, boundary: str = "neumann") -> Floats:
-        """Return the first eigenvalues; ValueError where they are not known in closed form."""
+        """Return the first Laplace-Beltrami eigenvalues of the smooth shape.
+
+        Parameters
+        ----------
+        count : int
+        boundary : {"neumann", "dirichlet"}
+
+        Returns
+        -------
+        (count,) float64
+            Increasing, in 1 / length^2.
+
+        Raises
+        ------
+        ValueError
+            If they are not known in closed form.
+        """
         raise ValueError(
             f"the spectrum of {self.words} is not known in closed form, choose a sphere, disk, rectangle or flat torus"
         )
 
     def similar(self, scale: float, rotation: Floats) -> SmoothShape:
-        """Return the shape of `scale` times the points, turned by a (3, 3) rotation about the origin."""
+        """Return the shape of the scaled points, turned about the origin.
+
+        Parameters
+        ----------
+        scale : float
+        rotation : (3, 3) float64
+
+        Returns
+        -------
+        SmoothShape
+        """
         raise NotImplementedError
 
     def holds(self, mesh: TriangleMesh) -> bool:
-        """Whether the vertices of a mesh lie on the shape, and its boundary on that of the shape, to 1e-9 of the size."""
+        """Whether the vertices of a mesh lie on the shape, and its boundary on that of the shape.
+
+        Parameters
+        ----------
+        mesh : TriangleMesh
+
+        Returns
+        -------
+        bool
+            True where they do to 1e-9 of the size.
+        """
         vertices = mesh.vertices
         boundary = vertices[np.concatenate(mesh.boundary_loops)] if mesh.boundary_loops else vertices[:0]
         if bool(len(boundary)) != self.bounded:

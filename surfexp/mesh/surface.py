@@ -75,6 +75,15 @@ class Surface:
     ------
     ValueError
         If a map or a truth is not one entry a vertex, or vertices lie off the shape.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> ball = sx.shape("icosphere", levels=2).mesh
+    >>> height = ball.vertices[:, 2]
+    >>> upper = sx.Surface(ball, "ball", "mm", {"height": height}, mask=height > 0)
+    >>> upper.scalars["height"].shape, upper.unit
+    ((162,), 'mm')
     """
 
     mesh: TriangleMesh
@@ -114,7 +123,17 @@ class Surface:
                 raise ValueError(f"scalar map {name!r} has shape {np.shape(values)}, the mesh has {n} vertices")
 
     def deformed(self, mesh: TriangleMesh) -> Surface:
-        """The surface with its vertices moved: of the same connectivity, but of no known shape and midline."""
+        """Return the surface with its vertices moved: of the same connectivity, but of no known shape and midline.
+
+        Parameters
+        ----------
+        mesh : TriangleMesh
+            Of the same faces.
+
+        Returns
+        -------
+        Surface
+        """
         return replace(self, mesh=mesh, shape=None, part=None, truth=replace(self.truth, midline=None))
 
     def _repr_html_(self) -> str:

@@ -44,7 +44,15 @@ class SurfacePart:
         return len(self.vertices) == self.whole_count
 
     def restrict(self, values: ArrayLike) -> NDArray[np.generic]:
-        """Return the rows of an (n, ...) array that belong to the part.
+        """Return the rows that belong to the part.
+
+        Parameters
+        ----------
+        values : (n, ...) array
+
+        Returns
+        -------
+        (p, ...) array
 
         Raises
         ------
@@ -57,7 +65,16 @@ class SurfacePart:
         return array[self.vertices]
 
     def extend(self, values: ArrayLike) -> Floats:
-        """Return an (n, ...) array that is `values` on the part and NaN elsewhere.
+        """Put values of the part back on the whole.
+
+        Parameters
+        ----------
+        values : (p, ...) array
+
+        Returns
+        -------
+        (n, ...) float64
+            NaN outside of the part.
 
         Raises
         ------

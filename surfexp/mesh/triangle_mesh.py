@@ -92,7 +92,7 @@ class TriangleMesh:
 
     @cached_property
     def edge_length(self) -> float:
-        """h = sqrt(4 mean(area) / sqrt 3), the side of the equilateral triangle of mean area."""
+        """The side of the equilateral triangle of mean area, h = sqrt(4 mean(area) / sqrt 3)."""
         return float(np.sqrt(self.areas.mean() * 4.0 / np.sqrt(3.0)))
 
     @cached_property
@@ -156,7 +156,7 @@ class TriangleMesh:
 
     @cached_property
     def euler_characteristic(self) -> int:
-        """chi = V - E + F over the referenced vertices."""
+        """Euler characteristic V - E + F over the referenced vertices."""
         return len(np.unique(self.faces)) - len(self.edges) + len(self.faces)
 
     @cached_property

@@ -45,8 +45,9 @@ class Skeleton:
     contour_starts : (N + 1,) int64
         The line of node i is contour_points[contour_starts[i] : contour_starts[i + 1]].
     name, method : str
-    metrics, notes
+    metrics : dict of str to float
         As in `Surface`; b1 counts the independent loops.
+    notes : tuple of str
     """
 
     positions: Floats
@@ -83,7 +84,13 @@ class Skeleton:
         return self.metrics["components"] == 1 and self.metrics["b1"] == 0 and int(self.degrees.max(initial=0)) <= 2
 
     def graph(self) -> networkx.Graph:
-        """The graph in networkx's form: nodes with x, y, z, kind, value, length, closed; arcs with their length."""
+        """Return the graph in networkx's form.
+
+        Returns
+        -------
+        networkx.Graph
+            Nodes with x, y, z, kind, value, length, closed, level; arcs with their length.
+        """
         import networkx
 
         graph = networkx.Graph(name=self.name, method=self.method)

@@ -49,7 +49,8 @@ class EigenSystem:
         Order of the elements; the first rows of `vectors` are the vertices of the mesh.
     boundary : str
         "neumann" (also where there is no boundary) or "dirichlet".
-    metrics, notes
+    metrics : dict of str to float
+    notes : tuple of str
         As in `Surface`.
     """
 

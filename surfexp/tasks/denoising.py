@@ -141,7 +141,8 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
 
     Parameters
     ----------
-    surface, values
+    surface : Surface, path, or (vertices, faces)
+    values : str or (n,) or (n, c) float64
         As in `denoise`.
     width : float
         Full width at half maximum, in the unit of the surface (mm, say).

@@ -61,7 +61,13 @@ class Fingerprints:
         return tuple(said + [f"left out: {name}: {reason}" for name, reason in self.refused.items()])
 
     def rows(self) -> dict[str, list[Any]]:
-        """The table by rows: area, volume, ev0, ..., residual, complete (1 or 0), repairs (their number)."""
+        """Return the table by rows.
+
+        Returns
+        -------
+        dict of str to list
+            area, volume, ev0, ev1, ..., residual, complete (1 or 0) and repairs (their number), one entry a structure.
+        """
         count = len(next(iter(self.columns.values()), np.empty(2))) - 2
         names = ["area", "volume", *(f"ev{k}" for k in range(count))]
         rows: dict[str, list[Any]] = {
@@ -130,6 +136,10 @@ def fingerprint(
     ValueError
         If there is no surface at all, or the number of eigenvalues is not positive.
 
+    References
+    ----------
+    Wachinger, Golland, Kremen, Fischl, Reuter: BrainPrint: a discriminative characterization of brain morphology (2015).
+
     Examples
     --------
     >>> import surfexp as sx
@@ -137,10 +147,6 @@ def fingerprint(
     >>> table = sx.fingerprint(["ball.ply"], count=4)
     >>> table.columns["ball"].round(1).tolist(), table.complete["ball"]
     ([12.5, 4.2, 0.0, 2.0, 2.0, 2.0], True)
-
-    References
-    ----------
-    Wachinger, Golland, Kremen, Fischl, Reuter: BrainPrint: a discriminative characterization of brain morphology (2015).
     """
     if count < 1:
         raise ValueError(f"count is {count}, at least one eigenvalue is needed")

@@ -36,6 +36,10 @@ class Picture:
     def save(self, path: Path | str) -> None:
         """Write the picture as .png, or as .svg that carries it.
 
+        Parameters
+        ----------
+        path : path
+
         Raises
         ------
         ValueError

@@ -118,6 +118,10 @@ def segment(
     ValueError
         If the map does not fit, is constant or has several channels, or a parameter is not positive.
 
+    References
+    ----------
+    Chan, Esedoglu, Nikolova: Algorithms for finding global minimizers of image segmentation and denoising models (2006).
+
     Examples
     --------
     >>> import surfexp as sx
@@ -126,10 +130,6 @@ def segment(
     >>> parts = sx.segment(sphere, np.sign(sphere.mesh.vertices[:, 2]) + noise)
     >>> bool((parts.labels == (sphere.mesh.vertices[:, 2] > 0)).mean() > 0.95)
     True
-
-    References
-    ----------
-    Chan, Esedoglu, Nikolova: Algorithms for finding global minimizers of image segmentation and denoising models (2006).
     """
     if not 0 < tolerance < 1:
         raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")

@@ -86,15 +86,15 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
     ValueError
         If a source is no vertex, or lies outside the mask.
 
+    References
+    ----------
+    Kimmel, Sethian: Computing geodesic paths on manifolds (1998).
+
     Examples
     --------
     >>> import surfexp as sx
     >>> float(sx.geodesic(sx.shape("icosphere", levels=4), 0).max().round(1))
     3.1
-
-    References
-    ----------
-    Kimmel, Sethian: Computing geodesic paths on manifolds (1998).
     """
     owner = as_surface(surface)
     part = part_for(owner)
@@ -126,15 +126,15 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     ValueError
         If the mesh is unfit.
 
+    References
+    ----------
+    Meyer, Desbrun, Schroder, Barr: Discrete differential-geometry operators for triangulated 2-manifolds (2003).
+
     Examples
     --------
     >>> import surfexp as sx
     >>> float(sx.mean_curvature(sx.shape("icosphere", levels=3)).mean().round(2))
     1.0
-
-    References
-    ----------
-    Meyer, Desbrun, Schroder, Barr: Discrete differential-geometry operators for triangulated 2-manifolds (2003).
     """
     owner = as_surface(surface)
     part = part_for(owner)

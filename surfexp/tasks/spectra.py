@@ -55,16 +55,16 @@ def eigenpairs(
     ValueError
         If the mesh or a parameter is unfit.
 
+    References
+    ----------
+    Reuter, Wolter, Peinecke: Laplace-Beltrami spectra as "Shape-DNA" of surfaces and solids (2006).
+
     Examples
     --------
     >>> import surfexp as sx
     >>> modes = sx.eigenpairs(sx.shape("icosphere", levels=3), 9)
     >>> modes.complete, (modes.values[[1, 4]] / [2, 6]).round(2).tolist()
     (True, [1.01, 1.01])
-
-    References
-    ----------
-    Reuter, Wolter, Peinecke: Laplace-Beltrami spectra as "Shape-DNA" of surfaces and solids (2006).
     """
     owner = as_surface(surface)
     part = part_for(owner)
@@ -99,16 +99,27 @@ def eigsh(
 
     Parameters
     ----------
-    A, M : (n, n) sparse
-        Symmetric; A positive semidefinite, M positive definite (the identity if not given).
+    A : (n, n) sparse
+        Symmetric, positive semidefinite.
     k : int
+        How many pairs.
+    M : (n, n) sparse, optional
+        Symmetric, positive definite; the identity if not given.
     sigma : float, optional
         At most 0; or not given, with which = "SM" or "SA".
-    which : "LM" with a sigma, "SM" or "SA" without
+    which : {"LM", "SM", "SA"}
+        "LM" with a sigma, "SM" or "SA" without.
+    v0 : (n,) float64, optional
+    ncv, maxiter : int, optional
+        Accepted and not needed.
     tol : float
         Largest relative residual; 0 means 1e-8.
     return_eigenvectors : bool
-    v0, ncv, maxiter, Minv, OPinv, mode, rng
+        False: the values alone.
+    Minv, OPinv : sparse or LinearOperator, optional
+        Accepted and not needed.
+    mode : {"normal"}
+    rng : numpy.random.Generator, optional
         Accepted and not needed.
 
     Returns

@@ -74,6 +74,10 @@ class Spectrum:
         count : int
             How many, the zero mode of a closed surface among them.
 
+        Returns
+        -------
+        EigenSystem
+
         Raises
         ------
         ValueError
@@ -98,6 +102,10 @@ class Spectrum:
         low, high : float
             In 1 / unit^2.
 
+        Returns
+        -------
+        EigenSystem
+
         Raises
         ------
         ValueError
@@ -116,6 +124,10 @@ class Spectrum:
         value : float
             In 1 / unit^2; where it is an eigenvalue itself to a thousandth, the count is that of a number nearby.
 
+        Returns
+        -------
+        int
+
         Raises
         ------
         ValueError
@@ -124,11 +136,16 @@ class Spectrum:
         return self._pencil.counts[self._pencil.factor(value)[0]]
 
     def values(self, count: int) -> Floats:
-        """Return the lowest eigenvalues, (count,) float64.
+        """Return the lowest eigenvalues.
 
         Parameters
         ----------
         count : int
+
+        Returns
+        -------
+        (count,) float64
+            In 1 / unit^2.
 
         Raises
         ------

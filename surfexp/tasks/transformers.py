@@ -48,8 +48,18 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         Parameters
         ----------
         X : list of Surface, path, or (vertices, faces)
-        y
+        y : optional
             Not used.
+
+        Returns
+        -------
+        SurfaceTransformer
+            Itself.
+
+        Raises
+        ------
+        ValueError
+            If the number of modes is no integer from 1 on.
         """
         self.n_features_out_ = _positive(self.n, "n")
         return self
@@ -59,11 +69,16 @@ class SignatureTransformer(SurfaceTransformer):
     """A transformer that makes one row of numbers of each surface by itself."""
 
     def transform(self, X: Surfaces) -> Floats:
-        """Return the (s, n) signatures of s surfaces, a row each.
+        """Return the signatures of surfaces.
 
         Parameters
         ----------
         X : list of Surface, path, or (vertices, faces)
+
+        Returns
+        -------
+        (s, n) float64
+            A row for each of s surfaces.
 
         Raises
         ------
@@ -170,8 +185,18 @@ class SpectralDistance(SurfaceTransformer):
         Parameters
         ----------
         X : list of Surface, path, or (vertices, faces)
-        y
+        y : optional
             Not used.
+
+        Returns
+        -------
+        SpectralDistance
+            Itself.
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse, or the number of modes is no integer from 1 on.
         """
         _positive(self.n, "n")
         self.embeddings_ = _of_each(X, self._embedding)
@@ -179,11 +204,16 @@ class SpectralDistance(SurfaceTransformer):
         return self
 
     def transform(self, X: Surfaces) -> Floats:
-        """Return the (s, r) distances of s surfaces to the r of `fit`.
+        """Return the distances of surfaces to those of `fit`.
 
         Parameters
         ----------
         X : list of Surface, path, or (vertices, faces)
+
+        Returns
+        -------
+        (s, r) float64
+            Of s surfaces to the r of `fit`.
 
         Raises
         ------
@@ -197,13 +227,24 @@ class SpectralDistance(SurfaceTransformer):
         )
 
     def fit_transform(self, X: Surfaces, y: Any = None, **_: Any) -> Floats:
-        """Return the (s, s) distances of s surfaces, each pair measured once.
+        """Return the distances between surfaces, each pair measured once.
 
         Parameters
         ----------
         X : list of Surface, path, or (vertices, faces)
-        y
+        y : optional
             Not used.
+        **_ : optional
+            Not used.
+
+        Returns
+        -------
+        (s, s) float64
+
+        Raises
+        ------
+        ValueError
+            As `fit`.
         """
         self.fit(X)
         matrix = np.zeros((len(self.embeddings_),) * 2)

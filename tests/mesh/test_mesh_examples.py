@@ -7,11 +7,9 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
 EXPECTED = {
-    "mesh_repair": ["1 non-manifold edges", "genus 0, 642 vertices, area error 0.0e+00"],
     "painted_cup": ["genus 1, minimum angle 3", "noise 40."],
-    "gauss_bonnet": ["fsaverage5 white, left", "total curvature 4.000000 pi"],
 }
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
 
 
 def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
@@ -23,10 +23,3 @@ def test_classify_bodies(capsys: pytest.CaptureFixture[str]) -> None:
 def test_brain_structure(capsys: pytest.CaptureFixture[str]) -> None:
     first, second = printed("brain_structure", capsys)
     assert first.startswith("genus 0") and second.endswith("complete: True")
-
-
-def test_embed_shapes(capsys: pytest.CaptureFixture[str]) -> None:
-    lines = printed("embed_shapes", capsys)
-    places = [line.split(":")[1] for line in lines[:-1]]
-    assert places[0] == places[1] and places[2] == places[3] and places[0] != places[2]
-    assert float(lines[-1].split()[-1]) < 0.2

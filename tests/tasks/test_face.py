@@ -13,6 +13,7 @@ import pytest
 import surfexp as sx
 
 FUNCTIONS = [name for name in sx.__all__ if inspect.isfunction(getattr(sx, name))]
+CLASSES = [name for name in sx.__all__ if inspect.isclass(getattr(sx, name))]
 HEAVY = ("mlflow", "snakemake", "hydra", "numba", "scipy", "matplotlib", "nibabel", "sklearn", "numpy")
 
 
@@ -40,12 +41,12 @@ def test_every_function_has_complete_numpydoc(name: str) -> None:
     assert signature.return_annotation in ("None", None) or "Returns\n---" in text
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@pytest.mark.parametrize("name", FUNCTIONS + CLASSES)
 def test_examples_run(name: str, working_folder) -> None:
-    function = getattr(sx, name)
+    offered = getattr(sx, name)
     runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS)
-    for test in doctest.DocTestFinder(recurse=False).find(function, name, globs={"np": np}):
-        assert runner.run(test).failed == 0
+    (test,) = doctest.DocTestFinder(recurse=False).find(offered, name, globs={"np": np})
+    assert test.examples and runner.run(test).failed == 0
 
 
 def test_unknown_names_are_refused() -> None:

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from surfexp.mesh.shapes.icosphere import icosphere
+import surfexp as sx
 from surfexp.operators.elements_surface import surface_elements
-from surfexp.spectrum.eigensolver import eigenpairs
 
 exact = np.array([degree * (degree + 1) for degree in range(1, 5) for _ in range(2 * degree + 1)])
 for name, levels, order, curved in [
@@ -14,6 +13,6 @@ for name, levels, order, curved in [
     ("P3", 3, 3, True),
 ]:
     project = (lambda points: points / np.linalg.norm(points, axis=1, keepdims=True)) if curved else None
-    elements = surface_elements(icosphere(levels).mesh, order, project)
-    values = eigenpairs(elements.stiffness, elements.mass, 25).values[1:]
+    elements = surface_elements(sx.shape("icosphere", levels=levels).mesh, order, project)
+    values = sx.eigsh(elements.stiffness, 25, elements.mass, sigma=0.0)[0][1:]
     print(f"{name:8s} {np.abs(values / exact - 1).max():.1e}")

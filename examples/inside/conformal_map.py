@@ -2,16 +2,14 @@
 
 import numpy as np
 
+import surfexp as sx
 from surfexp.baselines.conformal_flow import conformal_flow
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import image_mesh
 from surfexp.baselines.spherical_map import spherical_map
-from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.mesh.triangle_mesh import TriangleMesh
 
 for levels in (2, 3, 4):
-    sphere = icosphere(levels).mesh
-    mesh = TriangleMesh(sphere.vertices * [1.0, 1.0, 1.8], sphere.faces)
+    mesh = sx.shape("ellipsoid", levels=levels, semiaxes=(1.0, 1.0, 1.8)).mesh
     image = image_mesh(mesh, conformal_flow(mesh, spherical_map(mesh)))
     measured = distortion(mesh, image, np.zeros(3))
     print(f"angle error {measured['angle_error_max']:.2f} degrees, {measured['flipped_faces']:.0f} faces flipped")

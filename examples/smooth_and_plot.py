@@ -1,0 +1,11 @@
+"""How does the curvature of a cortex look after smoothing by 10 mm, and is its mean kept?"""
+
+import surfexp as sx
+
+brain = sx.shape("fsaverage5", hemisphere="left", surface="pial")
+smoothed = sx.smooth(brain, "curv", 10.0)
+before, after = brain.scalars["curv"].std(), smoothed.values.std()
+change = smoothed.certificate["change_of_mean"]
+print(f"spread {before:.3f} / mm before, {after:.3f} / mm after; mean changed by {change:.0e}")
+picture = sx.plot(brain, smoothed, views=("lateral", "medial"), label="mean curvature", unit="1/mm", width=800)
+picture.save("smoothed_curvature.png")

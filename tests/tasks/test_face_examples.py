@@ -1,0 +1,135 @@
+"""The examples of what `import surfexp` offers print what they promise, and import nothing else of surfexp."""
+
+from __future__ import annotations
+
+import ast
+import re
+import runpy
+from pathlib import Path
+
+import pandas
+import pytest
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+TABLE = (EXAMPLES / "README.md").read_text(encoding="utf-8")
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+
+
+@pytest.fixture
+def printed(request: pytest.FixtureRequest, working_folder: Path, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """Lines of the example that the test is named after."""
+    runpy.run_path(str(EXAMPLES / f"{request.function.__name__.removeprefix('test_')}.py"))
+    return capsys.readouterr().out.splitlines()
+
+
+def numbers(lines: list[str]) -> list[float]:
+    return [float(number) for number in NUMBER.findall("\n".join(lines))]
+
+
+@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.py")), ids=lambda path: path.stem)
+def test_every_example_asks_a_question_of_the_face_alone(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    question = ast.get_docstring(tree) or ""
+    assert "?" in question and "\n" not in question and f"| [{path.name}]({path.name}) | {question} |" in TABLE
+    modules = [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
+    modules += [str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    assert [module for module in modules if module.startswith("surfexp")] == ["surfexp"]
+
+
+def test_certified_spectrum(printed: list[str]) -> None:
+    assert printed[0].startswith("300 eigenvalues below 340.69") and printed[0].endswith("True")
+
+
+def test_classify_with_scikit_learn(printed: list[str]) -> None:
+    share, bodies = numbers(printed)
+    assert share == 100 and bodies == 15
+
+
+def test_denoise_a_cortex(printed: list[str]) -> None:
+    known, vertices, noise, before, after, gap = numbers(printed)
+    assert known < vertices == 10242 and noise == pytest.approx(0.5, rel=0.1) and gap <= 1e-4
+    assert before == pytest.approx(0.5, abs=0.02) and after < 0.6 * before
+    assert Path("thickness.shape.gii").stat().st_size > 0
+
+
+def test_denoise_an_image(printed: list[str]) -> None:
+    error, gap = numbers(printed)
+    assert error <= 12.0 and 0.0 <= gap <= 1e-4
+
+
+def test_eigsh_in_place_of_scipy(printed: list[str]) -> None:
+    count, error, largest, orthogonality = numbers(printed)
+    assert count == 9 and error < 0.02 * largest and orthogonality < 1e-10
+
+
+def test_embed_shapes(printed: list[str]) -> None:
+    places = [line.split(":")[1] for line in printed[:-1]]
+    assert places[0] == places[1] and places[2] == places[3] and places[0] != places[2]
+    assert float(printed[-1].split()[-1]) < 0.2
+
+
+def test_fingerprints_of_a_folder(printed: list[str]) -> None:
+    table = pandas.read_csv("bodies.csv", index_col=0)
+    assert list(table.columns) == ["ball", "cigar", "pancake"] and table.loc["ev0"].eq(0).all()
+    assert table.loc["area", "ball"] == pytest.approx(12.566, rel=0.01)
+    assert [line.split()[0] for line in printed] == ["area", *table.columns]
+
+
+def test_gauss_bonnet(printed: list[str]) -> None:
+    (line,) = printed
+    assert "fsaverage5 white, left" in line and "total curvature 4.000000 pi" in line
+
+
+def test_gyri_and_sulci(printed: list[str]) -> None:
+    regions, sign, boundary, gap = numbers(printed)
+    assert 100 > regions > sign > 50 and boundary > 0 and gap <= 1e-3
+    assert Path("gyri.label.gii").stat().st_size > 0
+
+
+def test_map_between_bodies(printed: list[str]) -> None:
+    distance, share = numbers(printed)
+    assert distance < 1e-5 and share == 100 and "proved least: True" in printed[0]
+
+
+def test_mesh_repair(printed: list[str]) -> None:
+    words = "\n".join(printed)
+    assert "1 non-manifold edges" in words and "genus 0, 642 vertices, area error 0.0e+00" in words
+
+
+def test_part_of_a_plate(printed: list[str]) -> None:
+    free, exactly, held, exactly_held, known, vertices = numbers(printed)
+    assert free == pytest.approx(exactly, rel=0.005) and held == pytest.approx(exactly_held, rel=0.01)
+    assert (known, vertices) == (31 * 41, 61 * 41) and all(line.endswith("True") for line in printed[:2])
+
+
+def test_proved_signs(printed: list[str]) -> None:
+    assert printed[0] == "distance 0.1311, no signs give less than 0.1311: True"
+    assert int(printed[1].split()[2]) < 200
+
+
+def test_reeb_graph_of_a_patch(printed: list[str]) -> None:
+    nodes, arcs, loops, farthest = numbers(printed)
+    assert loops == 0 and arcs == nodes - 1 and printed[0].endswith("a chain: True") and farthest > 2.0
+    assert Path("patch.graphml").exists() and Path("patch.vtk").exists()
+
+
+def test_segment_an_image(printed: list[str]) -> None:
+    dice, boundary, circle = numbers(printed)
+    assert 0.98 <= dice <= 1.0 and 5.5 <= boundary <= 6.4 and circle == 5.76
+
+
+def test_smooth_and_plot(printed: list[str]) -> None:
+    before, after, change, *_ = numbers([printed[0].replace(" / mm", "")])
+    assert 0 < after < before and change < 1e-9
+    assert 10_000 < Path("smoothed_curvature.png").stat().st_size < 500_000
+
+
+def test_thirty_shapes(printed: list[str]) -> None:
+    places, (own, bodies) = [numbers([line]) for line in printed[:3]], numbers(printed[3:])
+    assert own == bodies == 30 and len({tuple(place) for place in places}) == 3
+
+
+def test_window_of_the_spectrum(printed: list[str]) -> None:
+    found, counted, least, largest, residual = numbers(printed)
+    assert found == counted > 0 and 20 <= least <= largest <= 30 and residual <= 1e-8
+    assert printed[0].endswith("True")
