@@ -24,6 +24,7 @@ from pathlib import Path
 from surfexp.commands import processes
 ready, alive, folder, mode = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), sys.argv[4]
 signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # under nohup it would be ignored
 processes.end_on_signals()
 def follow(process):
     try:
