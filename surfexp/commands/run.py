@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from surfexp.workflow.plan import Plan
 
 LINES_OF_WARNING = 10
+ROWS_PRINTED = 200
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -51,6 +52,7 @@ def _run(doubtful: list[str], plan: Plan) -> None:
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.report.convergence import unconverged
     from surfexp.report.declared import check_names
+    from surfexp.report.table import comparisons, rows_of
 
     check_names(plan)
     results = Path(plan.settings.results)
@@ -63,11 +65,12 @@ def _run(doubtful: list[str], plan: Plan) -> None:
         run(plan)
     except StageFailure as error:
         failure = error
-    print_tables(plan, results, console)
+    groups = comparisons(rows_of(plan, results.resolve()))
+    print_tables(groups, console, ROWS_PRINTED)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
-    lines = unconverged(plan, results.resolve())
+    lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines
     warn(lines)
     if failure is not None:

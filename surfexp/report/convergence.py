@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from surfexp.metric import Metric
 from surfexp.report.declared import declared
-from surfexp.report.table import comparisons, rows_of
+from surfexp.report.table import Comparison, comparisons, rows_of
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Plan
@@ -19,16 +19,16 @@ UNCONVERGED = 3
 LARGEST_GAP = 1.0
 
 
-def unconverged(plan: Plan, results: Path) -> list[str]:
+def unconverged(plan: Plan, results: Path, groups: Sequence[Comparison] | None = None) -> list[str]:
     """Return one line for each row, and for each stage below one, that did not converge or whose gap is over its bound.
 
     The bound of a metric is the option that its declaration names, as the stage was configured; it counts where a result does
     not say itself whether it converged, as a published scheme does whose pair of operators has no gap of its own. The bound of
-    every relative gap is 1 besides. A stage that failed is not among them.
+    every relative gap is 1 besides. A stage that failed is not among them. `groups` are the rows where they have been read.
     """
     lines = []
     leaves = {leaf.key for leaf in plan.leaves}
-    for group in comparisons(rows_of(plan, results)):
+    for group in comparisons(rows_of(plan, results)) if groups is None else groups:
         for row in group.rows:
             node = plan.nodes[row.leaf.key]
             if why := reason(row.metrics, node.options, declared(plan.nodes, node.key)):
