@@ -71,3 +71,13 @@ def _hollow(result: type) -> Any:
     for field in dataclasses.fields(result):
         object.__setattr__(empty, field.name, {"metrics": {}, "notes": ()}.get(field.name))
     return empty
+
+
+def fill_experiment(experiment: str, results: Path) -> Plan:
+    """Store a result without contents for every stage of an experiment; return its plan."""
+    from surfexp.workflow.launch import launch
+
+    plans: list[Plan] = []
+    launch([f"experiment={experiment}", f"results={results}"], plans.append)
+    fill(plans[0], results)
+    return plans[0]

@@ -38,11 +38,15 @@ class Described:
 
 @dataclass(frozen=True)
 class Catalogue:
-    """Plugins by kind and name, the stage kinds in order with their result types, and what could not be loaded by file."""
+    """Plugins by kind and name, the stage kinds in order with their result types, and what could not be loaded by file.
+
+    `certified` are the kinds whose results say whether they converged.
+    """
 
     plugins: dict[tuple[str, str], Described]
     kinds: dict[str, tuple[str, bool]]
     broken: dict[str, str]
+    certified: frozenset[str]
 
     def names(self, kind: str) -> list[str]:
         """Names of the plugins of a kind."""
@@ -57,7 +61,8 @@ def catalogue(working_folder: Path) -> Catalogue:
     if not known["broken"]:  # what failed may work the next time, for another reason than a changed file
         _memory.put(key, known)
     plugins = {(item["kind"], item["name"]): Described(**item) for item in known["plugins"]}
-    return Catalogue(plugins, {name: (path, stored) for name, path, stored in known["kinds"]}, known["broken"])
+    kinds = {name: (path, stored) for name, path, stored in known["kinds"]}
+    return Catalogue(plugins, kinds, known["broken"], frozenset(known["certified"]))
 
 
 @cache
@@ -81,7 +86,9 @@ def _describe_all(working_folder: Path) -> dict[str, Any]:
     registry.load_all(working_folder)
     plugins = [asdict(_described(method)) for method in registry.PLUGINS.values()]
     kinds = [(kind.name, kind.path, kind.stored) for kind in KINDS.values()]
-    return {"plugins": plugins, "kinds": kinds, "broken": {str(f): text for f, text in registry.BROKEN.items()}}
+    certified = [kind.name for kind in KINDS.values() if "converged" in getattr(kind.result, "METRICS", {})]
+    broken = {str(file): text for file, text in registry.BROKEN.items()}
+    return {"plugins": plugins, "kinds": kinds, "broken": broken, "certified": certified}
 
 
 def _described(method: Any) -> Described:

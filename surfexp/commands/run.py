@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.catalogue.planned import remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.workflow.errors import StageFailure, UserError
 
@@ -28,22 +29,42 @@ def command(name: str, arguments: list[str]) -> int:
         print(usage(name))
         return 0
     check_arguments(arguments)
-    from hydra.errors import HydraException
-    from omegaconf.errors import OmegaConfBaseException
-
-    from surfexp.report.convergence import UNCONVERGED
-    from surfexp.workflow.launch import launch
-
     doubtful: list[str] = []
     action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful)
     try:
-        launch(arguments, action)
-    except (HydraException, OmegaConfBaseException) as error:
-        raise UserError(" ".join(str(error).split())) from error
+        plan_and_act(arguments, action)
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
+    from surfexp.report.convergence import UNCONVERGED
+
     return UNCONVERGED if doubtful else 0
+
+
+def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
+    """Act on the plan of a request; one that was made before is not made again, and its names are not checked again."""
+    if (known := remembered(arguments)) is not None:
+        action(known)
+        return
+    from hydra.errors import HydraException
+    from omegaconf.errors import OmegaConfBaseException
+
+    from surfexp.report.declared import check_names
+    from surfexp.workflow.launch import launch
+
+    plans: list[Plan] = []
+
+    def check_and_act(plan: Plan) -> None:
+        check_names(plan)
+        plans.append(plan)
+        action(plan)
+
+    try:
+        launch(arguments, check_and_act)
+    except (HydraException, OmegaConfBaseException) as error:
+        raise UserError(" ".join(str(error).split())) from error
+    if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
+        remember(arguments, plans[0])
 
 
 def _run(doubtful: list[str], plan: Plan) -> None:
@@ -51,10 +72,8 @@ def _run(doubtful: list[str], plan: Plan) -> None:
     from surfexp.commands.execution import run, unfinished
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.report.convergence import unconverged
-    from surfexp.report.declared import check_names
     from surfexp.report.table import comparisons, rows_of
 
-    check_names(plan)
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
     console = wide_console()
@@ -86,9 +105,7 @@ def warn(lines: list[str]) -> None:
 
 def _show(plan: Plan) -> None:
     from surfexp.commands.execution import unfinished
-    from surfexp.report.declared import check_names
 
-    check_names(plan)
     results = Path(plan.settings.results)
     missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))
     unique = Counter(node.kind for node in plan.stored)

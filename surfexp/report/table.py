@@ -113,7 +113,7 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
     rows = []
     for leaf in plan.leaves:
         found = outcome(results, plan.nodes[leaf.key])
-        parameters = {key: value for key, value in leaf.parameters.items() if value is not None}
+        parameters = {key: value for key, value in plan.parameters(leaf).items() if value is not None}
         rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure))
     return rows
 

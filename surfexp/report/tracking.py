@@ -93,7 +93,7 @@ def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRu
     changes, taken = [], set[str]()
     for leaf in plan.leaves:
         stored = tuple(key for key in _upstream(plan, leaf.key, upstream) if key in outcomes)
-        state = digest([[states[key] for key in stored], leaf.parameters])
+        state = digest([[states[key] for key in stored], leaf.configuration])
         same = by_configuration.get(leaf.configuration, [])
         free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
         mine = by_leaf.get(leaf.key) or next(free, None)
@@ -130,9 +130,11 @@ def _content(
     ]
     failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
     own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
-    parameters = {key: str(value) for key, value in leaf.parameters.items()}
+    parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
     status = "FAILED" if own.failure else "FINISHED"
-    return RunContent(_label(leaf), status, parameters, series, {**tags, **own_tags, "failure": "; ".join(failures)})
+    return RunContent(
+        _label(parameters), status, parameters, series, {**tags, **own_tags, "failure": "; ".join(failures)}
+    )
 
 
 def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
@@ -143,8 +145,8 @@ def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[
     return known[key]
 
 
-def _label(leaf: Leaf) -> str:
-    return " ".join(str(value) for key, value in leaf.parameters.items() if key.endswith(".name"))[:250]
+def _label(parameters: Mapping[str, str]) -> str:
+    return " ".join(value for key, value in parameters.items() if key.endswith(".name"))[:250]
 
 
 def _safe(name: str) -> str:

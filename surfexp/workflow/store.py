@@ -18,7 +18,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array, issparse
 
 from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.kinds import KINDS, path_of
@@ -162,7 +161,7 @@ def _encode(value: Any, path: str, arrays: dict[str, Any]) -> Any:
         names = [item.name for item in dataclasses.fields(value)]
         fields = {name: _encode(getattr(value, name), f"{path}/{name}", arrays) for name in names}
         return {"class": kind or path_of_class, "fields": fields}
-    if issparse(value):
+    if hasattr(value, "tocsr"):
         matrix = value.tocsr()
         parts = {"data": matrix.data, "indices": matrix.indices, "indptr": matrix.indptr}
         return {"sparse": _encode(parts, path, arrays), "shape": list(matrix.shape)}
@@ -193,6 +192,8 @@ def _decode(tree: Any, arrays: Any) -> Any:
     if "tuple" in tree:
         return tuple(_decode(item, arrays) for item in tree["tuple"])
     if "sparse" in tree:
+        from scipy.sparse import csr_array  # takes longer than all else that a run with nothing to do imports
+
         parts = _decode(tree["sparse"], arrays)
         return csr_array((parts["data"], parts["indices"], parts["indptr"]), shape=tuple(tree["shape"]))
     module, _, name = tree["class"].partition(":")

@@ -25,7 +25,7 @@ def test_text_is_escaped_and_backticks_are_code() -> None:
 
 def rows_by_chance(count: int, seed: int) -> list[Row]:
     random = np.random.default_rng(seed)
-    leaf = Leaf("key", "configuration", {"target": "solver"}, {"solver.name": "rof"})
+    leaf = Leaf("key", "configuration", {"target": "solver"})
     rows = []
     for number in range(count):
         metrics = {"rmse": float(random.integers(3)), "psnr": random.choice([1.0, float("nan")]), "area": 1.0}

@@ -139,7 +139,7 @@ def test_runs_show_options_numbers_history_and_what_came_before(results: Path) -
     memory = {"peak_memory_mb": max(event["peak_memory_mb"] for event in events.values())}
     history = store.load(results, "solver", leaf.key, "history")
     assert run.data.metrics == {**own, **taken, **memory, "history.gap": history["gap"][-1]}
-    assert run.data.params == {key: str(value) for key, value in leaf.parameters.items()}
+    assert run.data.params == {key: str(value) for key, value in plan.parameters(leaf).items()}
     expected = {**OWN, "leaf": leaf.key, "configuration": leaf.configuration}
     assert expected.items() <= run.data.tags.items()
     assert run.data.tags["mlflow.parentRunId"] == parent.info.run_id
