@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from surfexp.catalogue.folders import plugin_files
+from surfexp.catalogue.folders import entry_points_of_plugins, plugin_files
 from surfexp.workflow.errors import UserError
 
 if TYPE_CHECKING:
@@ -24,7 +23,7 @@ def load_all(working_folder: Path) -> None:
 
     for file in plugin_files(working_folder):
         _guarded(file, partial(load_file, file))
-    for point in entry_points(group="surfexp.plugins"):
+    for point in entry_points_of_plugins():
         _guarded(Path(point.value), point.load)
 
 

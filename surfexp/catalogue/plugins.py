@@ -6,11 +6,10 @@ import hashlib
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from surfexp.catalogue.folders import installed_packages, package_folder, plugin_files
+from surfexp.catalogue.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
 from surfexp.catalogue.installed import installed_state
 from surfexp.catalogue.user_cache import Memory
 
@@ -71,7 +70,7 @@ def code_state(working_folder: Path) -> str:
     packages = [Path(__file__).resolve().parent.parent, *map(package_folder, installed_packages())]
     files = [*plugin_files(working_folder), *(file for package in packages for file in _python_files(str(package)))]
     facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
-    points = sorted(f"{point.name}={point.value}" for point in entry_points(group="surfexp.plugins"))
+    points = sorted(f"{point.name}={point.value}" for point in entry_points_of_plugins())
     return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()
 
 
