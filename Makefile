@@ -13,10 +13,10 @@ run: .venv/ready
 	$(BIN)/surfexp run
 
 test: .venv/ready
-	$(BIN)/pytest -n 2 --dist loadgroup -m "not slow"
+	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder -m "not slow"
 
 test-all: .venv/ready
-	$(BIN)/pytest -n 2 --dist loadgroup
+	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 optional: .venv/ready # open3d, cvxpy: their tests are skipped without
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-optional.lock

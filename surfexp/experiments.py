@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import warnings
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -120,8 +121,11 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
         plan = latest_plan(Path(results), experiment)
     except UserError as error:
         raise ValueError(str(error)) from None
-    for file in {node.file for node in plan.nodes.values()}:
-        registry.load_file(Path(file))  # a plugin file may declare a stage kind of its own
+    # a plugin may declare a stage kind of its own: found here or installed, never in a file that a plan of others names
+    registry.open_catalogue(Path.cwd())
+    for kind, name in {(node.kind, node.plugin) for node in plan.nodes.values()}:
+        with suppress(UserError):
+            registry.plugin(kind, name)
     folder = root / experiment
     figures = {file.stem: file for file in sorted((folder / "figures").glob("*.png"))}
     kinds = {leaf.key: plan.nodes[leaf.key].kind for leaf in plan.leaves}

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from surfexp import _FACE
+
 DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 DEFINITION = FUNCTION | ast.ClassDef
@@ -138,10 +140,13 @@ def _name(node: ast.AST) -> str:
 
 
 def imported_modules(part: Iterable[ast.stmt], file: Path) -> frozenset[str]:
-    """Dotted names of all modules that statements of a file may import, relative ones resolved."""
+    """Dotted names of all modules that statements of a file may import, relative ones resolved.
+
+    Imports for type checkers alone do not count. What is taken from the face of surfexp counts by the module that defines it.
+    """
     names: set[str] = set()
-    package = dotted(file)
-    for node in _walk(part):
+    package, nodes = dotted(file), list(_executed(part))
+    for node in nodes:
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -151,7 +156,26 @@ def imported_modules(part: Iterable[ast.stmt], file: Path) -> frozenset[str]:
                 base = ".".join([*parents, *([node.module] if node.module else [])])
             names.add(base)
             names.update(f"{base}.{alias.name}" for alias in node.names)
+    names |= {_FACE[name] for name in _taken_from_face(nodes) if name in _FACE}
     return frozenset(names)
+
+
+def _taken_from_face(nodes: Sequence[ast.AST]) -> set[str]:
+    """Names that code takes from surfexp itself; all of them where the package is passed on as a value."""
+    taken, bound = set[str](), set[str]()
+    for node in nodes:
+        if isinstance(node, ast.Import):
+            bound |= {alias.asname or alias.name for alias in node.names if alias.name == "surfexp"}
+        elif isinstance(node, ast.ImportFrom) and not node.level and node.module == "surfexp":
+            taken |= {alias.name for alias in node.names}
+    owners = [node for node in nodes if isinstance(node, ast.Attribute) and _is_name(node.value, bound)]
+    uses = sum(_is_name(node, bound) for node in nodes)
+    taken |= {node.attr for node in owners}
+    return set(_FACE) if uses > len(owners) else taken
+
+
+def _is_name(node: ast.AST, names: set[str]) -> bool:
+    return isinstance(node, ast.Name) and node.id in names
 
 
 def data_packages(part: Iterable[ast.stmt]) -> frozenset[str]:
@@ -170,6 +194,14 @@ def root_package(file: Path) -> str:
     while (folder.parent / "__init__.py").exists():
         folder = folder.parent
     return folder.name if (folder / "__init__.py").exists() else file.stem
+
+
+def _executed(part: Iterable[ast.AST]) -> Iterator[ast.AST]:
+    """All nodes but those below `if TYPE_CHECKING:`."""
+    for node in part:
+        yield node
+        skipped = isinstance(node, ast.If) and _name(node.test) == "TYPE_CHECKING"
+        yield from _executed(node.orelse if isinstance(node, ast.If) and skipped else ast.iter_child_nodes(node))
 
 
 def _walk(part: Iterable[ast.stmt]) -> Iterator[ast.AST]:

@@ -28,6 +28,16 @@ def working_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+# seconds to minutes each: the others run beside them
+LONGEST = (
+    "test_command_line.py",
+    "test_plugins.py",
+    "test_collections.py",
+    "test_distribution.py",
+    "test_new_command.py",
+)
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Start the long end-to-end group first, so that it runs beside all the rest."""
-    items.sort(key=lambda item: item.get_closest_marker("xdist_group") is None)
+    """Begin with the longest files. Each stays in one process (`--dist loadfile`), which compiles and prepares once."""
+    items.sort(key=lambda item: LONGEST.index(item.path.name) if item.path.name in LONGEST else len(LONGEST))

@@ -11,6 +11,10 @@ from surfexp.commands.execution import hold_results
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import read_plan
 
+# what runs make below a results folder, which may hold other files as well
+MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",
+        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
+
 
 def command(name: str, arguments: list[str]) -> int:
     """Remove stored results of older code and options, or everything; ask first."""
@@ -32,12 +36,23 @@ def command(name: str, arguments: list[str]) -> int:
         print("nothing removed; --yes removes without asking")
         return 0
     for path in doomed:
-        path.unlink() if path.is_file() else shutil.rmtree(path)
+        path.unlink() if path.is_file() or path.is_symlink() else shutil.rmtree(path)
+    while empty := _without_content(given.results):
+        for folder in empty:
+            folder.rmdir()
     return 0
 
 
 def _everything(results: Path) -> list[Path]:
-    return [path for path in results.iterdir() if path.name not in ("README.md", ".lock")]
+    experiments = {file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
+    pages = [results / name for name in experiments if (results / name / "report.html").is_file()]
+    return [path for pattern in MADE for path in results.glob(pattern)] + pages
+
+
+def _without_content(results: Path) -> list[Path]:
+    """Folders of ours that nothing is left in, the inner ones first."""
+    ours = [path for name in ("store", "events", "logs", "plans", "cache") for path in (results / name).glob("**")]
+    return [path for path in sorted(ours, reverse=True) if path.is_dir() and not any(path.iterdir())]
 
 
 def _unplanned(results: Path) -> list[Path]:

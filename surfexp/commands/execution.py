@@ -14,7 +14,7 @@ from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
 from surfexp.workers import compiled_code
 from surfexp.workflow import registry, store
-from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.outcome import event_path, read_event
 from surfexp.workflow.plan import Node, Plan, read_plan
@@ -27,7 +27,12 @@ _locks: list[int] = []
 
 def run(plan: Plan) -> None:
     """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed."""
+    _profile(plan.settings.profile or "default")
     results = Path(plan.settings.results).resolve()
+    if {*"{}"} & {*str(results)}:
+        raise UserError(
+            f"results folder {str(results)!r} has braces, which Snakemake reads as a pattern: choose another name"
+        )
     hold_results(results, wait=True)
     path = plan.write(results)
     forced = plan.settings.timing
@@ -76,7 +81,7 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
 
 def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: bool) -> None:
     rules = Path(store.__file__).with_name("rules.smk")
-    profile = plan.settings.profile or str(registry.package_folder("surfexp.profiles") / "default")
+    profile = str(_profile(plan.settings.profile or "default"))
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
     command = [sys.executable, "-m", "surfexp.workers.snakemake"]
     command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
@@ -97,6 +102,15 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], force
         if shutil.disk_usage(results).free < 2**20:
             reason = f"the disk of {results} is full; free some space, then the same command continues"
         raise StageFailure(reason)
+
+
+def _profile(name: str) -> Path:
+    """Folder of a Snakemake profile: one of one's own, or one that comes with the package, from wherever it is run."""
+    shipped = registry.package_folder("surfexp.profiles")
+    for folder in (Path(name), shipped / name.removeprefix("profiles/")):
+        if any(folder.glob("config*.yaml")):
+            return folder.resolve()
+    raise unknown("profile", name, [f"profiles/{path.name}" for path in shipped.iterdir() if path.is_dir()])
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections import Counter
 from collections.abc import Callable
@@ -87,7 +88,7 @@ def _run(doubtful: list[str], plan: Plan) -> None:
     groups = comparisons(rows_of(plan, results.resolve()))
     print_tables(groups, console, ROWS_PRINTED)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
-    folder = "" if plan.settings.results == "results" else f" --results {plan.settings.results}"
+    folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
     lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 from sklearn.base import BaseEstimator, TransformerMixin
@@ -13,7 +14,7 @@ from sklearn.utils.validation import check_is_fitted
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.arrays import Floats
 from surfexp.embedding.spectral_distance import spectral_distance
-from surfexp.embedding.spectral_embedding import Weighting
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -25,6 +26,7 @@ from surfexp.tasks.distances import embedded
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 Surfaces = Sequence[SurfaceLike]
+Made = TypeVar("Made")
 
 
 class SurfaceTransformer(TransformerMixin, BaseEstimator):
@@ -69,7 +71,7 @@ class SignatureTransformer(SurfaceTransformer):
             If a surface is unfit or too coarse, or open where its volume is asked for.
         """
         check_is_fitted(self)
-        return np.stack([self._row(surface) for surface in X])
+        return np.stack(_of_each(X, self._row))
 
     @abstractmethod
     def _row(self, given: SurfaceLike) -> Floats:
@@ -172,7 +174,7 @@ class SpectralDistance(SurfaceTransformer):
             Not used.
         """
         _positive(self.n, "n")
-        self.embeddings_ = [embedded(surface, self.n, self.weighting)[0] for surface in X]
+        self.embeddings_ = _of_each(X, self._embedding)
         self.n_features_out_ = len(self.embeddings_)
         return self
 
@@ -189,7 +191,7 @@ class SpectralDistance(SurfaceTransformer):
             If a surface is unfit or too coarse.
         """
         check_is_fitted(self)
-        others = [embedded(surface, self.n, self.weighting)[0] for surface in X]
+        others = _of_each(X, self._embedding)
         return np.array(
             [[spectral_distance(one, other, limit=self.limit).value for other in self.embeddings_] for one in others]
         )
@@ -209,6 +211,21 @@ class SpectralDistance(SurfaceTransformer):
             for j, other in enumerate(self.embeddings_[:i]):
                 matrix[i, j] = matrix[j, i] = spectral_distance(one, other, limit=self.limit).value
         return matrix
+
+    def _embedding(self, given: SurfaceLike) -> SpectralEmbedding:
+        return embedded(given, self.n, self.weighting)[0]
+
+
+def _of_each(surfaces: Surfaces, make: Callable[[SurfaceLike], Made]) -> list[Made]:
+    """Return what is made of each surface; what cannot be made says of which one."""
+    found = []
+    for number, surface in enumerate(surfaces):
+        try:
+            found.append(make(surface))
+        except ValueError as error:
+            name = surface if isinstance(surface, str | Path) else getattr(surface, "name", "")
+            raise ValueError(f"surface {number}{f' ({name})' if name else ''}: {error}") from None
+    return found
 
 
 def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]:

@@ -20,6 +20,7 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.catalogue.planned import remembered
+from surfexp.hydra_guard import refuse_code
 from surfexp.own_data import with_collections, without_foreign_words
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
@@ -108,20 +109,24 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
 
 
 def _plan_without_sweep(overrides: list[str]) -> Plan | None:
-    """The plan of one job, composed once; None where Hydra is asked for more than that: a sweep, a sweeper, help."""
+    """The plan of one job, composed once; None where Hydra is asked for more than that: a sweep, a sweeper, help.
+
+    What files say of Hydra itself is checked in any case, before Hydra acts on it.
+    """
     from hydra import compose, initialize_config_dir
     from hydra.core.global_hydra import GlobalHydra
 
-    if any(text.startswith("-") for text in overrides):
-        return None
-    parsed = OverridesParser.create().parse_overrides(overrides)
-    if any(item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed):
-        return None
+    words = [text for text in overrides if not text.startswith("-")]
+    parsed = OverridesParser.create().parse_overrides(words)
+    asked = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
+    single = [text for text, of_hydra in zip(words, asked, strict=True) if not of_hydra]
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
-        stages, collections, rest = split_overrides(overrides, loader.repository)
+        stages, collections, rest = split_overrides(single, loader.repository)
         composed = compose("config", overrides=rest, return_hydra_config=True)
-    if composed.hydra.sweeper.get("params") or not composed.hydra.sweeper._target_.endswith(".BasicSweeper"):
+    refuse_code(OmegaConf.to_container(composed.hydra, resolve=False))
+    sweeper = composed.hydra.sweeper
+    if len(single) < len(overrides) or sweeper.get("params") or not sweeper._target_.endswith(".BasicSweeper"):
         return None
     composed.hydra = None
     return make_plan(_leaves(_plain(composed), overrides, stages, collections))

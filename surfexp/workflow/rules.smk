@@ -63,4 +63,4 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
             state=lambda wildcards: plan.nodes[wildcards.key].cache,
             command=shlex.join([sys.executable, "-m", "surfexp.workers.stage_process", str(plan_path)]),
         shell:
-            "exec {params.command} {wildcards.key} > {log} 2>&1"
+            "exec {params.command} {wildcards.key} > {log:q} 2>&1"

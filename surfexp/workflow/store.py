@@ -7,9 +7,7 @@ damage and no foreign file is read as a result.
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import hashlib
-import importlib
 import json
 import os
 import shutil
@@ -19,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from surfexp.result_tree import decoded, encoded
 from surfexp.workflow.errors import DamagedResult
-from surfexp.workflow.kinds import KINDS, path_of
 
 RECORD, ARRAYS = "record.json", "arrays.npz"
 SEAL = ',\n "sha256": "{}"\n}}\n'
@@ -48,7 +46,7 @@ def write_text(path: Path, text: str) -> None:
 def save(results: Path, kind: str, key: str, result: Any) -> None:
     """Store a result dataclass: its arrays in `arrays.npz`, the rest as JSON."""
     arrays: dict[str, Any] = {}
-    tree = _encode(result, "", arrays)
+    tree = encoded(result, "", arrays)
     folder = result_folder(results, kind, key)
     folder.mkdir(parents=True, exist_ok=True)
     temporary = folder / f".arrays.{os.getpid()}.npz"
@@ -96,7 +94,7 @@ def load(results: Path, kind: str, key: str, field: str | None = None) -> Any:
     tree = record["result"] if field is None else record["result"]["fields"].get(field)
     check_arrays(results, record)
     with np.load(result_folder(results, kind, key) / ARRAYS, allow_pickle=False) as arrays:
-        return _decode(tree, arrays)
+        return decoded(tree, arrays)
 
 
 def check_arrays(results: Path, record: Mapping[str, Any]) -> None:
@@ -152,52 +150,3 @@ def _seal(body: bytes) -> bytes:
 def _sha256(file: Path) -> str:
     with file.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
-
-
-def _encode(value: Any, path: str, arrays: dict[str, Any]) -> Any:
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        path_of_class = path_of(type(value))
-        kind = next((kind.name for kind in KINDS.values() if kind.path == path_of_class), None)
-        names = [item.name for item in dataclasses.fields(value)]
-        fields = {name: _encode(getattr(value, name), f"{path}/{name}", arrays) for name in names}
-        return {"class": kind or path_of_class, "fields": fields}
-    if hasattr(value, "tocsr"):
-        matrix = value.tocsr()
-        parts = {"data": matrix.data, "indices": matrix.indices, "indptr": matrix.indptr}
-        return {"sparse": _encode(parts, path, arrays), "shape": list(matrix.shape)}
-    if isinstance(value, np.ndarray):
-        arrays[path.strip("/")] = value
-        return {"array": path.strip("/")}
-    if isinstance(value, Mapping):
-        return {"map": {str(key): _encode(item, f"{path}/{key}", arrays) for key, item in value.items()}}
-    if isinstance(value, tuple | list):
-        items = [_encode(item, f"{path}/{i}", arrays) for i, item in enumerate(value)]
-        return {"tuple": items} if isinstance(value, tuple) else items
-    if isinstance(value, np.generic):
-        return value.item()
-    if value is None or isinstance(value, str | int | float | bool):
-        return value
-    raise TypeError(f"{path.strip('/') or 'result'} is a {type(value).__name__}, which the store does not keep")
-
-
-def _decode(tree: Any, arrays: Any) -> Any:
-    if isinstance(tree, list):
-        return [_decode(item, arrays) for item in tree]
-    if not isinstance(tree, dict):
-        return tree
-    if "array" in tree:
-        return arrays[tree["array"]]
-    if "map" in tree:
-        return {key: _decode(item, arrays) for key, item in tree["map"].items()}
-    if "tuple" in tree:
-        return tuple(_decode(item, arrays) for item in tree["tuple"])
-    if "sparse" in tree:
-        from scipy.sparse import csr_array  # takes longer than all else that a run with nothing to do imports
-
-        parts = _decode(tree["sparse"], arrays)
-        return csr_array((parts["data"], parts["indices"], parts["indptr"]), shape=tuple(tree["shape"]))
-    module, _, name = tree["class"].partition(":")
-    cls = getattr(importlib.import_module(module), name) if name else KINDS[module].result
-    if not dataclasses.is_dataclass(cls):
-        raise TypeError(f"stored class {tree['class']} is not a dataclass")
-    return cls(**{key: _decode(item, arrays) for key, item in tree["fields"].items()})

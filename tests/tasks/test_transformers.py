@@ -73,3 +73,12 @@ def test_the_checks_of_scikit_learn_that_give_no_data(transformer) -> None:
         check(name, clone(transformer))
     with pytest.raises(ValueError, match="n is 0"):
         clone(transformer).set_params(n=0).fit(BODIES)
+
+
+def test_a_surface_that_is_unfit_is_named() -> None:
+    points, faces = BODY.mesh.vertices, BODY.mesh.faces
+    two = np.vstack([points, points + 3.0]), np.vstack([faces, faces + len(points)])
+    with pytest.raises(ValueError, match=r"^surface 1 \(lost\.ply\): "):
+        sx.ShapeDNA(n=3).fit_transform([BODY, "lost.ply"])
+    with pytest.raises(ValueError, match=r"^surface 2: .*connected"):
+        sx.SpectralDistance(n=3).fit([BODY, BODY, two])

@@ -92,7 +92,6 @@ def test_collect_writes_an_axis_and_lists_what_is_left_out(shapes: Path, capsys:
     assert main(["collect", str(shapes), "--to", "mine"]) == 2 and "--force" in capsys.readouterr().err
 
 
-@pytest.mark.xdist_group("end_to_end")
 @pytest.mark.timeout(3600)
 def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0

@@ -30,7 +30,7 @@ pairing:
 """
 
 # limits are for what never ends: a busy machine takes many times as long
-pytestmark = [pytest.mark.xdist_group("end_to_end"), pytest.mark.timeout(3600)]
+pytestmark = pytest.mark.timeout(3600)
 
 
 def surfexp(*arguments: str, code: int = 0, **environment: str) -> subprocess.CompletedProcess[str]:

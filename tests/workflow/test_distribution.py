@@ -76,7 +76,6 @@ def call(*command: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.xdist_group("end_to_end")
 @pytest.mark.timeout(3600)  # for what never ends: some forty processes start here, and a busy machine delays each
 def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: Path) -> None:
     source = tmp_path / "source"

@@ -12,8 +12,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from surfexp import extras
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -178,7 +176,6 @@ def without_extras(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=folder, env=environment)
 
 
-@pytest.mark.xdist_group("end_to_end")
 def test_the_file_commands_need_no_extra(tmp_path: Path) -> None:
     done = without_extras(COMMANDS, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr

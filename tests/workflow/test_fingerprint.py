@@ -66,8 +66,48 @@ def test_the_framework_is_not_part_of_a_key() -> None:
     files, packages = fingerprint.code_closure(plugins / "operator" / "fem.py")
     names = {file.parent.name + "/" + file.name for file in files}
     assert "operators/fem.py" in names and "mesh/triangle_mesh.py" in names
-    assert not any("workflow" in str(file) for file in files)
+    rooms = {
+        file.relative_to(fingerprint.PACKAGE).parts[0] for file in files if file.is_relative_to(fingerprint.PACKAGE)
+    }
+    assert not rooms & {"workflow", "report", "commands", "tasks", "catalogue", "workers"}
     assert {"numpy", "scipy"} <= packages
+
+
+def test_nothing_that_shows_results_is_part_of_any_key() -> None:
+    from surfexp.workflow import registry
+
+    registry.load_all(Path("/nonexistent"))
+    shown = {fingerprint.PACKAGE / room for room in ("report", "commands", "catalogue", "workers")}
+    for plugin in registry.PLUGINS.values():
+        if plugin.file.is_relative_to(registry.package_folder("surfexp.plugins")):
+            files, _ = fingerprint.code_closure(plugin.file)
+            assert not {file for file in files for room in shown if file.is_relative_to(room)}, plugin.name
+
+
+def test_imports_for_type_checkers_do_not_count(package: Path) -> None:
+    method = package / "method.py"
+    method.write_text(
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from . import unreached\nelse:\n    from . import deep\n"
+    )
+    forget()
+    assert {file.name for file in fingerprint.code_closure(method)[0]} == {"method.py", "deep.py", "__init__.py"}
+
+
+@pytest.mark.parametrize(
+    ("code", "reached", "unreached"),
+    [
+        ("import surfexp as sx\n\ndef f(x):\n    return sx.denoise(x)\n", "denoising.py", "transformers.py"),
+        ("import surfexp\n\ndef f(x):\n    return surfexp.denoise(x)\n", "denoising.py", "transformers.py"),
+        ("from surfexp import denoise\n\ndef f(x):\n    return denoise(x)\n", "denoising.py", "transformers.py"),
+        ("def f(x):\n    import surfexp as sx\n    return getattr(sx, x)\n", "transformers.py", ""),
+    ],
+)
+def test_what_a_plugin_takes_from_the_face_counts(package: Path, code: str, reached: str, unreached: str) -> None:
+    method = package / "method.py"
+    method.write_text(code)
+    forget()
+    names = {file.name for file in fingerprint.code_closure(method, "f")[0]}
+    assert reached in names and unreached not in names
 
 
 PAIR = '''"""Two methods of one file."""

@@ -31,7 +31,6 @@ def test_whatever_is_new_is_formatted(working_folder: Path, name: str, capsys: p
     assert lint.returncode == 0, lint.stdout
 
 
-@pytest.mark.xdist_group("end_to_end")
 @pytest.mark.timeout(3600)  # for what never ends: numba compiles for a minute on a machine that is idle
 def test_the_tests_of_a_new_solver_and_a_new_kind_pass(working_folder: Path) -> None:
     command("new", ["solver", "my_method"])
