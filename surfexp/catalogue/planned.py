@@ -27,13 +27,26 @@ PLANS_KEPT = 30
 OPEN = re.compile(rb"\$\{[^}]*:|searchpath")
 
 
-def remembered(arguments: Sequence[str]) -> Plan | None:
-    """The plan of a request, None where it has to be made (again)."""
+def place(arguments: Sequence[str]) -> Path | None:
+    """Where the plan of a request is kept in this state of code and configuration; None where the request does not say all."""
+    folders = [package_folder("surfexp.conf"), Path("conf").resolve()]
+    folders += [package_folder(package).parent / "conf" for package in installed_packages()]
+    files = sorted(file for folder in dict.fromkeys(folders) for file in folder.rglob("*.yaml"))
+    texts = [(str(file), file.read_bytes()) for file in files]
+    asked = "\n".join(arguments).encode()
+    if any(OPEN.search(text) for _, text in [("", asked), *texts]) or any(text.startswith("-") for text in arguments):
+        return None
+    facts = [str(Path.cwd()), code_state(Path.cwd()), list(arguments), texts]
+    return user_cache("plans") / hashlib.sha256(repr(facts).encode()).hexdigest()[:40]
+
+
+def remembered(folder: Path | None) -> Plan | None:
+    """The plan that is kept at a place, None where it has to be made (again)."""
     from surfexp.catalogue.loading import load_own_kinds
     from surfexp.workflow.plan import read_plan
     from surfexp.workflow.registry import open_catalogue
 
-    if (folder := _folder(arguments)) is None or fault(folder.parent) or not folder.is_dir():
+    if folder is None or fault(folder.parent) or not folder.is_dir():
         return None
     with contextlib.suppress(Exception):  # a cache that cannot be read is none
         kept = json.loads((folder / "kept.json").read_text())
@@ -49,9 +62,9 @@ def remembered(arguments: Sequence[str]) -> Plan | None:
     return None
 
 
-def remember(arguments: Sequence[str], plan: Plan) -> None:
-    """Keep the plan of a request; nothing happens where the user's cache cannot be written."""
-    if (folder := _folder(arguments)) is None or fault(folder.parent):
+def remember(folder: Path | None, plan: Plan) -> None:
+    """Keep a plan at a place that was found before it was made; nothing happens where the cache cannot be written."""
+    if folder is None or fault(folder.parent):
         return
     with contextlib.suppress(OSError):
         others = sorted(folder.parent.iterdir(), key=lambda path: path.stat().st_mtime)
@@ -65,19 +78,6 @@ def remember(arguments: Sequence[str], plan: Plan) -> None:
 
 def _sha256(file: Path) -> str:
     return hashlib.sha256(file.read_bytes()).hexdigest()
-
-
-def _folder(arguments: Sequence[str]) -> Path | None:
-    """Where the plan of a request is kept; None where the request does not say all."""
-    folders = [package_folder("surfexp.conf"), Path("conf").resolve()]
-    folders += [package_folder(package).parent / "conf" for package in installed_packages()]
-    files = sorted(file for folder in dict.fromkeys(folders) for file in folder.rglob("*.yaml"))
-    texts = [(str(file), file.read_bytes()) for file in files]
-    asked = "\n".join(arguments).encode()
-    if any(OPEN.search(text) for _, text in [("", asked), *texts]) or any(text.startswith("-") for text in arguments):
-        return None
-    facts = [str(Path.cwd()), code_state(Path.cwd()), list(arguments), texts]
-    return user_cache("plans") / hashlib.sha256(repr(facts).encode()).hexdigest()[:40]
 
 
 def _read_by(plan: Plan) -> dict[str, dict[str, str]]:

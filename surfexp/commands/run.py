@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.catalogue.planned import remember, remembered
+from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.workflow.errors import StageFailure, UserError
 
@@ -44,7 +44,8 @@ def command(name: str, arguments: list[str]) -> int:
 
 def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     """Act on the plan of a request; one that was made before is not made again, and its names are not checked again."""
-    if (known := remembered(arguments)) is not None:
+    kept_at = place(arguments)
+    if (known := remembered(kept_at)) is not None:
         action(known)
         return
     from hydra.errors import HydraException
@@ -65,7 +66,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     except (HydraException, OmegaConfBaseException) as error:
         raise UserError(" ".join(str(error).split())) from error
     if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
-        remember(arguments, plans[0])
+        remember(kept_at, plans[0])
 
 
 def _run(doubtful: list[str], plan: Plan) -> None:

@@ -96,10 +96,12 @@ class Plan:
 
 def read_plan(path: Path, key: str = "") -> Plan:
     """Read a plan back; with a key only that stage, those before it and no leaves, since each stage's process reads it."""
-    head, leaves, *lines = path.read_text().split("\n")
-    if head == "{":
-        raise UserError(f"plan {path} is of an earlier version; the same surfexp run writes it anew")
-    tree, nodes = json.loads(head), {line[9:29]: line for line in lines}
+    text = path.read_text()
+    head, *lines = text.split("\n")
+    tree = json.loads(text if head == "{" else head)
+    if "shown" not in tree:
+        return _of_one_document(tree)
+    leaves, nodes = lines[0], {line[9:29]: line for line in lines[1:]}
     plan = Plan(Settings(**tree["settings"]), requested=tree["requested"])
     for leaf in [] if key else json.loads(leaves):
         plan.leaves.append(Leaf(**leaf | {"settings": tree["shown"][leaf["settings"]]}))
@@ -109,6 +111,15 @@ def read_plan(path: Path, key: str = "") -> Plan:
             plan.nodes[one] = Node(**json.loads(nodes[one]))
             waiting += plan.nodes[one].children
     return plan
+
+
+def _of_one_document(tree: Mapping[str, Any]) -> Plan:
+    """A plan as earlier versions wrote it, whose results are as good as ever: settings and options stand with each leaf."""
+    nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
+    leaves = [
+        Leaf(*(leaf[name] for name in ("key", "configuration", "settings", "figures"))) for leaf in tree["leaves"]
+    ]
+    return Plan(Settings(**tree["settings"]), nodes, leaves, tree["requested"])
 
 
 def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:

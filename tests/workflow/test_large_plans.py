@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,6 @@ from surfexp.catalogue import planned
 from surfexp.workflow import plan as plan_module
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
-from surfexp.workflow.errors import UserError
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.plan import Plan, _Resolver, make_plan, read_plan
 
@@ -98,10 +98,17 @@ def test_a_plan_is_read_back_and_a_stage_reads_its_own_part(tmp_path: Path) -> N
             needed |= more
         assert part.nodes == {one: plan.nodes[one] for one in needed} and not part.leaves
         assert part.settings == plan.settings and len(needed) < len(plan.nodes) / 2
-    old = tmp_path / "old.json"
-    old.write_text(json.dumps({"settings": {}}, indent=1))
-    with pytest.raises(UserError, match=r"old.json is of an earlier version"):
-        read_plan(old)
+
+
+@pytest.mark.parametrize("indent", [None, 1])
+def test_a_plan_of_an_earlier_version_is_read(tmp_path: Path, indent: int | None) -> None:
+    plan = make_plan(expand(sweep(2, 2)))
+    tree = asdict(plan) | {"settings": plan.settings.model_dump()}
+    for leaf, item in zip(plan.leaves, tree["leaves"], strict=True):
+        item["parameters"] = plan.parameters(leaf)
+    file = tmp_path / "old.json"
+    file.write_text(json.dumps(tree, indent=indent))
+    assert read_plan(file) == plan
 
 
 def test_the_nodes_of_other_stages_are_not_parsed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -126,23 +133,31 @@ def cache(tmp_path: Path, working_folder: Path, monkeypatch: pytest.MonkeyPatch)
     return tmp_path / "cache"
 
 
+def remembered(arguments: list[str]) -> Plan | None:
+    return planned.remembered(planned.place(arguments))
+
+
+def remember(arguments: list[str], plan: Plan) -> None:
+    planned.remember(planned.place(arguments), plan)
+
+
 def toy_plan() -> Plan:
     return make_plan(expand(sweep(2, 2)))
 
 
 def test_the_plan_of_a_request_is_remembered(cache: Path) -> None:
     plan, arguments = toy_plan(), ["experiment=toys"]
-    assert planned.remembered(arguments) is None
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) == plan
-    assert planned.remembered([*arguments, "surface.size=2"]) is None
+    assert remembered(arguments) is None
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
+    assert remembered([*arguments, "surface.size=2"]) is None
     (kept,) = (cache / "plans").glob("*/plans/*.json")
     data = bytearray(kept.read_bytes())
     data[len(data) // 2] ^= 1
     kept.write_bytes(bytes(data))
-    assert planned.remembered(arguments) is None
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) == plan
+    assert remembered(arguments) is None
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
 
 
 def test_a_remembered_plan_is_not_used_when_anything_that_it_follows_from_changed(
@@ -154,33 +169,33 @@ def test_a_remembered_plan_is_not_used_when_anything_that_it_follows_from_change
     leaf = plan.nodes[plan.leaves[0].key]
     leaf.options["path"] = str(file)
     leaf.files["path"] = file_digest(file)
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) == plan
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
     file.write_text("OFF \n")
     file_digest.cache_clear()
-    assert planned.remembered(arguments) is None
+    assert remembered(arguments) is None
     file.write_text("OFF\n")
     file_digest.cache_clear()
-    assert planned.remembered(arguments) == plan
+    assert remembered(arguments) == plan
     experiment = working_folder / "conf" / "experiment" / "mine.yaml"
     experiment.parent.mkdir(parents=True)
     experiment.write_text("title: mine\n")
-    assert planned.remembered(arguments) is None
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) == plan
+    assert remembered(arguments) is None
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
     experiment.write_text("title: ours\n")
-    assert planned.remembered(arguments) is None
-    planned.remember(arguments, plan)
+    assert remembered(arguments) is None
+    remember(arguments, plan)
     monkeypatch.setattr(planned, "code_state", lambda folder: "other code")
-    assert planned.remembered(arguments) is None
+    assert remembered(arguments) is None
 
 
 def test_the_code_of_plugins_outside_of_packages_is_read_again(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     plan, arguments = toy_plan(), ["experiment=toys"]
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) == plan
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
     monkeypatch.setattr("surfexp.workflow.fingerprint.code_digest", lambda file, function: "edited")
-    assert planned.remembered(arguments) is None
+    assert remembered(arguments) is None
 
 
 @pytest.mark.parametrize("text", ["title: ${oc.env:USER}\n", "hydra: {searchpath: [file:///elsewhere]}\n"])
@@ -188,8 +203,8 @@ def test_a_request_that_asks_the_environment_is_planned_each_time(text: str, cac
     plan, arguments = toy_plan(), ["experiment=toys"]
     (working_folder / "conf").mkdir()
     (working_folder / "conf" / "mine.yaml").write_text(text)
-    planned.remember(arguments, plan)
-    assert planned.remembered(arguments) is None and not (cache / "plans").exists()
+    remember(arguments, plan)
+    assert remembered(arguments) is None and not (cache / "plans").exists()
     for request in (["--multirun"], ["title=${now:%H}"]):
-        planned.remember(request, plan)
-        assert planned.remembered(request) is None
+        remember(request, plan)
+        assert remembered(request) is None
