@@ -98,10 +98,10 @@ def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRu
         free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
         mine = by_leaf.get(leaf.key) or next(free, None)
         if mine is None or mine.tags.get("state") != state:
-            run = mine.identity if mine else None
-            others = [one.identity for one in same if one.identity != run]
-            changes.append(_Change(leaf, stored, state, run, others))
-            taken |= {run} if run else set()
+            identity = mine.identity if mine else None
+            others = [one.identity for one in same if one.identity != identity]
+            changes.append(_Change(leaf, stored, state, identity, others))
+            taken |= {identity} if identity else set()
     return changes
 
 

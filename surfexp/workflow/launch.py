@@ -119,12 +119,13 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
     words = [text for text in overrides if not text.startswith("-")]
     parsed = OverridesParser.create().parse_overrides(words)
     asked = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
-    single = [text for text, of_hydra in zip(words, asked, strict=True) if not of_hydra]
+    single = [text for text, not_ours in zip(words, asked, strict=True) if not not_ours]
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
         stages, collections, rest = split_overrides(single, loader.repository)
         composed = compose("config", overrides=rest, return_hydra_config=True)
-    refuse_code(OmegaConf.to_container(composed.hydra, resolve=False))
+    of_hydra: Any = OmegaConf.to_container(composed.hydra, resolve=False)
+    refuse_code(of_hydra)
     sweeper = composed.hydra.sweeper
     if len(single) < len(overrides) or sweeper.get("params") or not sweeper._target_.endswith(".BasicSweeper"):
         return None
