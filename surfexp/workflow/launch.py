@@ -118,8 +118,8 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
 
     words = [text for text in overrides if not text.startswith("-")]
     parsed = OverridesParser.create().parse_overrides(words)
-    asked = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
-    single = [text for text, not_ours in zip(words, asked, strict=True) if not not_ours]
+    beyond = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
+    single = [text for text, more in zip(words, beyond, strict=True) if not more]
     with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
         stages, collections, rest = split_overrides(single, loader.repository)
