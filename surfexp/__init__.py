@@ -6,6 +6,8 @@ import importlib
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
+from surfexp.face import FACE
+
 if TYPE_CHECKING:
     from surfexp.experiments import load as load
     from surfexp.experiments import run as run
@@ -35,39 +37,14 @@ try:
 except PackageNotFoundError:
     __version__ = "0"
 
-# imported when it is asked for: `import surfexp` loads none of the numerical libraries
-_FACE = {
-    "NodalCounts": "surfexp.tasks.transformers",
-    "ShapeDNA": "surfexp.tasks.transformers",
-    "SpectralDistance": "surfexp.tasks.transformers",
-    "Spectrum": "surfexp.tasks.spectrum_of_surface",
-    "Surface": "surfexp.mesh.surface",
-    "align": "surfexp.tasks.distances",
-    "denoise": "surfexp.tasks.denoising",
-    "distance": "surfexp.tasks.distances",
-    "eigenpairs": "surfexp.tasks.spectra",
-    "eigsh": "surfexp.tasks.spectra",
-    "fingerprint": "surfexp.tasks.fingerprints",
-    "geodesic": "surfexp.tasks.skeletons",
-    "load": "surfexp.experiments",
-    "mean_curvature": "surfexp.tasks.skeletons",
-    "plot": "surfexp.tasks.pictures",
-    "read": "surfexp.tasks.files",
-    "reeb_graph": "surfexp.tasks.skeletons",
-    "run": "surfexp.experiments",
-    "segment": "surfexp.tasks.segmentation",
-    "shape": "surfexp.tasks.shapes",
-    "smooth": "surfexp.tasks.denoising",
-    "write": "surfexp.tasks.files",
-}
-__all__ = ["__version__", *_FACE]
+__all__ = ["__version__", *FACE]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _FACE:
+    if name not in FACE:
         raise AttributeError(f"module 'surfexp' has no attribute {name!r}")
     try:
-        return getattr(importlib.import_module(_FACE[name]), name)
+        return getattr(importlib.import_module(FACE[name]), name)
     except ModuleNotFoundError as error:
         from surfexp.extras import MissingExtra, missing_line, missing_module
 

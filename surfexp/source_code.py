@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from surfexp import _FACE
+from surfexp.face import FACE
 
 DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
@@ -156,7 +156,7 @@ def imported_modules(part: Iterable[ast.stmt], file: Path) -> frozenset[str]:
                 base = ".".join([*parents, *([node.module] if node.module else [])])
             names.add(base)
             names.update(f"{base}.{alias.name}" for alias in node.names)
-    names |= {_FACE[name] for name in _taken_from_face(nodes) if name in _FACE}
+    names |= {FACE[name] for name in _taken_from_face(nodes) if name in FACE}
     return frozenset(names)
 
 
@@ -171,7 +171,7 @@ def _taken_from_face(nodes: Sequence[ast.AST]) -> set[str]:
     owners = [node for node in nodes if isinstance(node, ast.Attribute) and _is_name(node.value, bound)]
     uses = sum(_is_name(node, bound) for node in nodes)
     taken |= {node.attr for node in owners}
-    return set(_FACE) if uses > len(owners) else taken
+    return set(FACE) if uses > len(owners) else taken
 
 
 def _is_name(node: ast.AST, names: set[str]) -> bool:

@@ -8,8 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-import surfexp
-from surfexp import source_code
+from surfexp import face, source_code
 from surfexp.catalogue.user_cache import Memory
 
 _memory = Memory("source_facts")
@@ -52,6 +51,6 @@ def source_facts(file: Path, function: str = "") -> SourceFacts:
 @cache
 def _analysis() -> str:
     """State of what is remembered: of the code that reads files, the face, and Python, whose syntax trees differ by version."""
-    files = (source_code.__file__, __file__, surfexp.__file__)
+    files = (source_code.__file__, __file__, face.__file__)
     code = b"".join(Path(str(file)).read_bytes() for file in files)
     return f"{sys.version_info[0]}.{sys.version_info[1]} {hashlib.sha256(code).hexdigest()}"

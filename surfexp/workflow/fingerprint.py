@@ -113,7 +113,8 @@ def _module_files(name: str) -> tuple[Path, ...]:
     files, parts = [], name.split(".")
     # these parts of the package lie elsewhere in a checkout
     if parts[0] == PACKAGE.name and parts[1:2] not in (["plugins"], ["conf"], ["profiles"]):
-        places = [PACKAGE.joinpath(*parts[1:length]) for length in range(1, len(parts) + 1)]
+        # the package itself only says where its public functions are; what is taken from it is found by its module
+        places = [PACKAGE.joinpath(*parts[1:length]) for length in range(2, len(parts) + 1)]
         candidates = [file for place in places for file in (place / "__init__.py", place.with_suffix(".py"))]
         return tuple(file for file in candidates if file.is_file())
     for length in range(1, len(parts) + 1):

@@ -82,6 +82,7 @@ def test_nothing_that_shows_results_is_part_of_any_key() -> None:
         if plugin.file.is_relative_to(registry.package_folder("surfexp.plugins")):
             files, _ = fingerprint.code_closure(plugin.file)
             assert not {file for file in files for room in shown if file.is_relative_to(room)}, plugin.name
+            assert not {fingerprint.PACKAGE / "__init__.py", fingerprint.PACKAGE / "face.py"} & files, plugin.name
 
 
 def test_imports_for_type_checkers_do_not_count(package: Path) -> None:

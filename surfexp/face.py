@@ -1,0 +1,26 @@
+"""The public functions by the module that defines each: imported when one is asked for, so that `import surfexp` is light."""
+
+FACE = {
+    "NodalCounts": "surfexp.tasks.transformers",
+    "ShapeDNA": "surfexp.tasks.transformers",
+    "SpectralDistance": "surfexp.tasks.transformers",
+    "Spectrum": "surfexp.tasks.spectrum_of_surface",
+    "Surface": "surfexp.mesh.surface",
+    "align": "surfexp.tasks.distances",
+    "denoise": "surfexp.tasks.denoising",
+    "distance": "surfexp.tasks.distances",
+    "eigenpairs": "surfexp.tasks.spectra",
+    "eigsh": "surfexp.tasks.spectra",
+    "fingerprint": "surfexp.tasks.fingerprints",
+    "geodesic": "surfexp.tasks.skeletons",
+    "load": "surfexp.experiments",
+    "mean_curvature": "surfexp.tasks.skeletons",
+    "plot": "surfexp.tasks.pictures",
+    "read": "surfexp.tasks.files",
+    "reeb_graph": "surfexp.tasks.skeletons",
+    "run": "surfexp.experiments",
+    "segment": "surfexp.tasks.segmentation",
+    "shape": "surfexp.tasks.shapes",
+    "smooth": "surfexp.tasks.denoising",
+    "write": "surfexp.tasks.files",
+}
