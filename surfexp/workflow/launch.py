@@ -135,9 +135,10 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
 
 def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
-    prepare_hydra()
     arguments = [f"{key}={value}" for key, value in config.items()]
-    plan = remembered(place(arguments)) or _plan_without_sweep(arguments)
+    if (plan := remembered(place(arguments))) is None:
+        prepare_hydra()
+        plan = _plan_without_sweep(arguments)
     if plan is None:
         raise UserError("Snakemake runs one configuration; a sweep is run by surfexp run")
     return plan.write(Path(plan.settings.results).resolve()), plan
