@@ -12,6 +12,9 @@ import numpy as np
 from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.kinds import KINDS, path_of
 
+# types of the keys of a mapping, by the name under which they are stored
+KEYS = {"str": str, "int": int | np.integer, "float": float | np.floating}
+
 
 def encoded(value: Any, path: str, arrays: dict[str, Any]) -> Any:
     """JSON of a value, its arrays put into `arrays` under their paths; TypeError naming the path of what has no form."""
@@ -29,10 +32,16 @@ def encoded(value: Any, path: str, arrays: dict[str, Any]) -> Any:
         arrays[path.strip("/")] = value
         return {"array": path.strip("/")}
     if isinstance(value, Mapping):
-        return {"map": {str(key): encoded(item, f"{path}/{key}", arrays) for key, item in value.items()}}
+        items = {str(key): encoded(item, f"{path}/{key}", arrays) for key, item in value.items()}
+        types = {next((kind for kind, of in KEYS.items() if isinstance(key, of)), "") for key in value} or {"str"}
+        if len(types) > 1 or not KEYS.keys() & types:
+            raise TypeError(
+                f"{path.strip('/') or 'result'} has keys {list(value)[:3]}: numbers or text, all of one type"
+            )
+        return {"map": items} if types == {"str"} else {"map": items, "keys": types.pop()}
     if isinstance(value, tuple | list):
-        items = [encoded(item, f"{path}/{i}", arrays) for i, item in enumerate(value)]
-        return {"tuple": items} if isinstance(value, tuple) else items
+        listed = [encoded(item, f"{path}/{i}", arrays) for i, item in enumerate(value)]
+        return {"tuple": listed} if isinstance(value, tuple) else listed
     if isinstance(value, np.generic):
         return value.item()
     if value is None or isinstance(value, str | int | float | bool):
@@ -49,7 +58,8 @@ def decoded(tree: Any, arrays: Any) -> Any:
     if "array" in tree:
         return arrays[tree["array"]]
     if "map" in tree:
-        return {key: decoded(item, arrays) for key, item in tree["map"].items()}
+        restored = {"int": int, "float": float}.get(tree.get("keys", ""), str)
+        return {restored(key): decoded(item, arrays) for key, item in tree["map"].items()}
     if "tuple" in tree:
         return tuple(decoded(item, arrays) for item in tree["tuple"])
     if "sparse" in tree:

@@ -14,7 +14,9 @@ from surfexp.catalogue.installed import installed_state
 from surfexp.catalogue.user_cache import Memory
 
 PLAIN = (bool, int, float, str, list, dict, type(None))
-_memory = Memory("plugins")
+# every state of the code has an entry of its own, and they are large
+STATES_KEPT = 8
+_memory = Memory("plugins", STATES_KEPT)
 
 
 @dataclass(frozen=True)
@@ -55,10 +57,22 @@ class Catalogue:
 @cache
 def catalogue(working_folder: Path) -> Catalogue:
     """What there is to choose from in a working folder; UserError where two plugins have one name."""
-    key = code_state(working_folder)
-    known = _memory.get(key) or _describe_all(working_folder)
+    if (found := remembered(working_folder)) is not None:
+        return found
+    known = _describe_all(working_folder)
     if not known["broken"]:  # what failed may work the next time, for another reason than a changed file
-        _memory.put(key, known)
+        _memory.put(code_state(working_folder), known)
+    return _read(known)
+
+
+@cache
+def remembered(working_folder: Path) -> Catalogue | None:
+    """The catalogue of a working folder where it is known without loading a plugin, else None."""
+    known = _memory.get(code_state(working_folder))
+    return _read(known) if known else None
+
+
+def _read(known: dict[str, Any]) -> Catalogue:
     plugins = {(item["kind"], item["name"]): Described(**item) for item in known["plugins"]}
     kinds = {name: (path, stored) for name, path, stored in known["kinds"]}
     return Catalogue(plugins, kinds, known["broken"], frozenset(known["certified"]))

@@ -37,11 +37,11 @@ def fault(folder: Path) -> str:
 class Memory:
     """Values of JSON by key, in one file of the user's cache, written at the end of the process where there are new ones.
 
-    A file that is missing, damaged or not the user's is an empty memory.
+    A file that is missing, damaged or not the user's is an empty memory. The latest entries are kept, up to a number.
     """
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, entries_kept: int = ENTRIES_KEPT) -> None:
+        self.name, self.entries_kept = name, entries_kept
         self.entries: dict[str, Any] | None = None
         self.used: dict[str, Any] = {}
         self.owner = os.getpid()
@@ -66,8 +66,8 @@ class Memory:
         folder = user_cache("memory")
         if os.getpid() != self.owner or fault(folder):
             return
-        known = self._read()
-        entries = {**(known if len(known) < ENTRIES_KEPT else {}), **self.used}
+        others = {key: value for key, value in self._read().items() if key not in self.used}
+        entries = dict(list({**others, **self.used}.items())[-self.entries_kept :])
         with contextlib.suppress(OSError):
             temporary = folder / f".{self.name}.{os.getpid()}"
             temporary.write_text(json.dumps(entries))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
+from collections.abc import Mapping
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 LIBRARIES = ("surfexp", "numpy", "scipy", "numba", "nibabel")
 
@@ -17,7 +18,7 @@ def write_certificate(
     target: Path,
     method: str,
     options: dict[str, Any],
-    inputs: list[Path],
+    inputs: list[Path] | Mapping[str, Any],
     facts: dict[str, Any],
     notes: tuple[str, ...],
 ) -> Path:
@@ -30,28 +31,43 @@ def write_certificate(
     method : str
     options : dict
         As they were used, defaults included.
-    inputs : list of Path
-        Each enters with the SHA-256 of its bytes.
+    inputs : list of Path, or dict
+        Each file enters with the SHA-256 of its bytes; a mapping as it is, such as keys of results by role.
     facts : dict
         What is proved and measured: `complete`, `residual`, `relative_gap`, `seconds`, ...
     notes : tuple of str
     """
+    known = inputs if isinstance(inputs, Mapping) else {str(path): _sha256(path) for path in inputs}
     content = {
         "method": method,
         "options": options,
-        "inputs": {str(path): hashlib.sha256(path.read_bytes()).hexdigest() for path in inputs},
-        "versions": {name: version(name) for name in LIBRARIES},
+        "inputs": known,
+        "versions": _versions(),
         **facts,
         "notes": list(notes),
     }
     path = target.with_name(f"{target.name}.json")
-    path.write_text(json.dumps(content, indent=1, default=_plain, allow_nan=False) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(_plain(content), indent=1, allow_nan=False) + "\n", encoding="utf-8")
     return path
 
 
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@cache
+def _versions() -> dict[str, str]:
+    return {name: version(name) for name in LIBRARIES}
+
+
 def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return str(value)
+    """What JSON can say; numbers that are not finite, which it has no word for, as text."""
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if value is None or isinstance(value, bool | int | str):
+        return value
+    return value if isinstance(value, float) and math.isfinite(value) else str(value)

@@ -39,7 +39,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "info": ("catalogue", "options of a plugin with bounds, choices and meaning: surfexp info KIND/NAME"),
     "table": ("views", "print the tables of an experiment again: surfexp table [EXPERIMENT]"),
     "report": ("views", "where the report page of an experiment is: surfexp report [EXPERIMENT]"),
-    "export": ("export", "tables as CSV, sulci as label files: surfexp export EXPERIMENT [--to FOLDER]"),
+    "export": ("export", "results as files for other programs: surfexp export EXPERIMENT|RUN --to FOLDER"),
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
     "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
     "verify": ("verify", "hash every stored result again and name what is damaged: surfexp verify"),
@@ -48,6 +48,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
     "collect": ("collect", "an axis of your own surfaces: surfexp collect FOLDER --to NAME, then run axes=NAME"),
     "fetch": ("fetch", "get a public collection: surfexp fetch tosca [--to FOLDER]"),
+    "completion": ("completion", 'what bash, zsh or fish complete: eval "$(surfexp completion bash)"'),
     "doctor": ("doctor", "versions, extras, disk; what to install where something is missing"),
 }
 
@@ -71,6 +72,10 @@ def usage() -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code."""
+    if arguments is None and (instruction := os.environ.get("_SURFEXP_COMPLETE")):
+        from surfexp.commands.completion import answer
+
+        return answer(instruction)
     given = list(sys.argv[1:] if arguments is None else arguments)
     if "--debug" in given:
         given.remove("--debug")

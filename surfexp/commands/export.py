@@ -1,77 +1,84 @@
-"""`surfexp export`: finished tables as CSV, and named sulci as label files for the usual tools, as often as is asked."""
+"""`surfexp export`: results of an experiment as files for other programs, as often as is asked."""
 
 from __future__ import annotations
 
-import argparse
-import re
 from pathlib import Path
-from typing import Any
 
-import numpy as np
+import click
 
-from surfexp.commands.views import latest_plan
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Node, Plan
-from surfexp.workflow.store import is_done, load
+from surfexp.commands.click_command import run_click, shown
 
-SULCI = ("statistic", "sulcal_table")
+LINES_LEFT_OUT = 10
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Write the tables of an experiment's statistics, and the named sulci of each surface where sulci were measured."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
-    parser.add_argument("experiment")
-    parser.add_argument("--to", type=Path, default=Path("export"), help="folder, made when it is not there")
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
-    given = parser.parse_args(arguments)
-    plan = latest_plan(given.results, given.experiment)
-    tables = [plan.nodes[leaf.key] for leaf in plan.leaves if plan.nodes[leaf.key].kind == "statistic"]
-    if not tables:
-        kinds = ", ".join(sorted({plan.nodes[leaf.key].kind for leaf in plan.leaves}))
-        raise UserError(f"experiment {given.experiment!r} ends in {kinds}, only statistics are exported")
-    for number, node in enumerate(tables, 1):
-        for file in _export(plan, node, given.results, given.to, f"-{number}" if len(tables) > 1 else ""):
-            print(file)
+def _targets(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    from surfexp.commands.choices import finished_experiments
+
+    return [name for name in finished_experiments(Path("results")) if name.startswith(incomplete)]
+
+
+def _kinds(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    from surfexp.commands.choices import kinds
+
+    return [name for name in kinds() if name.startswith(incomplete)]
+
+
+@click.command(**shown("export", "quickstart --to exported", "quickstart --kind solver --kind surface --to exported"))
+@click.argument("target", metavar="EXPERIMENT|RUN", shell_complete=_targets)
+@click.option(
+    "--to", "folder", type=click.Path(path_type=Path), default="export", show_default=True, help="made if not there"
+)
+@click.option("--all", "everything", is_flag=True, help="every stored stage, not only the rows and what they stand on")
+@click.option(
+    "--kind",
+    "kinds",
+    multiple=True,
+    shell_complete=_kinds,
+    help="only stages of this kind, wherever they stand; repeatable",
+)
+@click.option("--matrix-market", is_flag=True, help="write the matrices of operators as .mtx too")
+@click.option("--results", type=click.Path(path_type=Path), default="results", show_default=True, help="results folder")
+def export(
+    target: str, folder: Path, everything: bool, kinds: tuple[str, ...], matrix_market: bool, results: Path
+) -> int:
+    """Write finished results as files: what the rows of the tables are, their figures, surfaces and images.
+
+    EXPERIMENT is a name, whose latest configuration is taken. RUN is one row of it: the key of its result (the column leaf
+    of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or the id of an MLflow run.
+
+    Surfaces become .vtp, which carries the maps exported with it, and .surf.gii where they are half of a brain; maps
+    .shape.gii, labels .label.gii; eigenpairs, distances and solutions .npz; matrices SciPy's .npz; skeletons .vtk and
+    .graphml; figures .png; all else .csv. Beside each FILE stands its certificate FILE.json; index.csv lists all files.
+    """
+    from rich.console import Console
+    from rich.progress import track
+
+    from surfexp.commands.exporting.folder import ExportFolder
+    from surfexp.commands.exporting.selection import chosen_stages, find
+    from surfexp.commands.exporting.stages import Export
+
+    plan, key = find(results, target)
+    nodes = chosen_stages(plan, key, everything, kinds)
+    with ExportFolder(folder) as destination:
+        export = Export(plan, results, destination, matrix_market)
+        console = Console(stderr=True)
+        steps = track(
+            export.stages(nodes), "export", len(nodes), console=console, disable=not console.is_terminal, transient=True
+        )
+        left_out = list(filter(None, steps))
+        more = [f"and {len(left_out) - LINES_LEFT_OUT} more"] if len(left_out) > LINES_LEFT_OUT else []
+        for line in [*left_out[:LINES_LEFT_OUT], *more]:
+            click.echo(f"surfexp: left out: {line}", err=True)
+        if not export.rows:
+            return 1
+        destination.publish(export.rows)
+    for row in export.rows:
+        click.echo(folder / row["file"])
+    stages = len({row["key"] for row in export.rows})
+    click.echo(f"{stages} of {len(nodes)} results in {len(export.rows)} files: {folder / 'index.csv'}", err=True)
     return 0
 
 
-def _export(plan: Plan, node: Node, results: Path, folder: Path, suffix: str) -> list[Path]:
-    from surfexp.studies.sulci.length_table import KEYS
-    from surfexp.studies.sulci.sulcal_export import write_length_table
-
-    statistic = _result(results, node, plan)
-    folder.mkdir(parents=True, exist_ok=True)
-    files = [folder / f"{re.sub(r'[^a-z0-9.]+', '_', statistic.name.lower())}{suffix}.csv"]
-    columns: dict[str, Any] = {}
-    for name in sorted(statistic.columns, key=lambda name: name not in KEYS):
-        values = statistic.columns[name]
-        parts = np.asarray(values).reshape(len(values), -1).T
-        columns |= {name + end: part for end, part in zip(("", ", low", ", high"), parts, strict=False)}
-    count = max(map(len, columns.values()), default=0)
-    write_length_table(files[0], statistic.rows or tuple(str(k) for k in range(1, count + 1)), columns)
-    if (node.kind, node.plugin) == SULCI:
-        files += _sulci(plan, node, results, folder)
-    return files
-
-
-def _sulci(plan: Plan, node: Node, results: Path, folder: Path) -> list[Path]:
-    from surfexp.studies.sulci.sulcal_export import export_sulci
-    from surfexp.studies.sulci.sulcal_measurement import name_sulci
-    from surfexp.studies.sulci.sulcal_template import make_template
-
-    template, surfaces = node.inputs["template"], node.inputs["surfaces"]
-    assert isinstance(template, str) and isinstance(surfaces, dict)
-    study = make_template(_result(results, plan.nodes[template], plan), int(node.options["regions"]))
-    files: list[Path] = []
-    for label, key in surfaces.items():
-        surface = _result(results, plan.nodes[key], plan)
-        named = name_sulci(study, surface)
-        files += export_sulci(folder, label, surface, named, int(study.regions.max()) + 1)
-    return files
-
-
-def _result(results: Path, node: Node, plan: Plan) -> Any:
-    if not is_done(results, node.kind, node.key):
-        name = plan.settings.experiment
-        raise UserError(f"{node.kind}/{node.plugin} of {name!r} is not finished: surfexp run experiment={name}")
-    return load(results, node.kind, node.key)
+def command(_: str, arguments: list[str]) -> int:
+    """Run the command."""
+    return run_click(export, arguments)

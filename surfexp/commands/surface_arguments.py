@@ -7,12 +7,14 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from surfexp.commands.certificate import write_certificate
-from surfexp.mesh.surface import Surface
+
+if TYPE_CHECKING:
+    from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]
 

@@ -70,24 +70,19 @@ def denoise(
     finish(target, clean, surface, "rof", {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
 
 
-class Width(click.ParamType[float]):
-    """A width in the unit of the surface: 6 or 6mm."""
-
-    name = "width"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number."""
-        try:
-            return float(str(value).removesuffix("mm"))
-        except ValueError:
-            self.fail(f"{value!r} is no width: write 6 or 6mm", param, ctx)
+def millimetres(text: str) -> float:
+    """The number of a width such as 6 or 6mm."""
+    try:
+        return float(text.removesuffix("mm"))
+    except ValueError:
+        raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm") from None
 
 
 @click.command(**shown("smooth", *EXAMPLES["smooth"]))
 @click.argument("path")
 @click.argument("map_name", metavar="MAP")
 @click.option(
-    "--width", type=Width(), required=True, help="full width at half maximum, in the unit of the surface: 6mm"
+    "--width", type=millimetres, required=True, help="full width at half maximum, in the unit of the surface: 6mm"
 )
 @surface_options
 @result_option()
@@ -167,7 +162,8 @@ def distance(first: str, second: str, count: int, target: Path | None) -> None:
     from surfexp.tasks.distances import distance as task
 
     started = time.perf_counter()
-    found = task(first, second, count)
+    with progress_line("distance") as progress:
+        found = task(first, second, count, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     click.echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
@@ -193,7 +189,8 @@ def align(first: str, second: str, count: int, target: Path) -> None:
     from surfexp.tasks.distances import align as task
 
     started = time.perf_counter()
-    found = task(first, second, count)
+    with progress_line("align") as progress:
+        found = task(first, second, count, progress=progress)
     facts = {
         "value": found.value,
         "lower_bound": found.lower_bound,

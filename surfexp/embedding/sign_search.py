@@ -13,6 +13,7 @@ from surfexp.arrays import Floats
 
 Signs = NDArray[np.int8]
 Bound = Callable[[Signs, float], float]
+Progress = Callable[[int, float], None]
 LARGEST_ENUMERATION = 5
 
 
@@ -70,7 +71,9 @@ def greedy_signs(objective: Bound, n: int) -> tuple[Signs, int]:
     return signs, 2 * n
 
 
-def branch_and_bound(objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000) -> SignSearch:
+def branch_and_bound(
+    objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000, progress: Progress | None = None
+) -> SignSearch:
     """Search the tree of signs best bound first, and stop when no open node can beat what is known.
 
     Nodes on the way to the best signs known cannot be closed, so they are split without being evaluated: with the right
@@ -86,6 +89,8 @@ def branch_and_bound(objective: Bound, n: int, start: Signs | None = None, limit
         Signs from which the search begins; default: greedy.
     limit : int
         Most evaluations; when they are used up, the least bound of the open nodes is the lower bound.
+    progress : callable, optional
+        Called with the number of evaluations and the gap between the value and what is proved, over the value.
     """
     evaluations = 0
     if start is None:
@@ -97,6 +102,8 @@ def branch_and_bound(objective: Bound, n: int, start: Signs | None = None, limit
     queue: list[tuple[float, int, bytes]] = [(-np.inf, 0, np.zeros(n, np.int8).tobytes())]
     while queue and evaluations < limit:
         bound, depth, code = heapq.heappop(queue)
+        if progress is not None and value > 0:
+            progress(evaluations, max(1.0 - max(bound, 0.0) / value, 0.0))
         node = np.frombuffer(code, np.int8)
         if bound >= value:
             closed.append(node)
@@ -128,7 +135,9 @@ def branch_and_bound(objective: Bound, n: int, start: Signs | None = None, limit
     return SignSearch(signs, value, lower, lower >= value, evaluations, np.array(closed), np.array(bounds))
 
 
-def search_signs(objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000) -> SignSearch:
+def search_signs(
+    objective: Bound, n: int, start: Signs | None = None, limit: int = 100_000, progress: Progress | None = None
+) -> SignSearch:
     """Enumerate up to 5 signs, branch and bound above."""
     if n < 1:
         raise ValueError(f"n = {n} signs, take at least 1")
@@ -136,7 +145,7 @@ def search_signs(objective: Bound, n: int, start: Signs | None = None, limit: in
         raise ValueError(f"limit = {limit} evaluations, take at least 2")
     if n <= LARGEST_ENUMERATION and 2**n <= limit:
         return enumerate_signs(objective, n)
-    return branch_and_bound(objective, n, start, limit)
+    return branch_and_bound(objective, n, start, limit, progress)
 
 
 def check_certificate(search: SignSearch, objective: Bound, tolerance: float = 1e-9) -> list[str]:

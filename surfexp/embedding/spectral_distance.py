@@ -10,7 +10,7 @@ from surfexp.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
 from surfexp.embedding.nearest import nearest
-from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Signs, SignSearch, greedy_signs, search_signs
+from surfexp.embedding.sign_search import LARGEST_ENUMERATION, Progress, Signs, SignSearch, greedy_signs, search_signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
 
 Reading = Literal["inf_of_max", "max_of_inf"]
@@ -28,6 +28,7 @@ def spectral_distance(
     limit: int = 2000,
     seed: int = 0,
     exact: bool = True,
+    progress: Progress | None = None,
 ) -> Distance:
     """Return d_n of (6.17), minimised over the signs of the target's eigenfunctions.
 
@@ -48,6 +49,8 @@ def spectral_distance(
         Most evaluations on all points; with fewer than the proof needs, the gap is returned, not hidden.
     exact : bool
         Search on all points; else take the signs that are best on the samples, unproved, and the value at all points.
+    progress : callable, optional
+        Called with the number of evaluations on all points and the relative gap.
 
     Raises
     ------
@@ -62,7 +65,7 @@ def spectral_distance(
         draws, most = (1, min(limit, SAMPLED_LIMIT)) if exact else (2, SAMPLED_LIMIT)
         start, agreed, spent = sampled_signs(source, target, direction, summary, samples, seed, draws, most)
         if exact:
-            searches.append(search_signs(objective, source.dimension, start, limit))
+            searches.append(search_signs(objective, source.dimension, start, limit, progress))
         else:
             searches.append(_unproved(objective, start, spent))
         notes += [] if agreed else ["Two draws of samples prefer different signs: search exactly."]

@@ -10,6 +10,7 @@ from surfexp.arrays import Floats
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, eigenvalue_blocks
+from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
 from surfexp.html_table import html_table
@@ -27,6 +28,7 @@ def distance(
     *,
     weighting: Weighting = "biharmonic",
     limit: int = 2000,
+    progress: Progress | None = None,
 ) -> Distance:
     """Return the spectral distance of two surfaces, least over the signs of their eigenfunctions, with the proof.
 
@@ -42,6 +44,8 @@ def distance(
         Biharmonic weights converge with n, those of the global point signature do not.
     limit : int
         Most evaluations of the search; where the proof needs more, `lower_bound` says what is left open.
+    progress : callable, optional
+        Called with the number of evaluations and the relative gap that is left.
 
     Returns
     -------
@@ -62,7 +66,7 @@ def distance(
     (0.0, True)
     """
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
-    found = spectral_distance(first, second, limit=limit)
+    found = spectral_distance(first, second, limit=limit, progress=progress)
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
     correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
     moved = second_part.extend(found.target_points)
@@ -117,6 +121,7 @@ def align(
     weighting: Weighting = "biharmonic",
     relative_gap: float = RELATIVE_GAP,
     limit: int = 2000,
+    progress: Progress | None = None,
 ) -> ModeAlignment:
     """Bring the modes of one surface into correspondence with those of another: signs, order and rotations in clusters.
 
@@ -132,6 +137,8 @@ def align(
     relative_gap : float
     limit : int
         Most evaluations of the search over signs.
+    progress : callable, optional
+        Called with the number of evaluations and the relative gap that is left, where all blocks are single.
 
     Returns
     -------
@@ -152,7 +159,11 @@ def align(
     (first, _), (second, part) = embedded(source, count, weighting), embedded(target, count, weighting)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
     single = len(blocks) == count
-    found = spectral_distance(first, second, limit=limit) if single else block_distance(first, second, blocks)
+    found = (
+        spectral_distance(first, second, limit=limit, progress=progress)
+        if single
+        else block_distance(first, second, blocks)
+    )
     lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))
     vectors = part.extend(second.points / lengths @ found.basis)
     numbered = tuple((start + 1, stop) for start, stop in blocks)

@@ -122,6 +122,15 @@ def test_a_stopped_search_says_so_and_its_bound_holds(limit: int) -> None:
     assert not check_certificate(stopped, by_trees(source, target))
 
 
+def test_progress_counts_evaluations_and_what_is_left_to_prove() -> None:
+    source, target = cloud(9, 40, 7), cloud(9, 40, 8)
+    told: list[tuple[int, float]] = []
+    found = branch_and_bound(HausdorffObjective(source, target), 9, progress=lambda *step: told.append(step))
+    steps, gaps = zip(*told, strict=True)
+    assert list(steps) == sorted(steps) and steps[-1] <= found.evaluations
+    assert all(0.0 <= gap <= 1.0 for gap in gaps) and gaps[0] == 1.0 and gaps[-1] < 0.5
+
+
 def test_the_log_is_replayed_by_an_independent_objective_at_twenty_dimensions() -> None:
     source = cloud(20, 300, 1)
     signs = np.where(np.arange(20) % 3 == 0, -1.0, 1.0)

@@ -13,6 +13,7 @@ from scipy.sparse import csr_array
 
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.result_tree import encoded
 from surfexp.workflow import store
 from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.kinds import stage_kind
@@ -29,6 +30,8 @@ class Assorted:
     mesh: TriangleMesh
     name: str = "größe"
     nothing: None = None
+    labels: dict[int, str] = field(default_factory=lambda: {3: "insula", -1: "none"})
+    levels: dict[float, tuple[int, ...]] = field(default_factory=lambda: {0.1: (1,), 1e-300: ()})
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
@@ -72,7 +75,14 @@ def test_a_result_comes_back_with_every_digit(stored: Path) -> None:
     assert (back.matrix.toarray() == np.eye(4) + np.eye(4, k=1)).all()
     assert store.load(stored, "assorted", KEY, "history")["gap"].tolist() == [1.0, 0.1, 0.01]
     assert store.load(stored, "assorted", KEY, "colour") is None
+    assert back.labels == {3: "insula", -1: "none"} and back.levels == {0.1: (1,), 1e-300: ()}
     assert store.faults(stored, [("assorted", KEY), ("assorted", "cd")]) == {"cd": ""}
+
+
+@pytest.mark.parametrize("keys", [[1, "one"], [(1, 2)], [True, "no"], [None]])
+def test_keys_that_would_come_back_as_others_are_refused(keys: list[object], tmp_path: Path) -> None:
+    with pytest.raises(TypeError, match=r"^labels has keys .*all of one type"):
+        encoded({"labels": dict.fromkeys(keys, "x")}, "", {})
 
 
 def test_a_flip_of_any_bit_is_detected_and_named(stored: Path, tmp_path: Path) -> None:

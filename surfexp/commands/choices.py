@@ -1,0 +1,108 @@
+"""What can stand where on the command line, from files and the remembered catalogue: for completion, which cannot wait."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from surfexp.catalogue.folders import experiments, plugin_files
+from surfexp.catalogue.plugins import Catalogue, remembered
+
+FIXED = {"mesh": ["check", "repair"], "fetch": ["tosca"]}
+
+
+def arguments(command: str, before: list[str], incomplete: str) -> list[str]:
+    """Return what the next argument of a command that is not made with click can be."""
+    if command in ("run", "plan"):
+        return _settings(before, incomplete)
+    if command in ("table", "report"):
+        return _beginning(finished_experiments(Path("results")), incomplete)
+    if before:
+        return []
+    if command == "info":
+        return _of_plugins(incomplete)
+    known = {"list": [*kinds(), "experiment"], "new": ["kind", *kinds()]} if command in ("list", "new") else FIXED
+    return _beginning(known.get(command, []), incomplete)
+
+
+def _of_plugins(incomplete: str) -> list[str]:
+    """KIND/NAME: kinds first, the plugins of one when it is clear which."""
+    plugins = {f"{kind}/": [f"{kind}/{name}" for name in names] for kind, names in _plugins().items()}
+    kind, slash, _ = incomplete.partition("/")
+    return _beginning(plugins.get(f"{kind}/", []), incomplete) if slash else _one_or_all(plugins, incomplete)
+
+
+def finished_experiments(results: Path) -> list[str]:
+    """Names of the experiments that were planned in a results folder."""
+    return sorted({file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")})
+
+
+def kinds() -> list[str]:
+    """Names of the stage kinds."""
+    return list(_plugins())
+
+
+def _settings(before: list[str], incomplete: str) -> list[str]:
+    """Candidates for experiment=NAME, KIND=PLUGIN and KIND.OPTION=VALUE; of a comma list, for its last member."""
+    key, given, value = incomplete.partition("=")
+    if not given:
+        return _keys(before, incomplete)
+    head, comma, last = value.rpartition(",")
+    return [f"{key}={head}{comma}{one}" for one in _beginning(_values(before, key), last)]
+
+
+def _keys(before: list[str], incomplete: str) -> list[str]:
+    """Keys that begin so, and where there is one alone its values, so that no shell ends the word behind a key."""
+    kind, dot, _ = incomplete.partition(".")
+    keys = [f"{kind}.{option}" for option in _options(before, kind)] if dot else ["experiment", *_plugins()]
+    return _one_or_all({f"{key}=": [f"{key}={one}" for one in _values(before, key)] for key in keys}, incomplete)
+
+
+def _one_or_all(choices: dict[str, list[str]], incomplete: str) -> list[str]:
+    fitting = _beginning(choices, incomplete)
+    return choices[fitting[0]] or fitting if len(fitting) == 1 else fitting
+
+
+def _values(before: list[str], key: str) -> list[str]:
+    kind, dot, option = key.partition(".")
+    if key == "experiment":
+        return sorted(experiments())
+    return _options(before, kind).get(option, []) if dot else _plugins().get(kind, [])
+
+
+def _plugins() -> dict[str, list[str]]:
+    """Names of plugins by kind; of their files, as nearly all are called, while nobody has asked for the catalogue itself."""
+    known = remembered(Path.cwd())
+    if known is not None:
+        return {kind: sorted(known.names(kind)) for kind in known.kinds}
+    found: dict[str, list[str]] = {}
+    for file in plugin_files(Path.cwd()):
+        found.setdefault(file.parent.name, []).append(file.stem)
+    return found
+
+
+def _options(before: list[str], kind: str) -> dict[str, list[str]]:
+    """Options of a kind with the values that they can only have: of the plugins that were chosen, else of all."""
+    known = remembered(Path.cwd())
+    chosen = [word.partition("=")[2].split(",") for word in before if word.startswith(f"{kind}=")]
+    names = chosen[-1] if chosen else known.names(kind) if known else []
+    return _rows(known, kind, names) if known else {}
+
+
+def _rows(known: Catalogue, kind: str, names: list[str]) -> dict[str, list[str]]:
+    plugins = [known.plugins[kind, name] for name in names if (kind, name) in known.plugins]
+    return {row[0]: _listed(row[2]) for plugin in plugins for row in plugin.options}
+
+
+def _listed(domain: str) -> list[str]:
+    """The values that a domain lists: "one of ['left', 'right']", "bool"."""
+    if domain == "bool":
+        return ["true", "false"]
+    found = re.match(r"one of (\[.*?\])", domain)
+    return [str(value) for value in ast.literal_eval(found[1])] if found else []
+
+
+def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
