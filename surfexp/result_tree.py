@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array, issparse
 
 from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.kinds import KINDS, path_of
@@ -25,7 +24,7 @@ def encoded(value: Any, path: str, arrays: dict[str, Any]) -> Any:
         names = [item.name for item in dataclasses.fields(value)]
         fields = {name: encoded(getattr(value, name), f"{path}/{name}", arrays) for name in names}
         return {"class": kind or path_of_class, "fields": fields}
-    if issparse(value):
+    if hasattr(value, "tocsr"):
         matrix = value.tocsr()
         parts = {"data": matrix.data, "indices": matrix.indices, "indptr": matrix.indptr}
         return {"sparse": encoded(parts, path, arrays), "shape": list(matrix.shape)}
@@ -64,6 +63,8 @@ def decoded(tree: Any, arrays: Any) -> Any:
     if "tuple" in tree:
         return tuple(decoded(item, arrays) for item in tree["tuple"])
     if "sparse" in tree:
+        from scipy.sparse import csr_array  # takes longer than all else that a run with nothing to do imports
+
         parts = decoded(tree["sparse"], arrays)
         return csr_array((parts["data"], parts["indices"], parts["indptr"]), shape=tuple(tree["shape"]))
     cls = _result_class(tree["class"])

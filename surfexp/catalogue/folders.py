@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib.util
-from importlib.metadata import entry_points
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 
 
@@ -14,9 +15,15 @@ def package_folder(name: str) -> Path:
     return Path(next(iter(specification.submodule_search_locations))).resolve()
 
 
+@cache
+def entry_points_of_plugins() -> tuple[EntryPoint, ...]:
+    """Where installed packages bring plugins: to find out reads what every installed distribution says of itself."""
+    return tuple(entry_points(group="surfexp.plugins"))
+
+
 def installed_packages() -> list[str]:
     """Names of the installed packages that bring plugins: those of the entry points `surfexp.plugins`."""
-    return sorted({point.module.split(".")[0] for point in entry_points(group="surfexp.plugins")})
+    return sorted({point.module.split(".")[0] for point in entry_points_of_plugins()})
 
 
 def plugin_files(working_folder: Path) -> list[Path]:

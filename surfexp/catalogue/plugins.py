@@ -6,11 +6,10 @@ import hashlib
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from surfexp.catalogue.folders import installed_packages, package_folder, plugin_files
+from surfexp.catalogue.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
 from surfexp.catalogue.installed import installed_state
 from surfexp.catalogue.user_cache import Memory
 
@@ -40,11 +39,15 @@ class Described:
 
 @dataclass(frozen=True)
 class Catalogue:
-    """Plugins by kind and name, the stage kinds in order with their result types, and what could not be loaded by file."""
+    """Plugins by kind and name, the stage kinds in order with their result types, and what could not be loaded by file.
+
+    `certified` are the kinds whose results say whether they converged.
+    """
 
     plugins: dict[tuple[str, str], Described]
     kinds: dict[str, tuple[str, bool]]
     broken: dict[str, str]
+    certified: frozenset[str]
 
     def names(self, kind: str) -> list[str]:
         """Names of the plugins of a kind."""
@@ -71,7 +74,8 @@ def remembered(working_folder: Path) -> Catalogue | None:
 
 def _read(known: dict[str, Any]) -> Catalogue:
     plugins = {(item["kind"], item["name"]): Described(**item) for item in known["plugins"]}
-    return Catalogue(plugins, {name: (path, stored) for name, path, stored in known["kinds"]}, known["broken"])
+    kinds = {name: (path, stored) for name, path, stored in known["kinds"]}
+    return Catalogue(plugins, kinds, known["broken"], frozenset(known["certified"]))
 
 
 @cache
@@ -80,7 +84,7 @@ def code_state(working_folder: Path) -> str:
     packages = [Path(__file__).resolve().parent.parent, *map(package_folder, installed_packages())]
     files = [*plugin_files(working_folder), *(file for package in packages for file in _python_files(str(package)))]
     facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
-    points = sorted(f"{point.name}={point.value}" for point in entry_points(group="surfexp.plugins"))
+    points = sorted(f"{point.name}={point.value}" for point in entry_points_of_plugins())
     return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()
 
 
@@ -95,7 +99,9 @@ def _describe_all(working_folder: Path) -> dict[str, Any]:
     registry.load_all(working_folder)
     plugins = [asdict(_described(method)) for method in registry.PLUGINS.values()]
     kinds = [(kind.name, kind.path, kind.stored) for kind in KINDS.values()]
-    return {"plugins": plugins, "kinds": kinds, "broken": {str(f): text for f, text in registry.BROKEN.items()}}
+    certified = [kind.name for kind in KINDS.values() if "converged" in getattr(kind.result, "METRICS", {})]
+    broken = {str(file): text for file, text in registry.BROKEN.items()}
+    return {"plugins": plugins, "kinds": kinds, "broken": broken, "certified": certified}
 
 
 def _described(method: Any) -> Described:

@@ -46,7 +46,7 @@ def run(plan: Plan) -> None:
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
         forced = False
-    finish(path)
+    finish(path, plan)
     if missing:
         failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
         said = "\n".join(filter(None, dict.fromkeys(failures)))
@@ -137,12 +137,12 @@ def hold_results(results: Path, wait: bool = False) -> None:
 def after_snakemake(path: Path) -> None:
     """What plain Snakemake does at its end; nothing when `surfexp run` drives it and does so itself."""
     if not os.environ.get(HELD):
-        finish(path)
+        finish(path, read_plan(path))
 
 
-def finish(path: Path) -> None:
+def finish(path: Path, plan: Plan) -> None:
     """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
-    plan, results = read_plan(path), path.parent.parent
+    results = path.parent.parent
     views, state = results / plan.settings.experiment, _state(path, plan, results)
     done = results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
     if (

@@ -22,22 +22,28 @@ console = Console(stderr=True)
 def follow(process: subprocess.Popen[bytes], nodes: list[Node], results: Path) -> None:
     """Show the stages of a running Snakemake process until it ends: live in a terminal, else a line a finished stage."""
     if not console.is_terminal:
-        reported: set[str] = set()
+        waiting = nodes
         while True:
-            running = process.poll() is None
-            for node in nodes:
-                if node.key not in reported and event_path(results, node.kind, node.key).exists():
-                    reported.add(node.key)
-                    console.print(
-                        f"[{len(reported)}/{len(nodes)}] {node.kind}/{node.plugin}", markup=False, highlight=False
-                    )
+            running, began = process.poll() is None, time.process_time()
+            ended = {node.key for node in waiting if event_path(results, node.kind, node.key).exists()}
+            for number, node in enumerate(
+                (node for node in waiting if node.key in ended), len(nodes) - len(waiting) + 1
+            ):
+                console.print(f"[{number}/{len(nodes)}] {node.kind}/{node.plugin}", markup=False, highlight=False)
+            waiting = [node for node in waiting if node.key not in ended]
             if not running:
                 return
-            time.sleep(0.1)
+            _pause(0.1, began)
     with Live(console=console, refresh_per_second=5, transient=True) as live:
         while process.poll() is None:
+            began = time.process_time()
             live.update(_view(nodes, results))
-            time.sleep(0.2)
+            _pause(0.2, began)
+
+
+def _pause(seconds: float, began: float) -> None:
+    """Wait until the next look, which takes a tenth of the processor at most however many stages there are."""
+    time.sleep(min(max(seconds, 10.0 * (time.process_time() - began)), 2.0))
 
 
 def _view(nodes: list[Node], results: Path) -> Group:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.workflow.errors import StageFailure, UserError
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from surfexp.workflow.plan import Plan
 
 LINES_OF_WARNING = 10
+ROWS_PRINTED = 200
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -28,22 +30,43 @@ def command(name: str, arguments: list[str]) -> int:
         print(usage(name))
         return 0
     check_arguments(arguments)
-    from hydra.errors import HydraException
-    from omegaconf.errors import OmegaConfBaseException
-
-    from surfexp.report.convergence import UNCONVERGED
-    from surfexp.workflow.launch import launch
-
     doubtful: list[str] = []
     action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful)
     try:
-        launch(arguments, action)
-    except (HydraException, OmegaConfBaseException) as error:
-        raise UserError(" ".join(str(error).split())) from error
+        plan_and_act(arguments, action)
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
+    from surfexp.report.convergence import UNCONVERGED
+
     return UNCONVERGED if doubtful else 0
+
+
+def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
+    """Act on the plan of a request; one that was made before is not made again, and its names are not checked again."""
+    kept_at = place(arguments)
+    if (known := remembered(kept_at)) is not None:
+        action(known)
+        return
+    from hydra.errors import HydraException
+    from omegaconf.errors import OmegaConfBaseException
+
+    from surfexp.report.declared import check_names
+    from surfexp.workflow.launch import launch
+
+    plans: list[Plan] = []
+
+    def check_and_act(plan: Plan) -> None:
+        check_names(plan)
+        plans.append(plan)
+        action(plan)
+
+    try:
+        launch(arguments, check_and_act)
+    except (HydraException, OmegaConfBaseException) as error:
+        raise UserError(" ".join(str(error).split())) from error
+    if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
+        remember(kept_at, plans[0])
 
 
 def _run(doubtful: list[str], plan: Plan) -> None:
@@ -51,9 +74,8 @@ def _run(doubtful: list[str], plan: Plan) -> None:
     from surfexp.commands.execution import run, unfinished
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.report.convergence import unconverged
-    from surfexp.report.declared import check_names
+    from surfexp.report.table import comparisons, rows_of
 
-    check_names(plan)
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
     console = wide_console()
@@ -64,11 +86,12 @@ def _run(doubtful: list[str], plan: Plan) -> None:
         run(plan)
     except StageFailure as error:
         failure = error
-    print_tables(plan, results, console)
+    groups = comparisons(rows_of(plan, results.resolve()))
+    print_tables(groups, console, ROWS_PRINTED)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
-    lines = unconverged(plan, results.resolve())
+    lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines
     warn(lines)
     if failure is not None:
@@ -84,9 +107,7 @@ def warn(lines: list[str]) -> None:
 
 def _show(plan: Plan) -> None:
     from surfexp.commands.execution import unfinished
-    from surfexp.report.declared import check_names
 
-    check_names(plan)
     results = Path(plan.settings.results)
     missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))
     unique = Counter(node.kind for node in plan.stored)

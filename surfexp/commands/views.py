@@ -6,12 +6,13 @@ import argparse
 import os
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.report.table import comparisons, format_number, rows_of, short_name
+from surfexp.report.table import Comparison, comparisons, format_number, rows_of, short_name
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
@@ -36,7 +37,7 @@ def command(name: str, arguments: list[str]) -> int:
         return 0
     for plan in plans.values():
         if name == "table":
-            print_tables(plan, given.results, wide_console())
+            print_tables(comparisons(rows_of(plan, given.results.resolve())), wide_console())
         else:
             from surfexp.report.page import write_report
 
@@ -59,18 +60,20 @@ def wide_console() -> Console:
     return console if console.is_terminal else Console(highlight=False, width=200)
 
 
-def print_tables(plan: Plan, results: Path, console: Console) -> None:
-    """One table a comparison; a row that did not converge is red and says so."""
-    for group in comparisons(rows_of(plan, results.resolve())):
+def print_tables(groups: Sequence[Comparison], console: Console, limit: int | None = None) -> None:
+    """One table a comparison; a row that did not converge is red and says so. Of more than `limit` rows an excerpt."""
+    for group in groups:
         console.print(f"\n[bold]{group.title}[/bold]", soft_wrap=True)
         table = Table(header_style="bold")
         for name in group.varying:
             table.add_column(short_name(name), overflow="fold")
         for name in group.metric_names:
             table.add_column(name.replace("_", " "), justify="right")
-        if any(row.limited for row in group.rows):
+        limited = any(row.limited for row in group.rows)
+        if limited:
             table.add_column("state", style="red")
-        for row in group.rows:
+        rows = group.rows if limit is None else group.excerpt(limit)
+        for row in rows:
             values = [str(row.parameters.get(name, "–")) for name in group.varying]
             if row.failure:
                 table.add_row(*values, "failed", style="red")
@@ -79,6 +82,9 @@ def print_tables(plan: Plan, results: Path, console: Console) -> None:
             state = ("not converged",) if row.limited else ()
             table.add_row(*values, *numbers, *state, style="red" if state else None)
         console.print(table)
+        if len(rows) < len(group.rows):
+            said = "the first ones and the best; metrics.csv beside the report and surfexp table have all"
+            console.print(f"{len(rows)} of {len(group.rows)} rows: {said}", soft_wrap=True)
 
 
 def _dashboard(given: argparse.Namespace) -> int:

@@ -3,43 +3,57 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from surfexp.catalogue.plugins import catalogue
 from surfexp.metric import Metric
 from surfexp.report.declared import declared
-from surfexp.report.table import comparisons, rows_of
+from surfexp.report.table import Comparison, comparisons, rows_of
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
-from surfexp.workflow.plan import Plan
+from surfexp.workflow.plan import Node, Plan
 
 UNCONVERGED = 3
 # a relative gap of 1: the energy may be as far above the least one as the model's own scale
 LARGEST_GAP = 1.0
 
 
-def unconverged(plan: Plan, results: Path) -> list[str]:
+def unconverged(plan: Plan, results: Path, groups: Sequence[Comparison] | None = None) -> list[str]:
     """Return one line for each row, and for each stage below one, that did not converge or whose gap is over its bound.
 
     The bound of a metric is the option that its declaration names, as the stage was configured; it counts where a result does
     not say itself whether it converged, as a published scheme does whose pair of operators has no gap of its own. The bound of
-    every relative gap is 1 besides. A stage that failed is not among them.
+    every relative gap is 1 besides. A stage that failed is not among them. `groups` are the rows where they have been read.
     """
     lines = []
     leaves = {leaf.key for leaf in plan.leaves}
-    for group in comparisons(rows_of(plan, results)):
+    for group in comparisons(rows_of(plan, results)) if groups is None else groups:
         for row in group.rows:
             node = plan.nodes[row.leaf.key]
-            if why := reason(row.metrics, node.options, declared(plan.nodes, node.key)):
+            if why := reason(row.metrics, node.options, _meanings(plan, node, row.metrics)):
                 shown = ", ".join(str(row.parameters.get(name, "–")) for name in group.varying)
                 lines.append(f"{group.title}: {shown}: {why}")
-    for node in plan.stored:
-        if node.key not in leaves and "converged" in getattr(KINDS[node.kind].result, "METRICS", {}):
+    below = [node for node in plan.stored if node.key not in leaves]
+    certified = {kind for kind in {node.kind for node in below} if _certified(kind)}
+    for node in below:
+        if node.kind in certified:
             metrics = outcome(results, node).metrics
-            if why := reason(metrics, node.options, declared(plan.nodes, node.key)):
+            if why := reason(metrics, node.options, _meanings(plan, node, metrics)):
                 lines.append(f"{node.kind}/{node.plugin} {node.key}: {why}")
     return lines
+
+
+def _certified(kind: str) -> bool:
+    """Whether results of a kind say that they converged; its class is not imported where the catalogue knows."""
+    known = catalogue(Path.cwd())
+    return kind in known.certified if kind in known.kinds else "converged" in getattr(KINDS[kind].result, "METRICS", {})
+
+
+def _meanings(plan: Plan, node: Node, metrics: Mapping[str, float]) -> Mapping[str, Metric]:
+    """What metrics mean, where a bound among the options counts; plugins are not imported for results that say it themselves."""
+    return {} if not metrics or "converged" in metrics else declared(plan.nodes, node.key)
 
 
 def reason(metrics: Mapping[str, float], options: Mapping[str, Any], meanings: Mapping[str, Metric]) -> str:

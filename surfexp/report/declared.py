@@ -36,7 +36,7 @@ def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
 def check_names(plan: Plan) -> None:
     """Refuse claims, columns, figures and objectives that name what no row has; UserError with the nearest name."""
     metrics = {leaf.key: {**declared(plan.nodes, leaf.key), **SECONDS} for leaf in plan.leaves}
-    rows = [Row(leaf, leaf.parameters, {}, 0.0) for leaf in plan.leaves]
+    rows = [Row(leaf, plan.parameters(leaf), {}, 0.0) for leaf in plan.leaves if plan.settings.claims]
     for claim in read_claims(plan.settings.claims):
         where = f"claim ({claim.claim[:60]})"
         for wanted in [claim.rows] if claim.over is None else [claim.rows, claim.over]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,14 @@ from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.report.claim import read_claims
 from surfexp.report.costs import cost_figure
-from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
+from surfexp.report.table import Comparison, comparisons, format_number, number_notes, rows_of, short_name, to_csv
 from surfexp.report.verdict import judge
 from surfexp.workflow import store
 from surfexp.workflow.errors import DamagedResult
 from surfexp.workflow.plan import Plan
+
+# beyond these a browser becomes slow; the page says what it leaves out and where it stands
+ROWS_SHOWN, FIGURES_SHOWN, FAILURES_SHOWN = 500, 200, 20
 
 
 def write_report(plan: Plan, results: Path) -> Path:
@@ -27,15 +31,21 @@ def write_report(plan: Plan, results: Path) -> Path:
     rows = rows_of(plan, results)
     groups = comparisons(rows)
     figures = _write_figures(plan, results, folder / "figures")
-    costs = {group.title: _costs_of(group, folder / "figures", k) for k, group in enumerate(groups)}
+    costs = [_costs_of(group, folder / "figures", k) for k, group in enumerate(groups)]
     store.write_text(folder / "metrics.csv", to_csv(rows))
     environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=True)
     environment.filters.update(number=format_number, heading=short_name, prose=prose)
+    sections = [
+        (group, shown, number_notes(shown), [*_figures_of(group, figures), *cost])
+        for group, cost in zip(groups, costs, strict=True)
+        for shown in [group.excerpt(ROWS_SHOWN)]
+    ]
     page = environment.get_template("report.html.j2").render(
         settings=plan.settings,
-        groups=[(group, _figures_of(group, figures) + costs[group.title]) for group in groups],
-        failures=[row for row in rows if row.failure],
-        best=_best,
+        sections=sections,
+        figures_shown=FIGURES_SHOWN,
+        failures=Counter(row.failure for row in rows if row.failure).most_common(),
+        failures_shown=FAILURES_SHOWN,
         verdicts=judge(read_claims(plan.settings.claims), rows),
         stages=len(plan.stored),
         requested=plan.requested,
@@ -66,8 +76,9 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
             if not (folder / name).exists():
                 _write(figure, folder / name)
             wanted[key] = _shown(name, figure)
+    names = {item["file"] for item in wanted.values()}
     for file in folder.glob("*.png"):
-        if file.name not in {item["file"] for item in wanted.values()}:
+        if file.name not in names:
             file.unlink()
     return wanted
 
@@ -87,24 +98,11 @@ def _write(figure: Figure, file: Path) -> None:
 
 
 def _shown(name: str, figure: Figure) -> dict[str, Any]:
+    """What the page needs of a figure; its pixels are let go."""
     height, width = figure.pixels.shape[:2]
-    return {"file": name, "figure": figure, "width": width, "height": height}
+    return {"file": name, "title": figure.title, "caption": figure.caption, "width": width, "height": height}
 
 
 def _figures_of(group: Comparison, figures: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     keys = dict.fromkeys(key for row in group.rows for key in row.leaf.figures)
     return [figures[key] for key in keys if key in figures]
-
-
-LOWER_IS_BETTER = ("rmse", "relative_gap", "error_bound", "energy", "iterations", "perimeter", "energy_excess")
-HIGHER_IS_BETTER = ("dice", "accuracy", "psnr")
-
-
-def _best(group: Comparison, name: str, row: Row) -> bool:
-    """Whether a row holds the best value of a metric whose good direction is known."""
-    values = [other.metrics[name] for other in group.rows if name in other.metrics and not other.limited]
-    if name not in row.metrics or row.limited or len(set(values)) < 2:
-        return False
-    if name.startswith(HIGHER_IS_BETTER):
-        return row.metrics[name] == max(values)
-    return name.startswith(LOWER_IS_BETTER) and row.metrics[name] == min(values)

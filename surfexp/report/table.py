@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Leaf, Plan
+
+LOWER_IS_BETTER = ("rmse", "relative_gap", "error_bound", "energy", "iterations", "perimeter", "energy_excess")
+HIGHER_IS_BETTER = ("dice", "accuracy", "psnr")
 
 
 @dataclass
@@ -34,14 +40,17 @@ class Row:
 
 @dataclass
 class Comparison:
-    """The rows of one table: the columns are the parameters that differ and the metrics that were asked for."""
+    """The rows of one table: the columns are the parameters that differ and the metrics that were asked for.
+
+    The columns are found once, when they are first asked for: the rows have to be complete then.
+    """
 
     title: str
     caption: str
     rows: list[Row]
     columns: list[str]
 
-    @property
+    @cached_property
     def varying(self) -> list[str]:
         """The plugin names and options that tell rows apart, each once; of one row its own plugin.
 
@@ -52,9 +61,10 @@ class Comparison:
         if len(self.rows) == 1:
             return [f"{self.rows[0].leaf.settings['target']}.name"]
         shown = [name for name in names if self._differs(name)]
-        shown.sort(key=lambda name: (not name.endswith(".name"), list(names).index(name)))
-        alike = {(name.rpartition(".")[2], self._cells(name)): name for name in reversed(shown)}
-        return [name for name in shown if alike[name.rpartition(".")[2], self._cells(name)] == name]
+        shown.sort(key=lambda name: not name.endswith(".name"))
+        cells = {name: (name.rpartition(".")[2], self._cells(name)) for name in shown}
+        alike = {cells[name]: name for name in reversed(shown)}
+        return [name for name in shown if alike[cells[name]] == name]
 
     def _cells(self, name: str) -> tuple[str, ...]:
         return tuple(str(row.parameters.get(name, "–")) for row in self.rows)
@@ -68,11 +78,34 @@ class Comparison:
                 found.setdefault(method, set()).add(str(row.parameters.get(name, "–")))
         return any(len(values) > 1 for values in found.values())
 
-    @property
+    @cached_property
     def metric_names(self) -> list[str]:
         """Metrics shown: those asked for that exist, or all; `converged` is said by the row itself."""
         names = dict.fromkeys(name for row in self.rows for name in row.metrics if name != "converged")
         return [name for name in self.columns if name in names] if self.columns else list(names)
+
+    @cached_property
+    def best(self) -> dict[str, float]:
+        """The best value of each metric whose good direction is known and which tells converged rows apart."""
+        found = {}
+        for name in self.metric_names:
+            values = {row.metrics[name] for row in self.rows if name in row.metrics and not row.limited}
+            values = {value for value in values if not math.isnan(value)}
+            if len(values) > 1 and name.startswith(HIGHER_IS_BETTER + LOWER_IS_BETTER):
+                found[name] = max(values) if name.startswith(HIGHER_IS_BETTER) else min(values)
+        return found
+
+    def is_best(self, row: Row, name: str) -> bool:
+        """Whether a row holds the best value of a metric."""
+        return not row.limited and name in self.best and row.metrics.get(name) == self.best[name]
+
+    def excerpt(self, limit: int) -> list[Row]:
+        """The first rows, and of the others the first with the best value of each metric; all where they are few."""
+        if len(self.rows) <= limit:
+            return self.rows
+        first = {name: next(row for row in self.rows if self.is_best(row, name)) for name in self.best}
+        ahead = {id(row) for row in (*self.rows[:limit], *first.values())}
+        return [row for row in self.rows if id(row) in ahead]
 
 
 def rows_of(plan: Plan, results: Path) -> list[Row]:
@@ -80,7 +113,7 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
     rows = []
     for leaf in plan.leaves:
         found = outcome(results, plan.nodes[leaf.key])
-        parameters = {key: value for key, value in leaf.parameters.items() if value is not None}
+        parameters = {key: value for key, value in plan.parameters(leaf).items() if value is not None}
         rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure))
     return rows
 
@@ -95,6 +128,12 @@ def comparisons(rows: list[Row]) -> list[Comparison]:
         group.rows.append(row)
         group.columns += [name for name in settings["columns"] if name not in group.columns]
     return list(groups.values())
+
+
+def number_notes(rows: Sequence[Row]) -> dict[str, int]:
+    """The notes of rows, each once, by the number that stands for it in a table."""
+    notes = dict.fromkeys(note for row in rows for note in row.notes)
+    return {note: number for number, note in enumerate(notes, 1)}
 
 
 def to_csv(rows: list[Row]) -> str:

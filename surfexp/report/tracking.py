@@ -5,16 +5,19 @@ from __future__ import annotations
 import logging
 import os
 import subprocess
-from collections.abc import Mapping
-from dataclasses import asdict
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from surfexp.workflow import store
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.outcome import NOT_COMPUTED, Outcome, outcome
 from surfexp.workflow.plan import Leaf, Plan
+
+if TYPE_CHECKING:
+    from surfexp.report.run_database import KnownRun, RunContent
 
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
@@ -33,87 +36,117 @@ def record(plan: Plan, results: Path, views: Path) -> None:
     os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
     os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
     logging.getLogger("alembic").setLevel(logging.WARNING)
+    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
     from mlflow.tracking import MlflowClient
+
+    from surfexp.report.run_database import known_runs, set_tag, write_runs
 
     client = MlflowClient(tracking_uri(results))
     name = plan.settings.experiment
-    experiment = client.get_experiment_by_name(name)
     location = (results / "mlflow-artifacts").resolve().as_uri()
-    identity = experiment.experiment_id if experiment else client.create_experiment(name, artifact_location=location)
-    runs = client.search_runs([identity], max_results=50000)
-    by_leaf = {run.data.tags.get("leaf"): run for run in runs}
-    parent = by_leaf.get("plan") or client.create_run(identity, run_name=name, tags={"leaf": "plan"})
+    experiment = client.get_experiment_by_name(name) or client.get_experiment(
+        client.create_experiment(name, artifact_location=location)
+    )
+    database = SqlAlchemyStore(tracking_uri(results), location)
+    runs = known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
+    parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
+    parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
     outcomes = {node.key: outcome(results, node) for node in plan.stored}
-    failed = False
-    for leaf in plan.leaves:
-        upstream = {key: outcomes[key] for key in _upstream(plan, leaf.key) if key in outcomes}
-        state = digest([[asdict(item) for item in upstream.values()], leaf.parameters])
-        failed |= bool(outcomes[leaf.key].failure)
-        same = [run for run in runs if run.data.tags.get("configuration") == leaf.configuration]
-        run = by_leaf.get(leaf.key) or next((run for run in same if run.info.status == "FAILED"), None)
-        if run is not None and run.data.tags.get("state") == state:
-            continue
-        tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true"}
-        tags["mlflow.parentRunId"] = parent.info.run_id
-        run = run or client.create_run(identity, run_name=_label(leaf), tags=tags)
-        kinds = {key: plan.nodes[key].kind for key in upstream}
-        history = {} if outcomes[leaf.key].failure else store.load(results, kinds[leaf.key], leaf.key, "history") or {}
-        _fill(client, run.info.run_id, leaf, upstream, kinds, history, {**tags, **_versions(), "state": state})
-        for old in same:
-            if old.info.run_id != run.info.run_id:
-                client.set_tag(old.info.run_id, "current", "false")
+    versions = _versions()
+    changes = _changes(plan, outcomes, runs)
+    tags = {**versions, "mlflow.parentRunId": parent_id}
+    write_runs(
+        database, experiment, ((change.run, _content(plan, results, change, outcomes, tags)) for change in changes)
+    )
+    set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
+    failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
     state = digest([sorted(leaf.key for leaf in plan.leaves), failed, (views / "metrics.csv").read_text()])
-    if parent.data.tags.get("state") != state:
-        for tag, value in {"plan": plan.identity, "state": state, **_versions()}.items():
-            client.set_tag(parent.info.run_id, tag, value)
-        client.log_artifacts(parent.info.run_id, str(views))
-        client.set_terminated(parent.info.run_id, "FAILED" if failed else "FINISHED")
+    if parent is None or parent.tags.get("state") != state:
+        for tag, value in {"plan": plan.identity, "state": state, **versions}.items():
+            client.set_tag(parent_id, tag, value)
+        client.log_artifacts(parent_id, str(views))
+        client.set_terminated(parent_id, "FAILED" if failed else "FINISHED")
 
 
-def _fill(
-    client: Any,
-    run_id: str,
-    leaf: Leaf,
-    upstream: Mapping[str, Outcome],
-    kinds: Mapping[str, str],
-    history: Mapping[str, Any],
-    tags: dict[str, str],
-) -> None:
-    from mlflow.entities import Metric, Param, RunTag
+def _new_parent(client: Any, experiment: str, name: str) -> str:
+    return str(client.create_run(experiment, run_name=name, tags={"leaf": "plan"}).info.run_id)
 
-    known = client.get_run(run_id).data.params
-    parameters = [Param(key, str(value)[:6000]) for key, value in leaf.parameters.items() if key not in known]
-    metrics = dict(upstream[leaf.key].metrics)
+
+@dataclass(frozen=True)
+class _Change:
+    """A leaf that is not recorded as it is: the stored stages before it, the run that it takes, those of older code."""
+
+    leaf: Leaf
+    upstream: tuple[str, ...]
+    state: str
+    run: str | None
+    superseded: list[str]
+
+
+def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRun]) -> list[_Change]:
+    by_leaf = {run.tags.get("leaf"): run for run in runs}
+    by_configuration: dict[str | None, list[KnownRun]] = {}
+    for run in runs:
+        by_configuration.setdefault(run.tags.get("configuration"), []).append(run)
+    states = {key: digest(asdict(item)) for key, item in outcomes.items()}
+    upstream: dict[str, tuple[str, ...]] = {}
+    changes, taken = [], set[str]()
+    for leaf in plan.leaves:
+        stored = tuple(key for key in _upstream(plan, leaf.key, upstream) if key in outcomes)
+        state = digest([[states[key] for key in stored], leaf.configuration])
+        same = by_configuration.get(leaf.configuration, [])
+        free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
+        mine = by_leaf.get(leaf.key) or next(free, None)
+        if mine is None or mine.tags.get("state") != state:
+            identity = mine.identity if mine else None
+            others = [one.identity for one in same if one.identity != identity]
+            changes.append(_Change(leaf, stored, state, identity, others))
+            taken |= {identity} if identity else set()
+    return changes
+
+
+def _content(
+    plan: Plan, results: Path, change: _Change, outcomes: Mapping[str, Outcome], tags: Mapping[str, str]
+) -> RunContent:
+    """What the run of a leaf shows: its options, its numbers and history, what the stages before it took."""
+    from surfexp.report.run_database import RunContent
+
+    leaf, own = change.leaf, outcomes[change.leaf.key]
+    upstream = {key: outcomes[key] for key in change.upstream}
+    metrics = dict(own.metrics)
     for key, item in upstream.items():
-        name = f"seconds.{kinds[key]}"
+        name = f"seconds.{plan.nodes[key].kind}"
         metrics[name] = metrics.get(name, 0.0) + (item.seconds or 0.0)
         metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item.peak_memory_mb or 0.0)
-    series = [Metric(_safe(key), value, 0, 0) for key, value in metrics.items()]
+    kind = plan.nodes[leaf.key].kind
+    history = {} if own.failure else store.load(results, kind, leaf.key, "history") or {}
+    series = [(_safe(key), 0, value) for key, value in metrics.items()]
     steps = history.get("iteration", [])
     series += [
-        Metric(f"history.{_safe(key)}", float(value), 0, int(step))
+        (f"history.{_safe(key)}", int(step), float(value))
         for key, values in history.items()
         if key != "iteration"
         for step, value in zip(steps, values, strict=False)
     ]
     failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
-    for part in range(max(len(series) // 900, len(parameters) // 100) + 1):  # MLflow's limits of one batch
-        client.log_batch(run_id, series[900 * part : 900 * (part + 1)], parameters[100 * part : 100 * (part + 1)], [])
-    client.log_batch(
-        run_id, [], [], [RunTag(key, value) for key, value in {**tags, "failure": "; ".join(failures)}.items()]
+    own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
+    parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
+    status = "FAILED" if own.failure else "FINISHED"
+    return RunContent(
+        _label(parameters), status, parameters, series, {**tags, **own_tags, "failure": "; ".join(failures)}
     )
-    client.set_terminated(run_id, "FAILED" if upstream[leaf.key].failure else "FINISHED")
 
 
-def _upstream(plan: Plan, key: str) -> list[str]:
-    found: dict[str, None] = {}
-    for child in plan.nodes[key].children:
-        found.update(dict.fromkeys(_upstream(plan, child)))
-    return [*found, key]
+def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
+    """All stages before one, and itself; `known` are those that were asked for before."""
+    if key not in known:
+        before = dict.fromkeys(one for child in plan.nodes[key].children for one in _upstream(plan, child, known))
+        known[key] = (*before, key)
+    return known[key]
 
 
-def _label(leaf: Leaf) -> str:
-    return " ".join(str(value) for key, value in leaf.parameters.items() if key.endswith(".name"))[:250]
+def _label(parameters: Mapping[str, str]) -> str:
+    return " ".join(value for key, value in parameters.items() if key.endswith(".name"))[:250]
 
 
 def _safe(name: str) -> str:

@@ -129,9 +129,9 @@ def value_of(row: Row, metric: str) -> float | None:
 
 def _names(those: Sequence[Row], rows: Sequence[Row]) -> str:
     columns = Comparison("", "", list(rows), []).varying
-    names = [" ".join(str(row.parameters.get(name, "–")) for name in columns) for row in those]
-    more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-    return f"{', '.join(names[:3])}{more} ({len(those)} of {len(rows)} rows)"
+    names = [" ".join(str(row.parameters.get(name, "–")) for name in columns) for row in those[:3]]
+    more = f" and {len(those) - 3} more" if len(those) > 3 else ""
+    return f"{', '.join(names)}{more} ({len(those)} of {len(rows)} rows)"
 
 
 def _quantity(claim: Claim, values: list[float], divisors: list[float] | None) -> tuple[float | None, float, float]:
@@ -140,5 +140,9 @@ def _quantity(claim: Claim, values: list[float], divisors: list[float] | None) -
         return aggregates.get(claim.quantity), min(values), max(values)
     if 0.0 in divisors or fmean(divisors) == 0.0:
         raise _Obstacle(f"{claim.metric} is 0 in rows to divide by")
-    ratios = [above / below for above, below in product(values, divisors)]
+    # the extremes over all pairs are at extremes of either side, below apart for either sign: a quotient is monotone there
+    above = (min(values), max(values))
+    signs = ([one for one in divisors if one > 0.0], [one for one in divisors if one < 0.0])
+    below = [end for side in signs if side for end in (min(side), max(side))]
+    ratios = [numerator / divisor for numerator, divisor in product(above, below)]
     return fmean(values) / fmean(divisors), min(ratios), max(ratios)

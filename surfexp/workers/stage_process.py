@@ -92,7 +92,7 @@ def _write_to(log: Path) -> None:
 def main(plan_path: Path, key: str) -> int:
     """Make one result and return the exit code; the child's death is named."""
     die_with_parent(os.getppid())
-    plan = read_plan(plan_path)
+    plan = read_plan(plan_path, key)
     _, status, usage = os.wait4(fork_stage(plan_path, plan, key), 0)
     return finished(plan_path, plan, key, status, usage)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import itertools
 from collections.abc import Mapping
 from typing import Any
@@ -97,7 +96,8 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
     """All leaf configurations of one composed configuration: the union over variants of their grids.
 
     `overrides` is what the command line says of stages: a kind's configuration, or an option's value under its dotted
-    name. It wins over variants and grids; an option goes to every plugin that has it, whichever comes first.
+    name. It wins over variants and grids; an option goes to every plugin that has it, whichever comes first. Leaves share
+    what they have in common: nobody may change one.
     """
     base = {key: value for key, value in configuration.items() if key not in ("variants", "grid")}
     leaves = []
@@ -110,7 +110,7 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
             leaf = merge(base, partial)
             for dotted, value in zip(grid, values, strict=True):
                 leaf = assign(leaf, dotted, value)
-            leaves.append(copy.deepcopy(leaf))
+            leaves.append(leaf)
     for dotted, value in sorted((overrides or {}).items(), key=lambda item: "." in item[0]):
         leaves = _override(leaves, dotted, value)
     return leaves

@@ -19,6 +19,7 @@ from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
+from surfexp.catalogue.planned import place, remembered
 from surfexp.hydra_guard import refuse_code
 from surfexp.own_data import with_collections, without_foreign_words
 from surfexp.workflow import registry
@@ -134,8 +135,10 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
 
 def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
-    prepare_hydra()
-    plan = _plan_without_sweep([f"{key}={value}" for key, value in config.items()])
+    arguments = [f"{key}={value}" for key, value in config.items()]
+    if (plan := remembered(place(arguments))) is None:
+        prepare_hydra()
+        plan = _plan_without_sweep(arguments)
     if plan is None:
         raise UserError("Snakemake runs one configuration; a sweep is run by surfexp run")
     return plan.write(Path(plan.settings.results).resolve()), plan

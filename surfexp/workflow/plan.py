@@ -15,7 +15,7 @@ from surfexp.workflow.configuration import Context, Settings, merge, one_line, s
 from surfexp.workflow.errors import UserError, check_known
 from surfexp.workflow.fingerprint import code_digest, compiled_state, digest, file_digest
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.registry import Plugin, load_file, names_of, plugin
+from surfexp.workflow.registry import Plugin, names_of, plugin
 from surfexp.workflow.store import write_text
 
 Keys = str | list[str] | dict[str, str]
@@ -49,12 +49,14 @@ class Node:
 
 @dataclass
 class Leaf:
-    """What one configuration asks for: the stage at the end of its chain, its figures, and how to show it."""
+    """What one configuration asks for: the stage at the end of its chain, a digest of its options, its figures.
+
+    `settings` say how to show it; leaves share them where they agree.
+    """
 
     key: str
     configuration: str
     settings: dict[str, Any]
-    parameters: dict[str, Any]
     figures: list[str] = field(default_factory=list)
 
 
@@ -77,25 +79,47 @@ class Plan:
         """Digest of the set of leaves and figures."""
         return digest(sorted({key for leaf in self.leaves for key in (leaf.key, *leaf.figures)}))
 
+    def parameters(self, leaf: Leaf) -> dict[str, Any]:
+        """The plugins' names and all options of a leaf and of the stages before it."""
+        return _flat(self.nodes, leaf.key)
+
     def write(self, results: Path) -> Path:
-        """Write the plan below the results folder; the same plan always gives the same file."""
+        """Write the plan below the results folder: what all share, the leaves, and each stage on a line of its own."""
         path = results / "plans" / f"{self.settings.experiment}-{self.identity}.json"
-        write_text(path, json.dumps(asdict(self) | {"settings": self.settings.model_dump()}, indent=1))
+        shown = {id(leaf.settings): leaf.settings for leaf in self.leaves}
+        places = {identity: place for place, identity in enumerate(shown)}
+        leaves = [vars(leaf) | {"settings": places[id(leaf.settings)]} for leaf in self.leaves]
+        head = {"settings": self.settings.model_dump(), "requested": self.requested, "shown": list(shown.values())}
+        write_text(path, "\n".join(map(json.dumps, (head, leaves, *map(vars, self.nodes.values())))))
         return path
 
 
-def read_plan(path: Path) -> Plan:
-    """Read a plan back from its file."""
-    tree = json.loads(path.read_text())
+def read_plan(path: Path, key: str = "") -> Plan:
+    """Read a plan back; with a key only that stage, those before it and no leaves, since each stage's process reads it."""
+    text = path.read_text()
+    head, *lines = text.split("\n")
+    tree = json.loads(text if head == "{" else head)
+    if "shown" not in tree:
+        return _of_one_document(tree)
+    leaves, nodes = lines[0], {line[9:29]: line for line in lines[1:]}
+    plan = Plan(Settings(**tree["settings"]), requested=tree["requested"])
+    for leaf in [] if key else json.loads(leaves):
+        plan.leaves.append(Leaf(**leaf | {"settings": tree["shown"][leaf["settings"]]}))
+    waiting = [key] if key else list(reversed(nodes))
+    while waiting:
+        if (one := waiting.pop()) not in plan.nodes:
+            plan.nodes[one] = Node(**json.loads(nodes[one]))
+            waiting += plan.nodes[one].children
+    return plan
+
+
+def _of_one_document(tree: Mapping[str, Any]) -> Plan:
+    """A plan as earlier versions wrote it, whose results are as good as ever: settings and options stand with each leaf."""
     nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
-    return Plan(Settings(**tree["settings"]), nodes, [Leaf(**leaf) for leaf in tree["leaves"]], tree["requested"])
-
-
-def load_own_kinds(plan: Plan) -> None:
-    """Load the plugin files of a plan that was made elsewhere, if they declare a stage kind of their own."""
-    if not KINDS.keys() >= {node.kind for node in plan.nodes.values()}:
-        for file in {node.file for node in plan.nodes.values()}:
-            load_file(Path(file))
+    leaves = [
+        Leaf(*(leaf[name] for name in ("key", "configuration", "settings", "figures"))) for leaf in tree["leaves"]
+    ]
+    return Plan(Settings(**tree["settings"]), nodes, leaves, tree["requested"])
 
 
 def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:
@@ -110,16 +134,18 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
     """Resolve leaf configurations into one plan; equal stages and equal leaves merge by key."""
     plan: Plan | None = None
     seen: dict[str, Leaf] = {}
+    before: Context = {}
     for configuration in configurations:
-        settings = settings_of(configuration)
-        plan = plan or Plan(settings)
+        if (top := {key: value for key, value in configuration.items() if key not in KINDS}) != before or plan is None:
+            settings, before = settings_of(configuration), top
+            plan, shown = plan or Plan(settings), settings.model_dump()
+            resolver = _Resolver(plan, settings.axes)
         context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
-        resolver = _Resolver(plan, settings.axes)
         key = resolver.node(settings.target, context, ())
-        leaf = Leaf(key, digest(_flat(plan, key)), settings.model_dump(), _flat(plan, key))
+        leaf = Leaf(key, digest(_flat(plan.nodes, key)), shown)
         for figure in settings.figures:
             leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
-        plan.requested += resolver.visits
+        plan.requested += sum(resolver.visits[one] for one in (key, *leaf.figures))
         first = seen.setdefault(key, leaf)
         first.figures += [figure for figure in leaf.figures if figure not in first.figures]
     if plan is None:
@@ -130,14 +156,36 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
 
 @dataclass
 class _Resolver:
+    """Finds the stages of leaves that have their axes in common.
+
+    What was found is remembered by the configurations of those kinds that were looked at on the way: leaves of a sweep differ
+    in few of them.
+    """
+
     plan: Plan
     axes: Mapping[str, Any]
-    visits: int = 0
+    looked_at: set[str] = field(default_factory=set)
+    known: dict[str, dict[tuple[str, ...], dict[str, str]]] = field(default_factory=dict)
+    visits: dict[str, int] = field(default_factory=dict)
 
-    def node(self, kind: str, context: Context, path: tuple[str, ...]) -> str:
+    def node(self, kind: str, context: Context, path: tuple[tuple[str, Context], ...]) -> str:
         """Resolve the stage of one kind in a context, its inputs first; return its key."""
+        # the end of a chain differs from leaf to leaf: it is not remembered
+        for kinds, found in self.known.setdefault(kind, {}).items() if path else ():
+            if key := found.get(json.dumps([context.get(one) for one in kinds]), ""):
+                break
+        else:
+            outside, self.looked_at = self.looked_at, {kind}
+            key, kinds = self._resolve(kind, context, path), tuple(sorted(self.looked_at))
+            self.looked_at = outside
+            if path:
+                self.known[kind].setdefault(kinds, {})[json.dumps([context.get(one) for one in kinds])] = key
+        self.looked_at.update(kinds)
+        return key
+
+    def _resolve(self, kind: str, context: Context, path: tuple[tuple[str, Context], ...]) -> str:
         if context.get(kind) is None:
-            wanted = f", wanted by {path[-1].split(' ')[0]}" if path else ""
+            wanted = f", wanted by {path[-1][0]}" if path else ""
             names = ", ".join(sorted(names_of(kind))) or "none registered"
             raise UserError(f"no {kind} is configured{wanted}; choose {kind}= one of: {names}")
         configured = stage(context[kind])
@@ -145,9 +193,9 @@ class _Resolver:
             raise UserError(f"{kind}: the plugin's name is missing; set {kind}=NAME")
         method = plugin(kind, str(configured.pop("name")))
         overrides = configured.pop("inputs", None) or {}
-        here = f"{kind}/{method.name} {digest([kind, context])}"
+        here = f"{kind}/{method.name}", context
         if here in path:
-            raise UserError(f"cycle: {' -> '.join(step.split(' ')[0] for step in (*path[path.index(here) :], here))}")
+            raise UserError(f"cycle: {' -> '.join(name for name, _ in (*path[path.index(here) :], here))}")
         options = _checked_options(method, configured)
         check_known(f"input of {kind}/{method.name}", overrides, method.inputs)
         inputs = {
@@ -156,7 +204,9 @@ class _Resolver:
         }
         return self._add(method, options, inputs)
 
-    def _input(self, method: Plugin, role: str, context: Context, override: Context, path: tuple[str, ...]) -> Any:
+    def _input(
+        self, method: Plugin, role: str, context: Context, override: Context, path: tuple[tuple[str, Context], ...]
+    ) -> Any:
         wanted = method.inputs[role]
         axis = override.pop("over", None)
         check_known(f"stage kind below inputs.{role} of {method.kind}/{method.name}", override, KINDS)
@@ -176,11 +226,9 @@ class _Resolver:
         return {"members": keys, "dict": named, "list": list(keys.values())}[wanted.shape]
 
     def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
-        self.visits += KINDS[method.kind].stored
         function, where = method.function.__qualname__, str(method.file)
         code, cache = code_digest(method.file, function), compiled_state(method.file)
-        paths = {name for name, item in method.options.model_fields.items() if "Path" in str(item.annotation)}
-        named = {name: options[name] for name in paths if options.get(name) is not None}
+        named = {name: options[name] for name in method.paths if options.get(name) is not None}
         files = {name: _digest_of(path) for name, path in _file_options(named).items()}
         rest = {name: value for name, value in options.items() if name not in named}
         asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
@@ -189,6 +237,7 @@ class _Resolver:
         key = digest([method.kind, method.name, {**rest, **files}, inputs, members, code])
         node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members, function)
         self.plan.nodes[key] = node
+        self.visits[key] = KINDS[method.kind].stored + sum(self.visits[child] for child in node.children)
         return key
 
 
@@ -222,13 +271,13 @@ def _members(value: Any) -> dict[str, Any]:
     return dict(members if isinstance(members, Mapping) else enumerate(members))
 
 
-def _flat(plan: Plan, key: str, root: str = "") -> dict[str, Any]:
+def _flat(nodes: Mapping[str, Node], key: str, root: str = "") -> dict[str, Any]:
     """All options upstream; those of a collection once, with the number of values where its members differ."""
     flat: dict[str, Any] = {}
     owners: dict[str, str] = {}
 
     def visit(key: str, prefix: str, parent: str) -> None:
-        node = plan.nodes[key]
+        node = nodes[key]
         if owners.get(prefix, key) != key:
             prefix = f"{parent}.{prefix}"
         if owners.setdefault(prefix, key) == key and f"{prefix}.name" not in flat:
@@ -238,11 +287,11 @@ def _flat(plan: Plan, key: str, root: str = "") -> dict[str, Any]:
             if isinstance(value, str):
                 visit(value, role, prefix)
                 continue
-            parts = [_flat(plan, child, role) for child in _members(value).values()]
+            parts = [_flat(nodes, child, role) for child in _members(value).values()]
             for name in dict.fromkeys(name for part in parts for name in part):
                 values = list(dict.fromkeys(json.dumps(part.get(name)) for part in parts))
                 varied = f"{len(values)} values ({digest(values)[:6]})"
                 flat.setdefault(name, parts[0][name] if len(values) == 1 else varied)
 
-    visit(key, root or plan.nodes[key].kind, "")
+    visit(key, root or nodes[key].kind, "")
     return flat

@@ -8,14 +8,14 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from importlib.metadata import entry_points
+from functools import cached_property
 from pathlib import Path
 from typing import Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict
 
 from surfexp.catalogue.folders import package_folder as package_folder
-from surfexp.catalogue.folders import plugin_files
+from surfexp.catalogue.loading import load_all as load_all
 from surfexp.catalogue.plugins import Catalogue, catalogue
 from surfexp.member import Member
 from surfexp.metric import Metric
@@ -50,6 +50,11 @@ class Plugin:
     file: Path
     accepts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     metrics: Mapping[str, Metric] = field(default_factory=dict)
+
+    @cached_property
+    def paths(self) -> frozenset[str]:
+        """The options that name files."""
+        return frozenset(name for name, item in self.options.model_fields.items() if "Path" in str(item.annotation))
 
     @property
     def summary(self) -> str:
@@ -165,23 +170,3 @@ def open_catalogue(working_folder: Path) -> Catalogue:
     _described.update({key: Path(item.file) for key, item in known.plugins.items()})
     BROKEN.update({Path(file): message for file, message in known.broken.items()})
     return known
-
-
-def load_all(working_folder: Path) -> None:
-    """Load every plugin: the package's own, installed packages' (entry-point group `surfexp.plugins`), `plugins/` here.
-
-    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused.
-    """
-    for file in plugin_files(working_folder):
-        _guarded(file, lambda file=file: load_file(file))  # type: ignore[misc]
-    for point in entry_points(group="surfexp.plugins"):
-        _guarded(Path(point.value), point.load)
-
-
-def _guarded(file: Path, load: Callable[[], Any]) -> None:
-    try:
-        load()
-    except Exception as error:
-        if "defined twice" in str(error):
-            raise
-        BROKEN[file] = str(error) if isinstance(error, UserError) else f"{file}: {error}"

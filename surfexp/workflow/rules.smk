@@ -4,9 +4,10 @@ import shlex
 import sys
 from pathlib import Path
 
+from surfexp.catalogue.loading import load_own_kinds
 from surfexp.workflow import store
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import load_own_kinds, read_plan, stored_inputs
+from surfexp.workflow.plan import read_plan, stored_inputs
 
 if "plan" in config:
     plan_path = Path(config["plan"]).resolve()

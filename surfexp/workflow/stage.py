@@ -38,7 +38,7 @@ def report_progress(iteration: int, gap: float) -> None:
 
 def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     """Make one result of a plan, which is read unless it is given; return 0, or 1 after recording the failure."""
-    plan = plan or read_plan(plan_path)
+    plan = plan or read_plan(plan_path, key)
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
     compiled_code.use(results, node.cache)

@@ -33,7 +33,7 @@ CLAIM: dict[str, Any] = {
 
 def row(name: str, seconds: float = 1.0, failure: str = "", seed: int = 0, **metrics: float) -> Row:
     parameters = {"solver.name": name, "image.seed": seed}
-    return Row(Leaf(name, name, {"target": "solver"}, {}), parameters, metrics, seconds, failure=failure)
+    return Row(Leaf(name, name, {"target": "solver"}), parameters, metrics, seconds, failure=failure)
 
 
 def judged(claim: dict[str, Any], *rows: Row) -> Verdict:
@@ -148,7 +148,7 @@ def test_rows_are_selected_by_typed_values_and_lists_of_them(wanted: dict[str, A
 
 
 def test_an_option_that_is_a_list_is_matched_as_a_whole_or_as_one_of_several() -> None:
-    turned = Row(Leaf("x", "x", {"target": "surface"}, {}), {"clean.rotation": [30.0, 25.0]}, {"energy": 2.0}, 0.0)
+    turned = Row(Leaf("x", "x", {"target": "surface"}), {"clean.rotation": [30.0, 25.0]}, {"energy": 2.0}, 0.0)
     for wanted in ([30, 25], [[0, 0], [30, 25]]):
         assert judged(CLAIM | {"rows": {"clean.rotation": wanted}}, turned).count == 1
     assert judged(CLAIM | {"rows": {"clean.rotation": [30, 26]}}, turned).count == 0
@@ -217,4 +217,4 @@ def measured() -> Row:
     registry.load_all(Path("/nonexistent"))
     method = registry.plugin("solver", "operator_errors")
     metrics = method.function(method.options(), surface=surface, operator=fem(surface.mesh)).metrics
-    return Row(Leaf("key", "fem", {}, {}), {"operator.name": "fem"}, metrics, 0.0)
+    return Row(Leaf("key", "fem", {}), {"operator.name": "fem"}, metrics, 0.0)

@@ -14,7 +14,7 @@ from surfexp.workflow.plan import Leaf
 def row(name: str, tolerance: float, seconds: float, gap: float | None = None, failure: str = "") -> Row:
     parameters = {"solver.name": name, "solver.tolerance": tolerance}
     metrics = {"relative_gap": tolerance if gap is None else gap}
-    return Row(Leaf(name, name, {}, {}), parameters, metrics, seconds, failure=failure)
+    return Row(Leaf(name, name, {}), parameters, metrics, seconds, failure=failure)
 
 
 def comparison(*rows: Row) -> Comparison:

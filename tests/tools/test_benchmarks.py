@@ -20,7 +20,17 @@ from surfexp.variational.separable_quadratic import convex_chan_vese
 from surfexp.variational.solvers.primal_dual import primal_dual
 
 ROOT = Path(__file__).resolve().parents[2]
-GROUPS = ("denoising", "segmentation", "parametrization", "scaling", "threads", "nodal_domains", "assembly", "skeleton")
+GROUPS = (
+    "denoising",
+    "segmentation",
+    "parametrization",
+    "scaling",
+    "threads",
+    "nodal_domains",
+    "assembly",
+    "skeleton",
+    "waiting",
+)
 
 
 @pytest.mark.parametrize("least", [1, 2, 57, 117, 118, 160])

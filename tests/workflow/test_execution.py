@@ -65,7 +65,7 @@ def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
 
     monkeypatch.setenv(execution.HELD, "1")
     monkeypatch.setattr(execution, "_snakemake", in_this_process)
-    monkeypatch.setattr(execution, "finish", lambda path: None)
+    monkeypatch.setattr(execution, "finish", lambda path, plan: None)
     return once
 
 
@@ -211,6 +211,7 @@ def test_a_row_that_did_not_converge_is_named_and_ends_with_3(
 ) -> None:
     plan = loose(tmp_path, target, **options)
     monkeypatch.setattr("surfexp.workflow.launch.launch", lambda arguments, action: action(plan))
+    monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
     assert run_command.command("run", []) == 3
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("surfexp: warning: ") and line.endswith(said)
@@ -221,6 +222,7 @@ def test_a_run_within_its_bounds_ends_with_0(tmp_path: Path, monkeypatch: pytest
     # the second row says that it converged: by a bound of its own, such as the change of a published iteration
     plan = loose(tmp_path, gap=1e-3, tolerance=1e-4)
     monkeypatch.setattr("surfexp.workflow.launch.launch", lambda arguments, action: action(plan))
+    monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
     assert run_command.command("run", []) == 0
     assert unconverged(plan, tmp_path / "results") == []
 

@@ -47,7 +47,7 @@ from surfexp.workflow.configuration import Settings
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.kinds import KINDS, stage_kind
-from surfexp.workflow.plan import Leaf, Node, Plan, make_plan
+from surfexp.workflow.plan import Leaf, Node, Plan, _flat, make_plan
 from surfexp.workflow.store import save
 
 RNG = np.random.default_rng(1)
@@ -75,7 +75,8 @@ class Laboratory:
         """Ask for a stage: `solver__name` is the parameter solver.name."""
         settings = self.plan.settings.model_dump() | {"comparison": comparison, "target": self.plan.nodes[key].kind}
         named = {name.replace("__", "."): value for name, value in parameters.items()}
-        self.plan.leaves.append(Leaf(key, key, settings, named, list(figures)))
+        assert named.items() <= _flat(self.plan.nodes, key).items()
+        self.plan.leaves.append(Leaf(key, key, settings, list(figures)))
 
     def export(self, *arguments: str, to: Path, code: int = 0, target: str = "") -> dict[str, dict[str, str]]:
         """Run the command; return the index by file."""

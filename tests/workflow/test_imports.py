@@ -45,3 +45,15 @@ def test_what_there_is_to_choose_from_is_shown_without_numerics(tmp_path: Path, 
 def test_a_plan_needs_no_pictures_and_no_records(tmp_path: Path) -> None:
     loaded = loaded_by(call("plan", "experiment=isospectral_drums"), cwd=tmp_path)
     assert not loaded & (LABORATORY - {"hydra"})
+
+
+def test_a_request_that_was_planned_before_needs_neither_hydra_nor_plugins(tmp_path: Path) -> None:
+    request = call("plan", "experiment=isospectral_drums")
+    loaded_by(request, cwd=tmp_path)
+    assert not loaded_by(request, cwd=tmp_path) & (LABORATORY | {"scipy", "numba"})
+
+
+def test_what_a_run_with_nothing_to_do_imports(tmp_path: Path) -> None:
+    modules = ("commands.run", "commands.execution", "commands.views", "report.convergence", "report.table")
+    statement = f"import {', '.join(f'surfexp.{name}' for name in modules)}"
+    assert not loaded_by(statement, cwd=tmp_path) & (LABORATORY | {"scipy", "numba"})

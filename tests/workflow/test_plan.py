@@ -50,7 +50,7 @@ def test_chain_in_which_a_kind_recurs_and_two_inputs_of_one_kind(tmp_path: Path)
     plan, pairing = run(DISTANCE, tmp_path)
     assert pairing.trace == "eigen(flux(boundary))~boundary"
     assert pairing.value == 7.0
-    parameters = plan.leaves[0].parameters
+    parameters = plan.parameters(plan.leaves[0])
     assert parameters["weight.shift"] == 1.0 and parameters["target.surface.size"] == 3.0
     assert len(plan.stored) == 7 and plan.requested == 8
 

@@ -10,7 +10,7 @@ from surfexp.workflow.plan import Leaf
 
 def row(metrics: dict[str, float] | None = None, **parameters: Any) -> Row:
     named = {name.replace("__", "."): value for name, value in parameters.items()}
-    return Row(Leaf("key", "configuration", {"target": "distance"}, named), named, metrics or {}, 0.0)
+    return Row(Leaf("key", "configuration", {"target": "distance"}), named, metrics or {}, 0.0)
 
 
 def test_an_option_that_inputs_share_is_one_column() -> None:

@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from surfexp.catalogue.folders import experiments
+from surfexp.catalogue.loading import load_own_kinds
 from surfexp.commands.views import latest_plan
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, check_known, unknown
-from surfexp.workflow.plan import Node, Plan, load_own_kinds, read_plan
+from surfexp.workflow.plan import Node, Plan, read_plan
 
 ON_VERTICES = ("surface", "image", "feature")
 KEY, RUN = re.compile(r"[0-9a-f]{8,20}"), re.compile(r"[0-9a-f]{32}")

@@ -1,0 +1,48 @@
+"""Many plugins at once: all there are, to be described, or those of a plan that was made elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from surfexp.catalogue.folders import entry_points_of_plugins, plugin_files
+from surfexp.workflow.errors import UserError
+
+if TYPE_CHECKING:
+    from surfexp.workflow.plan import Plan
+
+
+def load_all(working_folder: Path) -> None:
+    """Load every plugin: the package's own, installed packages' (entry-point group `surfexp.plugins`), `plugins/` here.
+
+    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused.
+    """
+    from surfexp.workflow.registry import load_file
+
+    for file in plugin_files(working_folder):
+        _guarded(file, partial(load_file, file))
+    for point in entry_points_of_plugins():
+        _guarded(Path(point.value), point.load)
+
+
+def load_own_kinds(plan: Plan) -> None:
+    """Load the plugin files of a plan that was made elsewhere, if they declare a stage kind of their own."""
+    from surfexp.workflow.kinds import KINDS
+    from surfexp.workflow.registry import load_file
+
+    if not KINDS.keys() >= {node.kind for node in plan.nodes.values()}:
+        for file in {node.file for node in plan.nodes.values()}:
+            load_file(Path(file))
+
+
+def _guarded(file: Path, load: Callable[[], Any]) -> None:
+    from surfexp.workflow.registry import BROKEN
+
+    try:
+        load()
+    except Exception as error:
+        if "defined twice" in str(error):
+            raise
+        BROKEN[file] = str(error) if isinstance(error, UserError) else f"{file}: {error}"

@@ -1,0 +1,142 @@
+"""Many MLflow runs at once: read with one query, written in a few transactions through the tracking store's own models.
+
+MLflow's client takes several transactions for each run, and each of them asks whether the run is there; so this follows its
+`SqlAlchemyStore.create_run` and `log_batch`, table by table.
+"""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any
+
+from mlflow.entities import LifecycleStage, SourceType
+from mlflow.store.tracking.dbmodels.models import SqlLatestMetric, SqlMetric, SqlParam, SqlRun, SqlTag
+from mlflow.utils.mlflow_tags import MLFLOW_RUN_NAME
+from mlflow.utils.uri import append_to_uri_path
+from sqlalchemy import delete, insert, select, update
+
+RUNS_AT_ONCE = 500
+LONGEST_PARAMETER, LONGEST_TAG = 6000, 8000  # MLflow's own limits
+
+
+@dataclass(frozen=True)
+class RunContent:
+    """All that a run shows. `series` are metrics as (name, step, value); the last step of each is its value."""
+
+    name: str
+    status: str
+    parameters: Mapping[str, str]
+    series: Sequence[tuple[str, int, float]]
+    tags: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class KnownRun:
+    """A run in the database, with those of its tags that were asked for."""
+
+    identity: str
+    status: str
+    tags: dict[str, str] = field(default_factory=dict)
+
+
+def known_runs(store: Any, experiment: str, tags: Iterable[str]) -> list[KnownRun]:
+    """The active runs of an experiment, the latest first."""
+    query = (
+        select(SqlRun.run_uuid, SqlRun.status, SqlTag.key, SqlTag.value)
+        .join(SqlTag, (SqlTag.run_uuid == SqlRun.run_uuid) & SqlTag.key.in_(list(tags)))
+        .where(SqlRun.experiment_id == int(experiment), SqlRun.lifecycle_stage == LifecycleStage.ACTIVE)
+        .order_by(SqlRun.start_time.desc(), SqlRun.run_uuid)
+    )
+    runs: dict[str, KnownRun] = {}
+    with store.ManagedSessionMaker() as session:
+        for identity, status, key, value in session.execute(query):
+            runs.setdefault(identity, KnownRun(identity, status)).tags[key] = value
+    return list(runs.values())
+
+
+def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None, RunContent]]) -> None:
+    """Write runs, each with the identity of the run that it takes the place of (None for a new one), some at a time.
+
+    Of a run that is replaced, parameters, metrics and the tags that are given are written anew; other tags stay.
+    """
+    waiting = iter(contents)
+    while part := list(islice(waiting, RUNS_AT_ONCE)):
+        new = [(uuid.uuid4().hex, content) for identity, content in part if identity is None]
+        old = [(identity, content) for identity, content in part if identity is not None]
+        now = int(time.time() * 1000)
+        with store.ManagedSessionMaker(read_only=False) as session:
+            if new:  # a millisecond apart, so that the dashboard shows them in their order
+                starts = range(now - len(new), now)
+                rows = [_run(experiment, *item, start, now) for item, start in zip(new, starts, strict=True)]
+                session.execute(insert(SqlRun), rows)
+            if old:
+                _forget(session, old)
+                changed = [{"run_uuid": run, "status": item.status, "end_time": now} for run, item in old]
+                session.execute(update(SqlRun), changed)
+            for table, rows in _rows(store, [*new, *old], {run for run, _ in new}).items():
+                if rows:
+                    session.execute(insert(table), rows)
+
+
+def set_tag(store: Any, identities: Sequence[str], key: str, value: str) -> None:
+    """Give a tag of several runs, which have it already, another value."""
+    with store.ManagedSessionMaker(read_only=False) as session:
+        for start in range(0, len(identities), RUNS_AT_ONCE):
+            part = identities[start : start + RUNS_AT_ONCE]
+            session.execute(update(SqlTag).where(SqlTag.key == key, SqlTag.run_uuid.in_(part)).values(value=value))
+
+
+def _run(experiment: Any, identity: str, content: RunContent, start: int, end: int) -> dict[str, Any]:
+    return {
+        "run_uuid": identity,
+        "name": content.name,
+        "artifact_uri": append_to_uri_path(experiment.artifact_location, identity, "artifacts"),
+        "experiment_id": int(experiment.experiment_id),
+        "source_type": SourceType.to_string(SourceType.UNKNOWN),
+        "source_name": "",
+        "entry_point_name": "",
+        "source_version": "",
+        "user_id": "unknown",
+        "status": content.status,
+        "start_time": start,
+        "end_time": end,
+        "lifecycle_stage": LifecycleStage.ACTIVE,
+    }
+
+
+def _forget(session: Any, runs: Sequence[tuple[str, RunContent]]) -> None:
+    identities = [run for run, _ in runs]
+    for table in (SqlParam, SqlMetric, SqlLatestMetric):
+        session.execute(delete(table).where(table.run_uuid.in_(identities)))
+    keys = {key for _, content in runs for key in content.tags}
+    session.execute(delete(SqlTag).where(SqlTag.run_uuid.in_(identities), SqlTag.key.in_(keys)))
+
+
+def _rows(store: Any, runs: Sequence[tuple[str, RunContent]], new: set[str]) -> dict[Any, list[dict[str, Any]]]:
+    """Rows of every table but that of the runs; as MLflow writes them, without repeated metrics."""
+    rows: dict[Any, list[dict[str, Any]]] = {SqlParam: [], SqlMetric: [], SqlLatestMetric: [], SqlTag: []}
+    for run, content in runs:
+        rows[SqlParam] += [
+            {"run_uuid": run, "key": key, "value": value[:LONGEST_PARAMETER]}
+            for key, value in content.parameters.items()
+        ]
+        named = {MLFLOW_RUN_NAME: content.name} if run in new else {}
+        rows[SqlTag] += [
+            {"run_uuid": run, "key": key, "value": value[:LONGEST_TAG]}
+            for key, value in {**content.tags, **named}.items()
+        ]
+        points = dict.fromkeys(
+            (name, step, *store.sanitize_metric_value(value)) for name, step, value in content.series
+        )
+        metrics = [
+            {"run_uuid": run, "key": name, "value": value, "timestamp": 0, "step": step, "is_nan": is_nan}
+            for name, step, is_nan, value in points
+        ]
+        rows[SqlMetric] += metrics
+        last = {row["key"]: row for row in sorted(metrics, key=lambda row: (row["step"], row["value"]))}
+        rows[SqlLatestMetric] += last.values()
+    return rows

@@ -1,0 +1,209 @@
+"""Runs in MLflow: what its client would write, in a number of statements that does not grow with the number of runs."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sqlalchemy
+
+from benchmarks.synthetic_results import fill, plan_of, sweep
+from surfexp.report import run_database, tracking
+from surfexp.workflow import store
+from surfexp.workflow.outcome import event_path
+from surfexp.workflow.plan import Plan
+
+OWN = {"current": "true", "failure": ""}
+
+
+@pytest.fixture(scope="module")
+def empty_database(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A database without runs: MLflow takes seconds to make its tables."""
+    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
+
+    file = tmp_path_factory.mktemp("database") / "mlflow.db"
+    SqlAlchemyStore(f"sqlite:///{file}", str(file.parent))
+    return file
+
+
+@pytest.fixture
+def results(tmp_path: Path, empty_database: Path) -> Path:
+    shutil.copy(empty_database, tmp_path / "mlflow.db")
+    return tmp_path
+
+
+def finished(leaves: int, results: Path) -> Plan:
+    plan = plan_of(sweep(leaves), results)
+    fill(plan, results)
+    return plan
+
+
+def recorded(plan: Plan, results: Path) -> dict[str, Any]:
+    views = results / "views"
+    views.mkdir(exist_ok=True)
+    (views / "metrics.csv").write_text("leaf\n")
+    tracking.record(plan, results, views)
+    return runs(results, plan.settings.experiment)
+
+
+def runs(results: Path, name: str) -> dict[str, Any]:
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(tracking.tracking_uri(results))
+    experiment = client.get_experiment_by_name(name)
+    assert experiment is not None
+    return {run.data.tags["leaf"]: run for run in client.search_runs([experiment.experiment_id])}
+
+
+def shown(results: Path, run: Any) -> tuple[Any, ...]:
+    """All that the dashboard shows of a run."""
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(tracking.tracking_uri(results))
+    history = {
+        key: sorted((point.step, repr(point.value), point.timestamp) for point in client.get_metric_history(run, key))
+        for key in client.get_run(run).data.metrics
+    }
+    data, info = client.get_run(run).data, client.get_run(run).info
+    metrics = {key: repr(value) for key, value in data.metrics.items()}
+    place = info.artifact_uri.replace(run, "RUN").partition("/RUN/")[2]
+    facts = (info.run_name, info.status, info.lifecycle_stage, info.user_id, place, info.end_time >= info.start_time)
+    return data.params, metrics, history, data.tags, facts
+
+
+@contextmanager
+def statements() -> Iterator[list[str]]:
+    """The statements that reach a database, without SQLite's settings."""
+    seen: list[str] = []
+
+    def note(connection: Any, cursor: Any, statement: str, *_: Any) -> None:
+        if not statement.startswith("PRAGMA"):
+            seen.append(" ".join(statement.split()))
+
+    sqlalchemy.event.listen(sqlalchemy.Engine, "before_cursor_execute", note)
+    try:
+        yield seen
+    finally:
+        sqlalchemy.event.remove(sqlalchemy.Engine, "before_cursor_execute", note)
+
+
+def test_a_run_is_what_the_client_of_mlflow_writes(results: Path) -> None:
+    from mlflow.entities import Metric, Param, RunTag
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(tracking.tracking_uri(results))
+    identity = client.create_experiment("any", artifact_location=results.as_uri())
+    experiment = client.get_experiment(identity)
+    series = [("gap", 0, 2.0), ("gap", 3, 1.0), ("gap", 3, 1.0), ("nothing", 0, math.nan), ("nothing", 0, math.nan)]
+    series += [("energy", 0, math.inf), ("energy", 0, -1.0), ("history.gap", 10, -0.5), ("history.gap", 5, 7.0)]
+    parameters = {"solver.name": "rof", "solver.tolerance": "", "long": "x" * 5000}
+    tags = {"leaf": "ours", "failure": "", "note": "two\nlines", "long": "y" * 8000}
+    write = sql_store(results)
+    run_database.write_runs(
+        write, experiment, [(None, run_database.RunContent("r", "FAILED", parameters, series, tags))]
+    )
+    theirs = client.create_run(identity, run_name="r", tags=tags).info.run_id
+    metrics = [Metric(name, value, 0, step) for name, step, value in series]
+    parts = [RunTag(key, value) for key, value in tags.items()]
+    client.log_batch(theirs, metrics, [Param(key, value) for key, value in parameters.items()], parts)
+    client.set_terminated(theirs, "FAILED")
+    ours = next(run.info.run_id for run in client.search_runs([identity]) if run.info.run_id != theirs)
+    assert shown(results, ours) == shown(results, theirs)
+
+
+def sql_store(results: Path) -> Any:
+    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
+
+    return SqlAlchemyStore(tracking.tracking_uri(results), str(results))
+
+
+def test_runs_show_options_numbers_history_and_what_came_before(results: Path) -> None:
+    plan = finished(2, results)
+    found = recorded(plan, results)
+    leaf = plan.leaves[1]
+    run, parent = found[leaf.key], found["plan"]
+    own = store.read_record(results, "solver", leaf.key)["result"]["fields"]["metrics"]["map"]
+    events = {
+        node.kind: json.loads(event_path(results, node.kind, node.key).read_text())
+        for node in plan.stored
+        if node.kind != "solver" or node.key == leaf.key
+    }
+    taken = {f"seconds.{kind}": event["seconds"] for kind, event in events.items()}
+    memory = {"peak_memory_mb": max(event["peak_memory_mb"] for event in events.values())}
+    history = store.load(results, "solver", leaf.key, "history")
+    assert run.data.metrics == {**own, **taken, **memory, "history.gap": history["gap"][-1]}
+    assert run.data.params == {key: str(value) for key, value in plan.parameters(leaf).items()}
+    expected = {**OWN, "leaf": leaf.key, "configuration": leaf.configuration}
+    assert expected.items() <= run.data.tags.items()
+    assert run.data.tags["mlflow.parentRunId"] == parent.info.run_id
+    assert (run.info.status, parent.info.status) == ("FINISHED", "FINISHED")
+    assert [one.info.start_time for one in map(found.get, (x.key for x in plan.leaves)) if one] == sorted(
+        found[one.key].info.start_time for one in plan.leaves
+    )
+
+
+def test_statements_do_not_grow_with_the_runs_and_an_unchanged_rerun_asks_once(
+    tmp_path: Path, empty_database: Path
+) -> None:
+    counts = {}
+    for leaves in (3, 24):
+        results = tmp_path / str(leaves)
+        results.mkdir()
+        shutil.copy(empty_database, results / "mlflow.db")
+        plan = finished(leaves, results)
+        with statements() as first:
+            recorded(plan, results)
+        with statements() as again:
+            tracking.record(plan, results, results / "views")
+        assert not [text for text in again if not text.startswith("SELECT")]
+        assert sum("FROM runs" in text for text in again) == 1, again
+        counts[leaves] = len(first), len(again)
+    assert counts[3] == counts[24]
+
+
+def test_a_failed_run_is_taken_over_and_a_changed_one_replaced(results: Path) -> None:
+    from mlflow.tracking import MlflowClient
+
+    plan = finished(2, results)
+    leaf, other = (one.key for one in plan.leaves)
+    store.discard(results, "solver", leaf)
+    store.write_text(event_path(results, "solver", leaf), json.dumps({"failure": "solver/primal_dual: no"}))
+    before = recorded(plan, results)
+    assert (before[leaf].info.status, before["plan"].info.status) == ("FAILED", "FAILED")
+    assert before[leaf].data.tags["failure"] == "solver/primal_dual: no"
+    client = MlflowClient(tracking.tracking_uri(results))
+    client.set_tag(before[leaf].info.run_id, "mlflow.note.content", "of a person")
+    fill(plan, results)
+    after = recorded(plan, results)
+    assert len(after) == 3 and after[leaf].info.run_id == before[leaf].info.run_id
+    assert after[leaf].info.status == "FINISHED" and after[leaf].data.tags["failure"] == ""
+    assert after[leaf].data.tags["mlflow.note.content"] == "of a person"
+    assert after[leaf].info.run_name == before[leaf].info.run_name
+    assert after[other].data == before[other].data or vars(after[other].data) == vars(before[other].data)
+    event = json.loads(event_path(results, "solver", leaf).read_text())
+    store.write_text(event_path(results, "solver", leaf), json.dumps(event | {"seconds": 0.125}))
+    again = recorded(plan, results)
+    assert again[leaf].data.metrics["seconds.solver"] == 0.125
+    assert again[leaf].data.metrics.keys() == after[leaf].data.metrics.keys()
+
+
+def test_a_run_of_older_code_is_kept_and_no_longer_current(results: Path) -> None:
+    plan = finished(2, results)
+    before = recorded(plan, results)
+    key, newer = plan.leaves[0].key, "f" * 20
+    node = plan.nodes.pop(key)
+    plan.nodes[newer] = replace(node, key=newer)
+    plan.leaves[0].key = newer
+    fill(plan, results)
+    after = recorded(plan, results)
+    assert len(after) == 4
+    assert after[newer].info.run_id != before[key].info.run_id
+    currents = {leaf: run.data.tags.get("current") for leaf, run in after.items()}
+    assert currents == {"plan": None, key: "false", newer: "true", plan.leaves[1].key: "true"}
