@@ -5,7 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 import warnings
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -122,9 +121,9 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     ValueError: unknown finished experiment in nowhere 'quickstart'; choose from: none
     """
     require_installed("sx.load", *LABORATORY)
+    from surfexp.catalogue.loading import load_known_kinds
     from surfexp.commands.views import latest_plan
     from surfexp.report.table import rows_of
-    from surfexp.workflow import registry
     from surfexp.workflow.errors import UserError
 
     root = Path(results).resolve()
@@ -132,11 +131,7 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
         plan = latest_plan(Path(results), experiment)
     except UserError as error:
         raise ValueError(str(error)) from None
-    # a plugin may declare a stage kind of its own: found here or installed, never in a file that a plan of others names
-    registry.open_catalogue(Path.cwd())
-    for kind, name in {(node.kind, node.plugin) for node in plan.nodes.values()}:
-        with suppress(UserError):
-            registry.plugin(kind, name)
+    load_known_kinds(plan)  # a plugin may declare a stage kind of its own
     folder = root / experiment
     figures = {file.stem: file for file in sorted((folder / "figures").glob("*.png"))}
     kinds = {leaf.key: plan.nodes[leaf.key].kind for leaf in plan.leaves}

@@ -12,6 +12,7 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "jinja2": ("jinja2", "lab"),
     "markupsafe": ("markupsafe", "lab"),
     "mlflow": ("mlflow", "lab"),
+    "sqlalchemy": ("sqlalchemy", "lab"),
     "omegaconf": ("omegaconf", "lab"),
     "ot": ("POT", "lab"),
     "pandas": ("pandas", "lab"),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +14,9 @@ from surfexp.workflow.errors import UserError
 
 if TYPE_CHECKING:
     from surfexp.workflow.plan import Plan
+
+# how `registry.load_file` begins the names of modules
+OF_FILE = "surfexp_plugin_"
 
 
 def load_all(working_folder: Path) -> None:
@@ -28,13 +33,28 @@ def load_all(working_folder: Path) -> None:
 
 
 def load_own_kinds(plan: Plan) -> None:
-    """Load the plugin files of a plan that was made elsewhere, if they declare a stage kind of their own."""
+    """Load the plugin files of a plan that this working folder has made, if they declare a stage kind of their own."""
     from surfexp.workflow.kinds import KINDS
     from surfexp.workflow.registry import load_file
 
-    if not KINDS.keys() >= {node.kind for node in plan.nodes.values()}:
+    classes = {node.kind: KINDS[node.kind].path if node.kind in KINDS else "" for node in plan.nodes.values()}
+    # a class of a plugin file is there once the file is loaded: no import finds it
+    if any(
+        not path or (path.startswith(OF_FILE) and path.partition(":")[0] not in sys.modules)
+        for path in classes.values()
+    ):
         for file in {node.file for node in plan.nodes.values()}:
             load_file(Path(file))
+
+
+def load_known_kinds(plan: Plan) -> None:
+    """Load plugins of a plan that others may have made: those found here or installed, never the files that it names."""
+    from surfexp.workflow import registry
+
+    registry.open_catalogue(Path.cwd())
+    for kind, name in {(node.kind, node.plugin) for node in plan.nodes.values()}:
+        with suppress(UserError):
+            registry.plugin(kind, name)
 
 
 def _guarded(file: Path, load: Callable[[], Any]) -> None:

@@ -35,7 +35,9 @@ PLUGINS = [
     described("surface", "fsaverage5", ("hemisphere", "one of ['left', 'right']")),
     described("surface", "file", ("path", "Path")),
 ]
-KNOWN = Catalogue({(item.kind, item.name): item for item in PLUGINS}, {"surface": ("", True), "solver": ("", True)}, {})
+KNOWN = Catalogue(
+    {(item.kind, item.name): item for item in PLUGINS}, {"surface": ("", True), "solver": ("", True)}, {}, frozenset()
+)
 
 
 @pytest.fixture

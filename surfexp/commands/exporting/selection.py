@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from surfexp.catalogue.folders import experiments
-from surfexp.catalogue.loading import load_own_kinds
+from surfexp.catalogue.loading import load_known_kinds
 from surfexp.commands.views import latest_plan
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, check_known, unknown
@@ -43,7 +43,7 @@ def find(results: Path, target: str) -> tuple[Plan, str]:
         raise UserError(f"{target!r} has no results in {results}: surfexp run experiment={target}")
     else:
         raise unknown(f"experiment or run in {results}", target, names)
-    load_own_kinds(plan)
+    load_known_kinds(plan)
     return plan, key
 
 
