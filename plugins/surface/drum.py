@@ -6,8 +6,8 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.mesh.flat_domain import boundary_angles
+from surfexp.mesh.flat_shapes import Polygon
 from surfexp.mesh.shape_metrics import with_metrics
-from surfexp.mesh.smooth_shape import Polygon
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES

@@ -69,17 +69,24 @@ def spectral_distance(
         else:
             searches.append(_unproved(objective, start, spent))
         notes += [] if agreed else ["Two draws of samples prefer different signs: search exactly."]
+    if exact and not all(search.optimal for search in searches):
+        notes += [f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."]
+    method = f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}"
+    return _distance(source, target, searches, method, notes)
+
+
+def _distance(
+    source: SpectralEmbedding, target: SpectralEmbedding, searches: list[SignSearch], method: str, notes: list[str]
+) -> Distance:
+    """Return the largest of the values found, with the basis and the correspondence of its signs."""
     chosen = max(searches, key=lambda search: search.value)
     signs = chosen.signs.astype(np.float64)
     moved = target.points * signs
     rows, backward = nearest(moved, source.points)
-    optimal = all(search.optimal for search in searches)
-    if exact and not optimal:
-        notes += [f"The search was stopped after {limit} evaluations: the value is the best found, not proved least."]
     return Distance(
         value=chosen.value,
         lower_bound=max(search.lower_bound for search in searches),
-        optimal=optimal,
+        optimal=all(search.optimal for search in searches),
         evaluations=sum(search.evaluations for search in searches),
         basis=np.diag(signs),
         source_points=source.points,
@@ -87,7 +94,7 @@ def spectral_distance(
         correspondence=rows,
         closed=chosen.closed.astype(np.int64),
         bounds=chosen.bounds,
-        method=f"{'mean Hausdorff' if summary == 'mean' else 'Hausdorff'}, {reading.replace('_', ' ')}",
+        method=method,
         metrics=_directions(source, target, nearest(source.points, moved)[1], backward, searches),
         notes=tuple(dict.fromkeys(notes)),
     )

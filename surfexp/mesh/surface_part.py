@@ -59,10 +59,7 @@ class SurfacePart:
         ValueError
             If there is not one row for each vertex of the whole.
         """
-        array = np.asarray(values)
-        if array.shape[:1] != (self.whole_count,):
-            raise ValueError(f"map has shape {array.shape}, the surface has {self.whole_count} vertices")
-        return array[self.vertices]
+        return _rows(values, self.whole_count, "map", "the surface")[self.vertices]
 
     def extend(self, values: ArrayLike) -> Floats:
         """Put values of the part back on the whole.
@@ -81,12 +78,18 @@ class SurfacePart:
         ValueError
             If there is not one row for each vertex of the part.
         """
-        array = np.asarray(values, dtype=np.float64)
-        if array.shape[:1] != (len(self.vertices),):
-            raise ValueError(f"result has shape {array.shape}, the part has {len(self.vertices)} vertices")
+        array = _rows(values, len(self.vertices), "result", "the part").astype(np.float64, copy=False)
         whole = np.full((self.whole_count, *array.shape[1:]), np.nan, order="F" if array.ndim == 2 else "C")
         whole[self.vertices] = array
         return whole
+
+
+def _rows(values: ArrayLike, count: int, name: str, owner: str) -> NDArray[np.generic]:
+    """Return values as an array that has one row for each vertex."""
+    array = np.asarray(values)
+    if array.shape[:1] != (count,):
+        raise ValueError(f"{name} has shape {array.shape}, {owner} has {count} vertices")
+    return array
 
 
 def surface_part(mesh: TriangleMesh, mask: ArrayLike | None) -> SurfacePart:

@@ -6,9 +6,9 @@ from typing import Literal
 
 import numpy as np
 
+from surfexp.mesh.flat_shapes import FlatTorus
 from surfexp.mesh.shapes.rectangle import flat_torus
 from surfexp.mesh.shapes.torus import torus
-from surfexp.mesh.smooth_shape import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.intrinsic_delaunay import hat_gradients_from_lengths

@@ -9,7 +9,7 @@ from scipy.sparse import diags_array
 
 from surfexp.arrays import Floats
 from surfexp.linalg.factorisation import factorise
-from surfexp.mesh.smooth_shape import UP, Sphere, Torus
+from surfexp.mesh.curved_shapes import UP, Sphere, Torus
 from surfexp.mesh.surface import Surface
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.calculus import divergence, gradient

@@ -10,8 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfexp.embedding.labels import map_metrics
+from surfexp.mesh.curved_shapes import Sphere, SphericalCap, Torus
 from surfexp.mesh.exact_spectra import lattice_spectrum, rectangle_spectrum
 from surfexp.mesh.flat_domain import boundary_angles
+from surfexp.mesh.flat_shapes import Disk, FlatTorus, Polygon, Rectangle
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
@@ -21,7 +23,6 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.spherical_cap import capped_sphere, spherical_cap
 from surfexp.mesh.shapes.torus import torus
-from surfexp.mesh.smooth_shape import Disk, FlatTorus, Polygon, Rectangle, Sphere, SphericalCap, Torus
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface

@@ -7,11 +7,11 @@ import pytest
 
 from surfexp.member import Member
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
+from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.torus import torus
-from surfexp.mesh.smooth_shape import Rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from surfexp.mesh.curved_shapes import Sphere
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.icosphere import GOLDEN, spherical_coordinates
-from surfexp.mesh.smooth_shape import Sphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.torus import periodic_grid_faces
-from surfexp.mesh.smooth_shape import Rectangle
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

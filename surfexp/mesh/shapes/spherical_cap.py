@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from surfexp.mesh.curved_shapes import Sphere, SphericalCap
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.disk import ring_coordinates, ring_faces
-from surfexp.mesh.smooth_shape import Sphere, SphericalCap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

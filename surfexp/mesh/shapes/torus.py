@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
+from surfexp.mesh.curved_shapes import Torus
 from surfexp.mesh.shape_metrics import with_metrics
-from surfexp.mesh.smooth_shape import Torus
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from surfexp.figures.order_plot import convergence_order
 from surfexp.member import Member, levels_of
-from surfexp.mesh.smooth_shape import FlatTorus
+from surfexp.mesh.flat_shapes import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
