@@ -15,8 +15,9 @@ from surfexp.workflow import store
 from surfexp.workflow.configuration import Context, expand
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Node, Plan, make_plan
+from surfexp.workflow.plan import Node, Plan
 from surfexp.workflow.registry import open_catalogue
+from surfexp.workflow.resolution import make_plan
 
 TOLERANCES = 100
 ITERATIONS = 5

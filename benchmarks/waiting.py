@@ -18,8 +18,9 @@ from benchmarks.synthetic_results import fill, fill_experiment, plan_of, sweep
 from surfexp.report.page import write_report
 from surfexp.report.tracking import record
 from surfexp.workflow.configuration import expand
-from surfexp.workflow.plan import make_plan, read_plan
+from surfexp.workflow.plan import read_plan
 from surfexp.workflow.registry import open_catalogue
+from surfexp.workflow.resolution import make_plan
 
 LIMIT = "a limit"
 SIZES, QUICK_SIZES = (2_000, 10_000, 100_000), (50, 100, 200)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from surfexp.mesh.surface import Surface as Surface
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth
+    from surfexp.tasks.distance_transformer import SpectralDistance as SpectralDistance
     from surfexp.tasks.distances import align as align
     from surfexp.tasks.distances import distance as distance
     from surfexp.tasks.files import read as read
@@ -22,15 +23,14 @@ if TYPE_CHECKING:
     from surfexp.tasks.pictures import plot as plot
     from surfexp.tasks.segmentation import segment as segment
     from surfexp.tasks.shapes import shape as shape
+    from surfexp.tasks.signature_transformers import NodalCounts as NodalCounts
+    from surfexp.tasks.signature_transformers import ShapeDNA as ShapeDNA
     from surfexp.tasks.skeletons import geodesic as geodesic
     from surfexp.tasks.skeletons import mean_curvature as mean_curvature
     from surfexp.tasks.skeletons import reeb_graph as reeb_graph
     from surfexp.tasks.spectra import eigenpairs as eigenpairs
     from surfexp.tasks.spectra import eigsh as eigsh
     from surfexp.tasks.spectrum_of_surface import Spectrum as Spectrum
-    from surfexp.tasks.transformers import NodalCounts as NodalCounts
-    from surfexp.tasks.transformers import ShapeDNA as ShapeDNA
-    from surfexp.tasks.transformers import SpectralDistance as SpectralDistance
 
 try:
     __version__ = version("surfexp")

@@ -1,9 +1,9 @@
 """The public functions by the module that defines each: imported when one is asked for, so that `import surfexp` is light."""
 
 FACE = {
-    "NodalCounts": "surfexp.tasks.transformers",
-    "ShapeDNA": "surfexp.tasks.transformers",
-    "SpectralDistance": "surfexp.tasks.transformers",
+    "NodalCounts": "surfexp.tasks.signature_transformers",
+    "ShapeDNA": "surfexp.tasks.signature_transformers",
+    "SpectralDistance": "surfexp.tasks.distance_transformer",
     "Spectrum": "surfexp.tasks.spectrum_of_surface",
     "Surface": "surfexp.mesh.surface",
     "align": "surfexp.tasks.distances",

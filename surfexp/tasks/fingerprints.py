@@ -16,6 +16,7 @@ from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.arrays import Floats
 from surfexp.html_table import html_table
+from surfexp.io.csv_cells import cells
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -96,7 +97,7 @@ class Fingerprints:
         """
         with Path(path).open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow(["", *self.columns])
+            writer.writerow(["", *cells(self.columns)])
             for name, values in self.rows().items():
                 writer.writerow([name, *("" if value != value else repr(value) for value in values)])
 

@@ -140,6 +140,16 @@ def eigsh(
     >>> values.round(6).tolist()
     [0.0, 1.0, 2.0]
     """
+    _check_request(A, sigma, which, mode)
+    unit = csr_array((np.ones(A.shape[0]), (np.arange(A.shape[0]),) * 2), shape=A.shape)
+    system = matrix_eigenpairs(A, unit if M is None else M, k, tolerance=tol or 1e-8)
+    if not system.complete:
+        raise ValueError(f"the {k} pairs found are not proved to be the lowest ({'; '.join(system.notes)}): raise k")
+    return (system.values, np.ascontiguousarray(system.vectors)) if return_eigenvectors else system.values
+
+
+def _check_request(A: Any, sigma: float | None, which: str, mode: str) -> None:
+    """Refuse what is not the lowest end of the spectrum of a sparse matrix."""
     lowest = (sigma is None and which in ("SM", "SA")) or (sigma is not None and sigma <= 0 and which == "LM")
     if not lowest or mode != "normal":
         asked = f"sigma = {sigma}, which = {which!r}, mode = {mode!r}"
@@ -148,8 +158,3 @@ def eigsh(
         )
     if not issparse(A):
         raise ValueError(f"A is a {type(A).__name__}, a sparse matrix is needed: it is factorised")
-    unit = csr_array((np.ones(A.shape[0]), (np.arange(A.shape[0]),) * 2), shape=A.shape)
-    system = matrix_eigenpairs(A, unit if M is None else M, k, tolerance=tol or 1e-8)
-    if not system.complete:
-        raise ValueError(f"the {k} pairs found are not proved to be the lowest ({'; '.join(system.notes)}): raise k")
-    return (system.values, np.ascontiguousarray(system.vectors)) if return_eigenvectors else system.values

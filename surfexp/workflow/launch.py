@@ -28,7 +28,8 @@ from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
 

@@ -15,7 +15,7 @@ from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.workflow import registry
 from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import make_plan
+from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 BALL = sx.shape("icosphere", levels=3)

@@ -13,7 +13,8 @@ from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.launch import plan_for_snakemake
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 ROOT = Path(__file__).resolve().parents[2]

@@ -14,7 +14,8 @@ from surfexp.report.reproduction import reproduction as page_of
 from surfexp.workflow import registry, stage
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 STATE = "a" * 20, "b" * 20

@@ -22,7 +22,7 @@ from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
-from surfexp.workflow.plan import make_plan
+from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 

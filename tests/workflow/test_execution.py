@@ -20,7 +20,8 @@ from surfexp.report.verdict import judge
 from surfexp.workflow import registry, stage, store
 from surfexp.workflow.errors import StageFailure
 from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 CONFIGURATION = {
     "experiment": "toy",

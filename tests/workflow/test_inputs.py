@@ -14,7 +14,8 @@ from surfexp.io.map_files import read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.workflow import fingerprint, outcome, registry, stage, store
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 

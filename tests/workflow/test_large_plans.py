@@ -14,7 +14,8 @@ from surfexp.workflow import plan as plan_module
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.fingerprint import file_digest
-from surfexp.workflow.plan import Plan, _Resolver, make_plan, read_plan
+from surfexp.workflow.plan import Plan, read_plan
+from surfexp.workflow.resolution import _Resolver, make_plan
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 

@@ -12,7 +12,8 @@ import pytest
 from surfexp.workflow import outcome, registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Plan, make_plan, read_plan, stored_inputs
+from surfexp.workflow.plan import Plan, read_plan, stored_inputs
+from surfexp.workflow.resolution import make_plan
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = {

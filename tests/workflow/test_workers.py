@@ -15,7 +15,8 @@ import pytest
 from surfexp.workers.stage_process import death
 from surfexp.workflow import registry, store
 from surfexp.workflow.outcome import read_event
-from surfexp.workflow.plan import Plan, make_plan
+from surfexp.workflow.plan import Plan
+from surfexp.workflow.resolution import make_plan
 
 ENDS = """
 import os, signal, sys

@@ -1,0 +1,119 @@
+"""Spectral distances as a scikit-learn transformer: a row of distances to known surfaces for each surface."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from surfexp.arrays import Floats
+from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
+from surfexp.tasks.distances import embedded
+from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each, positive
+
+
+class SpectralDistance(SurfaceTransformer):
+    """The spectral distances of surfaces to those that it was fitted to, each least over the signs of eigenfunctions.
+
+    What `fit_transform` returns is symmetric with zeros on its diagonal: the input of whatever takes `metric="precomputed"`.
+
+    Parameters
+    ----------
+    n : int
+        Number of eigenfunctions.
+    weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
+    limit : int
+        Most evaluations of the search over signs.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> bodies = [sx.shape("ellipsoid", levels=3), sx.shape("icosphere", levels=3)]
+    >>> sx.SpectralDistance(n=3).fit_transform(bodies).diagonal().round(6)
+    array([0., 0.])
+    """
+
+    def __init__(self, n: int = 20, weighting: Weighting = "biharmonic", limit: int = 2000) -> None:
+        self.n = n
+        self.weighting = weighting
+        self.limit = limit
+
+    def fit(self, X: Surfaces, y: Any = None) -> SpectralDistance:
+        """Keep the embeddings of the surfaces to which distances are measured.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+        y : optional
+            Not used.
+
+        Returns
+        -------
+        SpectralDistance
+            Itself.
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse, or the number of modes is no integer from 1 on.
+        """
+        positive(self.n, "n")
+        self.embeddings_ = of_each(X, self._embedding)
+        self.n_features_out_ = len(self.embeddings_)
+        return self
+
+    def transform(self, X: Surfaces) -> Floats:
+        """Return the distances of surfaces to those of `fit`.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+
+        Returns
+        -------
+        (s, r) float64
+            Of s surfaces to the r of `fit`.
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse.
+        """
+        check_is_fitted(self)
+        others = of_each(X, self._embedding)
+        return np.array(
+            [[spectral_distance(one, other, limit=self.limit).value for other in self.embeddings_] for one in others]
+        )
+
+    def fit_transform(self, X: Surfaces, y: Any = None, **_: Any) -> Floats:
+        """Return the distances between surfaces, each pair measured once.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+        y : optional
+            Not used.
+        **_ : optional
+            Not used.
+
+        Returns
+        -------
+        (s, s) float64
+
+        Raises
+        ------
+        ValueError
+            As `fit`.
+        """
+        self.fit(X)
+        matrix = np.zeros((len(self.embeddings_),) * 2)
+        for i, one in enumerate(self.embeddings_):
+            for j, other in enumerate(self.embeddings_[:i]):
+                matrix[i, j] = matrix[j, i] = spectral_distance(one, other, limit=self.limit).value
+        return matrix
+
+    def _embedding(self, given: SurfaceLike) -> SpectralEmbedding:
+        return embedded(given, self.n, self.weighting)[0]

@@ -1,0 +1,116 @@
+"""Shape DNA and nodal counts as scikit-learn transformers: a row of numbers for each surface."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+import numpy as np
+from sklearn.utils.validation import check_is_fitted
+
+from surfexp.anatomy.enclosed_volume import enclosed_volume
+from surfexp.arrays import Floats
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import SurfacePart
+from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_modes
+from surfexp.spectrum.shape_dna import Normalisation, shape_dna
+from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each
+
+
+class SignatureTransformer(SurfaceTransformer):
+    """A transformer that makes one row of numbers of each surface by itself."""
+
+    def transform(self, X: Surfaces) -> Floats:
+        """Return the signatures of surfaces.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+
+        Returns
+        -------
+        (s, n) float64
+            A row for each of s surfaces.
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse, or open where its volume is asked for.
+        """
+        check_is_fitted(self)
+        return np.stack(of_each(X, self._row))
+
+    @abstractmethod
+    def _row(self, given: SurfaceLike) -> Floats:
+        """Return the (n,) signature of one surface."""
+
+
+class ShapeDNA(SignatureTransformer):
+    """The first eigenvalues above 0 of each surface (Reuter, Wolter and Peinecke 2006).
+
+    The defaults are those of the best retrieval on two collections, bodies in poses and structures of brains: mean average
+    precision .904 with weights 1/i, the same to .001 from 20 to 100 values; .757 for 50 values and .715 for 100 without.
+
+    Parameters
+    ----------
+    n : int
+        How many.
+    normalisation : "area", "raw", "volume", "first" or "slope"
+        How size is taken out; "raw" leaves it in.
+    reweighted : bool
+        Divide the i-th value by i, so that all weigh about the same; false: as published.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.ShapeDNA(n=3, reweighted=False).fit_transform([sx.shape("icosphere", levels=3)]).round(0)
+    array([[25., 25., 25.]])
+    """
+
+    def __init__(self, n: int = 35, normalisation: Normalisation = "area", reweighted: bool = True) -> None:
+        self.n = n
+        self.normalisation = normalisation
+        self.reweighted = reweighted
+
+    def _row(self, given: SurfaceLike) -> Floats:
+        part, system = _spectrum(given, self.n)
+        volume = enclosed_volume(part.mesh) if not part.mesh.boundary_loops else None
+        return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
+
+
+class NodalCounts(SignatureTransformer):
+    """The number of nodal domains of each of the first modes after the constant.
+
+    Parameters
+    ----------
+    n : int
+        How many modes.
+    counting : "filtered", "raw", "soft" or "averaged"
+        "filtered" leaves out domains that the mesh cannot resolve.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sx.NodalCounts(n=3).fit_transform([sx.shape("ellipsoid", levels=3)])
+    array([[2., 2., 2.]])
+    """
+
+    def __init__(self, n: int = 50, counting: Counting = "filtered") -> None:
+        self.n = n
+        self.counting = counting
+
+    def _row(self, given: SurfaceLike) -> Floats:
+        part, system = _spectrum(given, self.n)
+        counts = counted_domains(system, graph_of(fem(part.mesh), system), self.counting)
+        return counts[zero_modes(system) :][: self.n]
+
+
+def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]:
+    """Return the part inside the mask and its first `count` pairs above 0, with the zero modes."""
+    owner = as_surface(given)
+    part = part_for(owner)
+    cut = Surface(part.mesh, owner.name, owner.unit)
+    return part, surface_spectrum(cut, fem(part.mesh), count + part.mesh.component_count)
