@@ -18,13 +18,13 @@ from surfexp.workflow import registry, stage, store
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import read_event
-from surfexp.workflow.plan import make_plan
+from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
 SPHERE = {"name": "icosphere", "levels": 3}
-GEOMETRY = {"result": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
+GEOMETRY = {"solver": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 PIAL = {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}}
 # any closed surface with a concave region is a template; that of a cortex would take minutes
 WORM = {"template": {"surface": {"name": "articulated", "body": "worm", "vertices": 600}}}
@@ -54,10 +54,9 @@ SMALL = {
     ("image", "blurred"): {"inputs": {"original": {"image": "picture"}}},
     ("image", "inpainting_domain"): {"inputs": {"original": {"image": "picture"}}},
     ("solver", "conformal"): {"inputs": {"spherical": {"surface": SPHERE}}},
-    ("solver", "geometry_error"): {"inputs": GEOMETRY},
-    ("solver", "energy_excess"): {"inputs": {"result": {"solver": "primal_dual"}}},
-    ("solver", "partition_energy"): {
-        "inputs": {"result": {"model": "convex_chan_vese", "solver": {"name": "primal_dual", "tolerance": 1e-3}}}
+    ("measurement", "geometry_error"): {"inputs": GEOMETRY},
+    ("measurement", "partition_energy"): {
+        "inputs": {"solver": {"model": "convex_chan_vese", "solver": {"name": "primal_dual", "tolerance": 1e-3}}}
     },
     ("solver", "explicit_diffusion"): {"steps": 5},
     ("solver", "level_set"): {"points": 24},
@@ -66,12 +65,12 @@ SMALL = {
     ("figure", "segmentation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "parcellation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "geometry"): {
-        "inputs": {"clean": {}, "noisy": {}, "solver": {"solver": {"name": "geometry_error", "inputs": GEOMETRY}}}
+        "inputs": {**GEOMETRY, "measurement": {"measurement": {"name": "geometry_error", "inputs": GEOMETRY}}}
     },
     ("figure", "convergence"): {"inputs": {"solvers": {"over": "levels"}}},
     ("figure", "order"): {
         "errors": {"gradient": "gradient_error"},
-        "inputs": {"solvers": {"over": "levels", "solver": "operator_errors"}},
+        "inputs": {"measurements": {"over": "levels", "measurement": "operator_errors"}},
     },
     ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"over": "levels"}}},
     ("surface", "subcortical"): {"vertices": 800},

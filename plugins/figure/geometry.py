@@ -9,6 +9,7 @@ from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.statistics.measurement import Measurement
 from surfexp.variational.solution import Solution
 from surfexp.workflow.registry import Options, register
 
@@ -23,12 +24,14 @@ class Geometry(Options):
 
 
 @register("figure", "geometry")
-def geometry_figure(options: Geometry, *, clean: Surface, noisy: Surface, solver: Solution) -> Figure:
+def geometry_figure(
+    options: Geometry, *, clean: Surface, noisy: Surface, solver: Solution, measurement: Measurement
+) -> Figure:
     """Clean, noisy and denoised surface side by side, lit alike (figure 2.7)."""
     view = (options.azimuth, options.elevation)
     meshes = {"clean": clean.mesh, "noisy": noisy.mesh, "denoised": TriangleMesh(solver.values, noisy.mesh.faces)}
     views = [SurfaceView(mesh, None, view, title=name) for name, mesh in meshes.items()]
-    numbers, model = solver.metrics, solver.model.replace("_", " ")
+    numbers, model = measurement.metrics, solver.model.replace("_", " ")
     if any("one by one" in note for note in solver.notes):
         model = f"{model}, coordinate by coordinate"
     caption = (

@@ -22,13 +22,14 @@ SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
 def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
     """The metrics that a stage declares: those of its kind, its plugin, and of inputs whose metrics it hands on.
 
-    Handed on are those of inputs of its own kind (a surface made from a surface), and of inputs that live inside its
-    job (the model of a solver).
+    Handed on are those of inputs of its own kind (a surface made from a surface), of inputs that live inside its job (the
+    model of a solver), and of those that its class names (what was measured).
     """
     node = nodes[key]
     metrics = {**getattr(KINDS[node.kind].result, "METRICS", {}), **plugin(node.kind, node.plugin).metrics}
+    handed_on = (node.kind, *getattr(KINDS[node.kind].result, "HANDED_ON", ()))
     for child in node.children:
-        if nodes[child].kind == node.kind or not KINDS[nodes[child].kind].stored:
+        if nodes[child].kind in handed_on or not KINDS[nodes[child].kind].stored:
             metrics |= declared(nodes, child)
     return metrics
 

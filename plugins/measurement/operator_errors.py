@@ -5,7 +5,7 @@ from surfexp.metric import Metric
 from surfexp.operators.diagnostics import adjointness_defect, null_modes
 from surfexp.operators.manufactured import manufactured, operator_errors
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.solution import Solution
+from surfexp.statistics.measurement import Measurement
 from surfexp.workflow.registry import Options, register
 
 
@@ -25,14 +25,11 @@ METRICS = {
 }
 
 
-@register("solver", "operator_errors", metrics=METRICS, accepts={"surface": ("icosphere", "torus")})
-def operator_errors_solver(options: OperatorErrors, *, surface: Surface, operator: SurfaceOperator) -> Solution:
+@register("measurement", "operator_errors", metrics=METRICS, accepts={"surface": ("icosphere", "torus")})
+def operator_errors_measurement(options: OperatorErrors, *, surface: Surface, operator: SurfaceOperator) -> Measurement:
     """Relative errors of gradient, divergence and Laplacian on a sphere or torus, adjointness defect and null modes."""
-    exact = manufactured(surface)
     metrics = {"edge_length": operator.edge_length, "adjointness_defect": adjointness_defect(operator)}
-    metrics |= operator_errors(operator, exact)
+    metrics |= operator_errors(operator, manufactured(surface))
     if operator.vertex_count <= 3000:
         metrics["null_modes"] = float(null_modes(operator))
-    return Solution(
-        exact.values, 0.0, reason="no iteration", model="operator errors", solver=operator.name, metrics=metrics
-    )
+    return Measurement(operator.name, metrics)

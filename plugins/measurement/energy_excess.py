@@ -1,6 +1,5 @@
 """How far any method's result is from the minimum on the surface."""
 
-from dataclasses import replace
 from functools import partial
 
 from pydantic import Field
@@ -8,6 +7,7 @@ from pydantic import Field
 from surfexp.baselines.energy_excess import energy_excess
 from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -29,18 +29,18 @@ METRICS = {
 }
 
 
-@register("solver", "energy_excess", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
-def energy_excess_solver(
-    options: EnergyExcess, *, result: Solution, image: Image, operator: SurfaceOperator, model: Model
-) -> Solution:
-    """Another method's result as it is, with its energy on the surface held against a proved lower bound."""
+@register("measurement", "energy_excess", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
+def energy_excess_measurement(
+    options: EnergyExcess, *, solver: Solution, image: Image, operator: SurfaceOperator, model: Model
+) -> Measurement:
+    """The energy of any method's result on the surface, held against a proved lower bound."""
     if isinstance(model, ConvexChanVese):
-        fidelity, _ = model.fidelity(image, operator, (result.metrics["c1"], result.metrics["c2"]))
+        fidelity, _ = model.fidelity(image, operator, (solver.metrics["c1"], solver.metrics["c2"]))
     elif isinstance(model, ROF):
         fidelity = model.fidelity(image, operator)
     else:
         raise ValueError(f"energy_excess knows rof and convex_chan_vese, not {type(model).__name__}")
     bound = partial(primal_dual, tolerance=options.tolerance, progress=report_progress)(fidelity, operator).lower_bound
     assert bound is not None
-    excess = energy_excess(fidelity, operator, result.values, bound)
-    return replace(result, metrics=result.metrics | {"energy_excess": excess})
+    excess = energy_excess(fidelity, operator, solver.values, bound)
+    return Measurement(solver.solver, solver.metrics | {"energy_excess": excess}, solver.notes)

@@ -1,12 +1,11 @@
 """The energy by which two-phase segmentations of any method compare."""
 
-from dataclasses import replace
-
 import numpy as np
 from pydantic import Field
 
 from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
@@ -26,14 +25,14 @@ METRICS = {
 }
 
 
-@register("solver", "partition_energy", metrics=METRICS)
+@register("measurement", "partition_energy", metrics=METRICS)
 def partition_energy(
-    options: PartitionEnergy, *, result: Solution, image: Image, operator: SurfaceOperator
-) -> Solution:
-    """Another method's regions as they are, with boundary length between vertices + mu times the squared misfit."""
-    if result.segmentation is None or not np.isin(result.segmentation, (0.0, 1.0)).all():
-        raise ValueError(f"{result.model} has not two regions; take a two-phase segmentation")
-    inside = result.segmentation > 0.5
+    options: PartitionEnergy, *, solver: Solution, image: Image, operator: SurfaceOperator
+) -> Measurement:
+    """Boundary length between the vertices of any method's regions + mu times the squared misfit."""
+    if solver.segmentation is None or not np.isin(solver.segmentation, (0.0, 1.0)).all():
+        raise ValueError(f"{solver.model} has not two regions; take a two-phase segmentation")
+    inside = solver.segmentation > 0.5
     perimeter = float(perimeters(operator, inside.astype(np.float64), np.array([0.5]))[0])
     misfit = 0.0
     for part in (inside, ~inside):
@@ -43,4 +42,4 @@ def partition_energy(
     energy = perimeter + options.mu * misfit
     share = float(operator.mass @ inside / np.sum(operator.mass))
     metrics = {"partition_energy": energy, "inside_share": share, "perimeter": perimeter}
-    return replace(result, metrics=result.metrics | metrics)
+    return Measurement(solver.solver, solver.metrics | metrics, solver.notes)

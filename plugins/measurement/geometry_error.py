@@ -1,11 +1,10 @@
 """How far a denoised surface is from the clean one."""
 
-from dataclasses import replace
-
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
 from surfexp.operators.fem import fem
+from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.normal_filtering import normal_deviation
 from surfexp.variational.solution import Solution
@@ -28,11 +27,11 @@ METRICS = {
 }
 
 
-@register("solver", "geometry_error", metrics=METRICS)
-def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, clean: Surface) -> Solution:
-    """Another solver's vertices as they are, with their distance and their normals measured against the clean surface."""
+@register("measurement", "geometry_error", metrics=METRICS)
+def geometry_error(options: GeometryError, *, solver: Solution, noisy: Surface, clean: Surface) -> Measurement:
+    """Distance and normals of the vertices that a solver found, measured against the clean surface."""
     truth = clean.mesh
-    moved, before = TriangleMesh(result.values, truth.faces), TriangleMesh(noisy.mesh.vertices, truth.faces)
+    moved, before = TriangleMesh(solver.values, truth.faces), TriangleMesh(noisy.mesh.vertices, truth.faces)
     image = Image(before.vertices, clean=truth.vertices)
     errors = [restoration_metrics(image, fem(truth), mesh.vertices)["rmse"] for mesh in (before, moved)]
     metrics = {
@@ -42,4 +41,4 @@ def geometry_error(options: GeometryError, *, result: Solution, noisy: Surface, 
         "normal_error": normal_deviation(moved, truth),
     }
     metrics["normal_error_share"] = metrics["normal_error"] / max(metrics["normal_error_before"], 1e-12)
-    return replace(result, metrics=result.metrics | metrics)
+    return Measurement(solver.solver, solver.metrics | metrics, solver.notes)
