@@ -5,6 +5,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
@@ -54,16 +55,20 @@ def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surf
     skeletons = group_skeletons(
         surfaces, options.alpha, options.contrast, options.levels, options.count, options.persistence
     )
-    found = compactness(skeletons, options.resample, options.scale, options.draws, options.seed)
-    columns = {
-        "component": np.arange(1.0, len(found.shares) + 1.0),
-        "share": found.shares,
-        "low": found.intervals[: len(found.shares), 0],
-        "high": found.intervals[: len(found.shares), 1],
-        "variance": found.variances,
-    }
-    metrics = {**topology_metrics(skeletons), **miss_metrics(surfaces, skeletons), **found.metrics}
+    columns: dict[str, Floats] = {}
+    metrics = {**topology_metrics(skeletons), **miss_metrics(surfaces, skeletons)}
     metrics["cut_branches"] = float(np.mean([item.metrics["cut_branches"] for item in skeletons.values()]))
+    if len(skeletons) > 1:
+        found = compactness(skeletons, options.resample, options.scale, options.draws, options.seed)
+        columns = {
+            "component": np.arange(1.0, len(found.shares) + 1.0),
+            "share": found.shares,
+            "low": found.intervals[: len(found.shares), 0],
+            "high": found.intervals[: len(found.shares), 1],
+            "variance": found.variances,
+        }
+        metrics |= found.metrics
     weight = "weight 1" if not options.alpha else f"alpha {options.alpha:g}"
     name = f"{weight}, {options.levels.replace('_', ' ')} levels"
-    return Statistic(f"{options.group}, {name}" if options.group else name, columns, metrics=metrics)
+    notes = () if columns else ("One member has no principal components.",)
+    return Statistic(f"{options.group}, {name}" if options.group else name, columns, metrics=metrics, notes=notes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,6 +28,7 @@ from surfexp.studies.cingulate.donor_cingulate import donor_cingulate, medial_fa
 from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
 from surfexp.studies.skeletons.skeleton_alignment import align, bootstrap_shares, principal_components, rigid_fit
 from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton, miss_metrics, topology_metrics
+from surfexp.workflow import registry
 
 
 @pytest.mark.parametrize("seed", [0, 7, 15])
@@ -209,3 +211,13 @@ def test_widths_planted_and_not_planted():
         pointwise_test(healthy[:2], healthy)
     skeleton, _ = eigenmap_skeleton(strip(jag=0.0, bend=0.8).mesh)
     assert np.allclose(widths_along(skeleton, 20), 12.0, atol=0.1)
+
+
+def test_a_study_of_one_member_tells_its_skeleton_and_has_no_components():
+    registry.load_all(Path("/nonexistent"))
+    study = registry.plugin("statistic", "skeleton_study")
+    one = study.function(study.options(count=20), surfaces={"only": strip()})
+    assert one.metrics["chains"] == 1.0 and one.metrics["members"] == 1.0
+    assert one.columns == {} and "first_share" not in one.metrics and "no principal components" in one.notes[0]
+    two = study.function(study.options(count=20), surfaces={"a": strip(), "b": strip(bend=0.5)})
+    assert two.notes == () and len(two.columns["share"]) == 1
