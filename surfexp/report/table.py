@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from surfexp.io.csv_cells import cells
 from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Leaf, Plan
 
@@ -142,13 +143,13 @@ def to_csv(rows: list[Row]) -> str:
     metrics = list(dict.fromkeys(name for row in rows for name in row.metrics))
     sink = io.StringIO()
     writer = csv.writer(sink, lineterminator="\n")
-    writer.writerow(["comparison", "leaf", *parameters, *metrics, "seconds", "failure"])
+    writer.writerow(cells(["comparison", "leaf", *parameters, *metrics, "seconds", "failure"]))
     for row in rows:
         values = [row.parameters.get(name, "") for name in parameters]
         numbers = [repr(row.metrics[name]) if name in row.metrics else "" for name in metrics]
         comparison = row.leaf.settings["comparison"]
         seconds = "" if row.seconds is None else f"{row.seconds:.3f}"
-        writer.writerow([comparison, row.leaf.key, *values, *numbers, seconds, row.failure])
+        writer.writerow(cells([comparison, row.leaf.key, *values, *numbers, seconds, row.failure]))
     return sink.getvalue()
 
 

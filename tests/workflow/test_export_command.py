@@ -25,6 +25,7 @@ from surfexp.commands.exporting.folder import ExportFolder
 from surfexp.commands.exporting.names import slug
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
+from surfexp.io.csv_cells import cell
 from surfexp.io.label_files import read_labels
 from surfexp.io.reading import read_mesh
 from surfexp.mesh.label_map import LabelMap
@@ -47,7 +48,8 @@ from surfexp.workflow.configuration import Settings
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.kinds import KINDS, stage_kind
-from surfexp.workflow.plan import Leaf, Node, Plan, _flat, make_plan
+from surfexp.workflow.plan import Leaf, Node, Plan, flat_parameters
+from surfexp.workflow.resolution import make_plan
 from surfexp.workflow.store import save
 
 RNG = np.random.default_rng(1)
@@ -75,7 +77,7 @@ class Laboratory:
         """Ask for a stage: `solver__name` is the parameter solver.name."""
         settings = self.plan.settings.model_dump() | {"comparison": comparison, "target": self.plan.nodes[key].kind}
         named = {name.replace("__", "."): value for name, value in parameters.items()}
-        assert named.items() <= _flat(self.plan.nodes, key).items()
+        assert named.items() <= flat_parameters(self.plan.nodes, key).items()
         self.plan.leaves.append(Leaf(key, key, settings, list(figures)))
 
     def export(self, *arguments: str, to: Path, code: int = 0, target: str = "") -> dict[str, dict[str, str]]:
@@ -335,7 +337,7 @@ def test_labels_of_strangers_never_leave_the_folder(laboratory: Laboratory, sphe
     written = {path for path in tmp_path.rglob("*") if "results" not in path.parts and path.is_file()} - before
     assert {path.parent for path in written} == {tmp_path / "deep" / "out"}
     assert all(path.name[0] not in ".-" and path.name.isascii() and len(path.name) < 150 for path in written)
-    assert len(index) == 3 * len(labels) and {row["label"] for row in index.values()} == set(labels)
+    assert len(index) == 3 * len(labels) and {row["label"] for row in index.values()} == set(map(cell, labels))
     assert len({name.lower() for name in index}) == len(index)
 
 

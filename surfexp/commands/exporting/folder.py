@@ -10,6 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from surfexp.io.csv_cells import cell, cells
 from surfexp.workflow.errors import UserError
 
 INDEX = "index.csv"
@@ -111,5 +112,6 @@ def _write_index(path: Path, rows: list[Mapping[str, Any]]) -> None:
     columns = [*FIRST, *parameters, "key", *(name for name in names if "." not in name)]
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, columns, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(sorted(rows, key=lambda row: str(row["file"])))
+        writer.writerow(dict(zip(columns, cells(columns), strict=True)))
+        for row in sorted(rows, key=lambda row: str(row["file"])):
+            writer.writerow({name: cell(value) for name, value in row.items()})

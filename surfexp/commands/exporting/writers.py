@@ -17,6 +17,7 @@ from scipy.sparse import issparse
 
 from surfexp.arrays import Floats
 from surfexp.commands.exporting.folder import ExportFolder
+from surfexp.io.csv_cells import cells
 from surfexp.mesh.surface import Surface
 
 
@@ -108,8 +109,8 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) 
     """Write a table: numbers with all their digits, NaN as an empty cell."""
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows([_cell(value) for value in row] for row in rows)
+        writer.writerow(cells(header))
+        writer.writerows(cells(map(_cell, row)) for row in rows)
 
 
 def write_metrics(path: Path, metrics: Mapping[str, float]) -> None:

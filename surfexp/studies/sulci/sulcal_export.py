@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.io.csv_cells import cell, cells
 from surfexp.io.label_files import write_labels
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.surface import Surface
@@ -54,6 +55,6 @@ def write_length_table(path: Path | str, rows: Sequence[str], columns: Mapping[s
     """Write a table of lengths as CSV: the row's name, then the columns; empty where no length was found."""
     with Path(path).open("w", newline="") as stream:
         writer = csv.writer(stream)
-        writer.writerow(["row", *columns])
+        writer.writerow(["row", *cells(columns)])
         for row, *values in zip(rows, *columns.values(), strict=True):
-            writer.writerow([row, *(f"{value:.6g}" if np.isfinite(value) else "" for value in values)])
+            writer.writerow([cell(row), *(f"{value:.6g}" if np.isfinite(value) else "" for value in values)])

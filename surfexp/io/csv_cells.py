@@ -1,0 +1,32 @@
+"""Cells of CSV files that a spreadsheet shows and does not run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+STARTS_A_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+
+
+def cell(value: Any) -> Any:
+    """Return a value as it is written: text that a spreadsheet would take for a formula has a quotation mark before it.
+
+    Labels come from file names and tables of strangers. Numbers, also those written as text, stay as they are.
+
+    Examples
+    --------
+    >>> [cell(value) for value in ("=cmd|'/c calc'!A0", "-0.5", "-rf", -0.5)]
+    ["'=cmd|'/c calc'!A0", '-0.5', "'-rf", -0.5]
+    """
+    if not isinstance(value, str) or not value.startswith(STARTS_A_FORMULA):
+        return value
+    try:
+        float(value)
+    except ValueError:
+        return f"'{value}"
+    return value
+
+
+def cells(row: Iterable[Any]) -> list[Any]:
+    """Return the cells of a row."""
+    return [cell(value) for value in row]
