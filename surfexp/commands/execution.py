@@ -6,7 +6,8 @@ import fcntl
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from surfexp.catalogue.plugins import code_state
@@ -41,7 +42,7 @@ def run(plan: Plan) -> None:
     while ((missing := unfinished(plan, results)) and not tried.issuperset(missing)) or forced:
         clear(plan, results, missing)
         tried |= missing.keys()
-        _warn(compiled_code.choose(results, plan.nodes[key].cache)[1] for key in missing)
+        _warn(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
         _snakemake(plan, path, results, [plan.nodes[key] for key in missing], forced)
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
@@ -154,9 +155,23 @@ def finish(path: Path, plan: Plan) -> None:
     from surfexp.report.tracking import record
 
     done.unlink(missing_ok=True)
-    folder = write_report(plan, results)
-    record(plan, results, folder)
-    store.write_text(done, state)
+    with _told("the report is not written"):
+        folder = write_report(plan, results)
+        with _told("runs are not recorded in MLflow"):
+            _warn(record(plan, results, folder))
+            store.write_text(done, state)
+
+
+@contextmanager
+def _told(what: str) -> Iterator[None]:
+    """Say in one line what could not be done: results, their table and the exit code do not depend on it."""
+    try:
+        yield
+    except UserError:
+        raise
+    except Exception as error:  # of MLflow, SQLAlchemy, SQLite, matplotlib, templates: any of them
+        reason = " ".join(str(error).split())[:200]
+        _warn([f"{what} ({type(error).__name__}: {reason}); the results are whole, the same command tries again"])
 
 
 def _state(path: Path, plan: Plan, results: Path) -> str:

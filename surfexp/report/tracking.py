@@ -19,34 +19,41 @@ from surfexp.workflow.plan import Leaf, Plan
 if TYPE_CHECKING:
     from surfexp.report.run_database import KnownRun, RunContent
 
+DATABASE = "mlflow.db"
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
 
 def tracking_uri(results: Path) -> str:
     """Address of the MLflow database of a results folder."""
-    return f"sqlite:///{results.resolve() / 'mlflow.db'}"
+    return f"sqlite:///{results.resolve() / DATABASE}"
 
 
-def record(plan: Plan, results: Path, views: Path) -> None:
+def record(plan: Plan, results: Path, views: Path) -> list[str]:
     """Create or update one run a leaf, below one parent run for the experiment; a second call changes nothing.
 
     A run belongs to (experiment, leaf key). A leaf whose earlier run failed takes that run over; a run of the same
-    configuration under older code keeps a tag `current=false`.
+    configuration under older code keeps a tag `current=false`. What was wrong with the database is returned, a line each.
     """
     os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
     os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
+    os.environ.setdefault("MLFLOW_SQLALCHEMYSTORE_POOLCLASS", "NullPool")  # a kept connection is to a file set aside
     logging.getLogger("alembic").setLevel(logging.WARNING)
     from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
     from mlflow.tracking import MlflowClient
 
+    from surfexp.report.database_file import prepare
     from surfexp.report.run_database import known_runs, set_tag, write_runs
 
+    said = [prepare(results / DATABASE)]
     client = MlflowClient(tracking_uri(results))
     name = plan.settings.experiment
     location = (results / "mlflow-artifacts").resolve().as_uri()
     experiment = client.get_experiment_by_name(name) or client.get_experiment(
         client.create_experiment(name, artifact_location=location)
     )
+    if experiment.lifecycle_stage == "deleted":
+        client.restore_experiment(experiment.experiment_id)
+        said.append(f"experiment {name!r} was deleted in MLflow: it is restored")
     database = SqlAlchemyStore(tracking_uri(results), location)
     runs = known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
     parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
@@ -66,6 +73,7 @@ def record(plan: Plan, results: Path, views: Path) -> None:
             client.set_tag(parent_id, tag, value)
         client.log_artifacts(parent_id, str(views))
         client.set_terminated(parent_id, "FAILED" if failed else "FINISHED")
+    return [line for line in said if line]
 
 
 def _new_parent(client: Any, experiment: str, name: str) -> str:
