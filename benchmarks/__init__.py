@@ -12,4 +12,4 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
     os.environ[_variable] = os.environ.get(THREADS, "1")
 
 ROOT = Path(__file__).resolve().parent.parent
-compiled_code.use(ROOT / "results", compiled_state())
+compiled_code.use(compiled_state())

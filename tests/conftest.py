@@ -18,7 +18,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
 ROOT = Path(__file__).resolve().parent.parent
-compiled_code.use(ROOT / "results", compiled_state())
+compiled_code.use(compiled_state())
 
 
 @pytest.fixture

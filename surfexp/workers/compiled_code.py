@@ -1,7 +1,8 @@
 """Where numba keeps compiled code: in the user's cache folder, one folder for each state of the code.
 
 Numba's index is a pickle, which runs code when it is read. So a folder is used only if it belongs to the user and nobody
-else can write it; the results folder takes its place then, and a temporary folder where that is foreign as well.
+else can write it, and never one below results, which people send to one another: what is unpacked belongs to who unpacks
+it. Where there is no such folder, one of the user's own among the temporary files takes its place.
 """
 
 from __future__ import annotations
@@ -20,22 +21,22 @@ STATES_KEPT = 50
 _temporary: list[tempfile.TemporaryDirectory[str]] = []
 
 
-def use(results: Path, state: str) -> str:
+def use(state: str) -> str:
     """Let numba keep the code of one state, here and in processes to come; say why not in the user's cache folder.
 
     To be called before numba is imported, which reads its settings once.
     """
-    folder, reason = choose(results, state)
+    folder, reason = choose(state)
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
     os.environ["NUMBA_CACHE_LOCATOR_CLASSES"] = "surfexp.workers.numba_cache.CheckedFolder"
     return reason
 
 
 @cache
-def choose(results: Path, state: str) -> tuple[Path, str]:
+def choose(state: str) -> tuple[Path, str]:
     """The folder of a state of the code, and in one line why it is not in the user's cache folder ("" when it is)."""
     faults: list[str] = []
-    for parent in (user_cache("compiled"), results / "cache" / "numba"):
+    for parent in (user_cache("compiled"), Path(tempfile.gettempdir()) / f"surfexp-compiled-{os.getuid()}"):
         if reason := fault(parent):
             faults.append(reason)
             continue

@@ -27,7 +27,7 @@ NUMERICS = ("numpy", "scipy.sparse.linalg", "numba")
 
 def preload(plan: Plan, results: Path, state: str) -> None:
     """Import what the missing stages of one state of the code need: their plugins' files and those of their inputs."""
-    compiled_code.use(results, state)
+    compiled_code.use(state)
     missing = [node for node in plan.nodes.values() if not store.is_done(results, node.kind, node.key)]
     files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children) if node.cache == state}
     for module in NUMERICS:

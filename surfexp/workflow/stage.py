@@ -41,7 +41,7 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     plan = plan or read_plan(plan_path, key)
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     # numba's disk cache does not see edits in functions called from another file: one cache for each state of the code.
-    compiled_code.use(results, node.cache)
+    compiled_code.use(node.cache)
     _progress.update(path=results / "events" / node.kind / f"{key}.progress", last=0.0, seconds=0.0)
     failure = ""
     store.write_text(_progress["path"], "started")
