@@ -178,7 +178,7 @@ def run(experiment: str, results: str | Path = "results", **overrides: Any) -> E
     require_installed("sx.run", *LABORATORY)
     arguments = [f"experiment={experiment}", f"results={results}"]
     arguments += [f"{name}={_written(value)}" for name, value in overrides.items()]
-    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", *arguments]
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", *arguments]
     done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     said = [line.removeprefix("surfexp: ") for line in done.stderr.splitlines() if line.startswith("surfexp: ")]
     for line in said if done.returncode == UNCONVERGED else ():

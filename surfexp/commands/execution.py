@@ -84,14 +84,14 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], force
     rules = Path(store.__file__).with_name("rules.smk")
     profile = str(_profile(plan.settings.profile or "default"))
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
-    command = [sys.executable, "-m", "surfexp.workers.snakemake"]
+    command = [sys.executable, "-P", "-m", "surfexp.workers.snakemake"]
     command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
     if forced:
         command += ["--forcerun", plan.settings.target]
     log = results / "logs" / f"{path.stem}.snakemake.log"
-    environment = {**os.environ, HELD: "1"}
+    environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
     shown = missing or plan.stored
     code = drive(command, log, lambda it: follow(it, shown, results), grace, env=environment, pass_fds=_locks)

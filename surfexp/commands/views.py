@@ -98,7 +98,7 @@ def _dashboard(given: argparse.Namespace) -> int:
     view = "orderByKey=metrics.%60relative_gap%60&orderByAsc=true&searchFilter=tags.current%3D%22true%22"
     address = f"http://127.0.0.1:{given.port}/?workflowType=machine_learning#/experiments/{shown}/runs?{view}"
     print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
-    server = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(given.port)]
+    server = [sys.executable, "-P", "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(given.port)]
     environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
     arguments = ["--backend-store-uri", tracking_uri(given.results), "--workers", "1"]
     return subprocess.call([*server, *arguments], env=environment)

@@ -36,7 +36,7 @@ class WarmProcess:
         self.jobs: dict[str, SubmittedJobInfo] = {}
         self.lost = False
         self.turn = threading.Lock()
-        command = [sys.executable, "-m", "surfexp.workers.stage_server", str(plan_path), state]
+        command = [sys.executable, "-P", "-m", "surfexp.workers.stage_server", str(plan_path), state]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.listener = threading.Thread(target=self._listen, daemon=True)
         self.listener.start()

@@ -61,6 +61,6 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
         params:
             plan=str(plan_path),
             state=lambda wildcards: plan.nodes[wildcards.key].cache,
-            command=shlex.join([sys.executable, "-m", "surfexp.workers.stage_process", str(plan_path)]),
+            command=shlex.join([sys.executable, "-P", "-m", "surfexp.workers.stage_process", str(plan_path)]),
         shell:
             "exec {params.command} {wildcards.key} > {log:q} 2>&1"

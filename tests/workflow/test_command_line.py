@@ -34,7 +34,7 @@ pytestmark = pytest.mark.timeout(3600)
 
 
 def surfexp(*arguments: str, code: int = 0, **environment: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "surfexp.commands.command_line", *arguments]
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment}, timeout=LIMIT)
     assert done.returncode == code, (done.returncode, done.stdout, done.stderr)
     return done
@@ -46,6 +46,9 @@ def laboratory(working_folder: Path) -> Path:
     shutil.copy(TOYS, working_folder / "plugins" / "pairing" / "toys.py")
     (working_folder / "conf" / "experiment").mkdir(parents=True)
     (working_folder / "conf" / "experiment" / "chain.yaml").write_text(CHAIN)
+    # what lies in the folder where somebody works is no module: no process may take it for one
+    for name in ("numpy", "json", "mlflow", "snakemake", "surfexp"):
+        (working_folder / f"{name}.py").write_text("raise ImportError('taken from the working folder')")
     return working_folder
 
 
@@ -80,7 +83,7 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     again = surfexp("run", "experiment=chain")
     assert "nothing to compute" in again.stdout and len(runs(laboratory)) == 2 and store_bytes(laboratory) == before
     nothing = subprocess.run(
-        [sys.executable, "-m", "snakemake", "-n", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"],
+        [sys.executable, "-P", "-m", "snakemake", "-n", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"],
         capture_output=True, text=True, timeout=LIMIT,
     )  # fmt: skip
     assert "Nothing to be done" in nothing.stdout + nothing.stderr, nothing.stdout + nothing.stderr
@@ -122,6 +125,7 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
 def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:
     command = [
         sys.executable,
+        "-P",
         "-m",
         "snakemake",
         "-c2",
@@ -152,7 +156,7 @@ def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim:
     surfexp("run", "experiment=chain")
     undisturbed = store_bytes(laboratory)
     shutil.rmtree(laboratory / "results")
-    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + LIMIT
     while time.monotonic() < deadline and process.poll() is None:
@@ -174,7 +178,7 @@ def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim:
 
 
 def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
-    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
     outputs = [process.communicate(timeout=LIMIT) for process in both]
     assert [process.returncode for process in both] == [0, 0], outputs
@@ -255,7 +259,7 @@ def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
 
 @pytest.mark.parametrize("by", ["ctrl-c", pytest.param("kill", marks=pytest.mark.slow)])
 def test_interruption_ends_with_130_and_keeps_what_is_done(laboratory: Path, by: str) -> None:
-    command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     # a test that itself runs in the background of a shell would hand on that Ctrl-C is ignored
     process = subprocess.Popen(
         command,
