@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from surfexp.catalogue.folders import entry_points_of_plugins, plugin_files
@@ -15,21 +16,30 @@ from surfexp.workflow.errors import UserError
 if TYPE_CHECKING:
     from surfexp.workflow.plan import Plan
 
+Tell = Callable[[str], None]
 # how `registry.load_file` begins the names of modules
 OF_FILE = "surfexp_plugin_"
 
 
-def load_all(working_folder: Path) -> None:
+def load_all(
+    working_folder: Path, faults: Mapping[str, str] = MappingProxyType({}), tell: Tell = lambda file: None
+) -> None:
     """Load every plugin: the package's own, installed packages' (entry-point group `surfexp.plugins`), `plugins/` here.
 
-    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused.
+    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused. Files with known
+    `faults` are not loaded; the name of each other one is told before it is.
     """
-    from surfexp.workflow.registry import load_file
+    from surfexp.workflow.registry import BROKEN, load_file
 
-    for file in plugin_files(working_folder):
-        _guarded(file, partial(load_file, file))
-    for point in entry_points_of_plugins():
-        _guarded(Path(point.value), point.load)
+    files: list[tuple[Path, Callable[[], Any]]] = [
+        (file, partial(load_file, file)) for file in plugin_files(working_folder)
+    ]
+    for file, load in [*files, *((Path(point.value), point.load) for point in entry_points_of_plugins())]:
+        if str(file) in faults:
+            BROKEN[file] = faults[str(file)]
+            continue
+        tell(str(file))
+        _guarded(file, load)
 
 
 def load_own_kinds(plan: Plan) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from surfexp.catalogue.contained import contained_description
 from surfexp.catalogue.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
 from surfexp.catalogue.installed import installed_state
 from surfexp.catalogue.user_cache import Memory
@@ -59,8 +60,9 @@ def catalogue(working_folder: Path) -> Catalogue:
     """What there is to choose from in a working folder; UserError where two plugins have one name."""
     if (found := remembered(working_folder)) is not None:
         return found
-    known = _describe_all(working_folder)
-    if not known["broken"]:  # what failed may work the next time, for another reason than a changed file
+    known = contained_description(working_folder)
+    # what failed may work the next time, for another reason than a changed file; what hangs is not waited for again
+    if set(known["broken"]) <= set(known.pop("contained")):
         _memory.put(code_state(working_folder), known)
     return _read(known)
 
@@ -92,12 +94,18 @@ def _python_files(folder: str) -> Iterator[Path]:
     return (Path(file) for file in sorted(map(str, Path(folder).rglob("*.py"))))
 
 
-def _describe_all(working_folder: Path) -> dict[str, Any]:
+def describe_all(working_folder: Path, faults: Mapping[str, str], tell: Callable[[str], None]) -> dict[str, Any]:
+    """Load all plugins and describe them and the stage kinds; see `load_all`."""
     from surfexp.workflow import registry
     from surfexp.workflow.kinds import KINDS
 
-    registry.load_all(working_folder)
-    plugins = [asdict(_described(method)) for method in registry.PLUGINS.values()]
+    registry.load_all(working_folder, faults, tell)
+    plugins = []
+    for method in registry.PLUGINS.values():
+        try:
+            plugins.append(asdict(_described(method)))
+        except Exception as error:  # of a default that cannot be shown, or whatever an annotation does
+            registry.BROKEN[method.file] = f"plugin file {method.file}: {method.name} cannot be described ({error})"
     kinds = [(kind.name, kind.path, kind.stored) for kind in KINDS.values()]
     certified = [kind.name for kind in KINDS.values() if "converged" in getattr(kind.result, "METRICS", {})]
     broken = {str(file): text for file, text in registry.BROKEN.items()}

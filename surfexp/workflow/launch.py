@@ -187,10 +187,8 @@ def _collection(name: str, repository: Any) -> dict[str, Any]:
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:
-    configuration = OmegaConf.to_container(composed, resolve=True, throw_on_missing=False)
-    assert isinstance(configuration, dict)
-    configuration.pop("hydra", None)
-    return {str(key): value for key, value in configuration.items()}
+    configuration: Any = OmegaConf.to_container(composed, resolve=True, throw_on_missing=False)
+    return {str(key): value for key, value in configuration.items() if key != "hydra"}
 
 
 def _objective(plan: Plan) -> float:

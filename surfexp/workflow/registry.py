@@ -99,6 +99,8 @@ def register(
 
 def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type[BaseModel], dict[str, Input]]:
     where = f"plugin {kind}/{name}"
+    if not (isinstance(name, str) and name.isidentifier()):
+        raise UserError(f"{where}: a name is a word of letters, digits and underscores, e.g. 'split_bregman'")
     check_known("stage kind", [kind], KINDS)
     hints = get_type_hints(function)
     parameters = list(inspect.signature(function).parameters.values())
