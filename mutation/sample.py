@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 from mutation import ROOT
@@ -10,7 +12,7 @@ from mutation.change import Change, source_of
 from mutation.places import changes
 
 # they move results and show them; what is planted here is numerics
-FRAMEWORK = {"workflow", "report", "commands", "plugins", "conf", "profiles"}
+FRAMEWORK = {"workflow", "workers", "catalogue", "report", "commands", "plugins", "conf", "profiles"}
 
 
 def numerics() -> list[Path]:
@@ -30,13 +32,9 @@ def sample(count: int, seed: int) -> list[Change]:
         If there are fewer lines than faults asked for.
     """
     generator = random.Random(seed)
-    lines: list[list[Change]] = []
+    lines: list[tuple[Change, ...]] = []
     for path in numerics():
-        name = path.relative_to(ROOT).as_posix()
-        by_line: dict[int, list[Change]] = {}
-        for change in changes(name, source_of(path)):
-            by_line.setdefault(change.line, []).append(change)
-        groups = list(by_line.values())
+        groups = list(_by_line(path.relative_to(ROOT).as_posix(), source_of(path)))
         generator.shuffle(groups)
         lines += groups
     if not 1 <= count <= len(lines):
@@ -48,6 +46,15 @@ def sample(count: int, seed: int) -> list[Change]:
     return chosen
 
 
-def _one(group: list[Change], generator: random.Random) -> Change:
+@cache
+def _by_line(name: str, source: bytes) -> tuple[tuple[Change, ...], ...]:
+    """The changes of each line of a file that can carry one."""
+    lines: dict[int, list[Change]] = {}
+    for change in changes(name, source):
+        lines.setdefault(change.line, []).append(change)
+    return tuple(map(tuple, lines.values()))
+
+
+def _one(group: Sequence[Change], generator: random.Random) -> Change:
     kind = generator.choice(sorted({change.kind for change in group}))
     return generator.choice([change for change in group if change.kind == kind])
