@@ -36,17 +36,15 @@ def run(plan: Plan) -> None:
         )
     hold_results(results, wait=True)
     path = plan.write(results)
-    forced = plan.settings.timing
-    tried = {leaf.key for leaf in plan.leaves} if forced else set[str]()
+    tried = set[str]()
     # A stage that finds an input damaged removes it: that result is missing then, and the next round computes it.
-    while ((missing := unfinished(plan, results)) and not tried.issuperset(missing)) or forced:
+    while (missing := unfinished(plan, results)) and not tried.issuperset(missing):
         clear(plan, results, missing)
         tried |= missing.keys()
         _warn(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
-        _snakemake(plan, path, results, [plan.nodes[key] for key in missing], forced)
+        _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
-        forced = False
     finish(path, plan)
     if missing:
         failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
@@ -60,8 +58,13 @@ def _warn(lines: Iterable[str]) -> None:
 
 
 def unfinished(plan: Plan, results: Path) -> dict[str, str]:
-    """Stages of a plan without a sound result, by key: "" where there is none, else what is wrong with it."""
-    return store.faults(results, [(node.kind, node.key) for node in plan.stored])
+    """Stages of a plan without a sound result, by key: "" where there is none, else what is wrong with it.
+
+    Where clocks matter, a leaf that was not measured alone is among them.
+    """
+    leaves = [plan.nodes[leaf.key] for leaf in plan.leaves] if plan.settings.timing else []
+    untimed = {node.key: "" for node in leaves if not read_event(results, node.kind, node.key).get("alone")}
+    return untimed | store.faults(results, [(node.kind, node.key) for node in plan.stored])
 
 
 def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
@@ -80,7 +83,7 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
         print(f"surfexp: and {len(lines) - LINES_OF_DAMAGE} results more", file=sys.stderr)
 
 
-def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], forced: bool) -> None:
+def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> None:
     rules = Path(store.__file__).with_name("rules.smk")
     profile = str(_profile(plan.settings.profile or "default"))
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
@@ -88,8 +91,6 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node], force
     command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
-    if forced:
-        command += ["--forcerun", plan.settings.target]
     log = results / "logs" / f"{path.stem}.snakemake.log"
     environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
@@ -115,8 +116,8 @@ def _profile(name: str) -> Path:
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:
-    """What plain Snakemake does before it looks for results: damaged ones are removed, so that it makes them again."""
-    clear(plan, results, {key: fault for key, fault in unfinished(plan, results).items() if fault})
+    """What plain Snakemake does before it looks for results: what has to be made again is removed."""
+    clear(plan, results, unfinished(plan, results))
 
 
 def hold_results(results: Path, wait: bool = False) -> None:

@@ -32,7 +32,7 @@ class Settings(BaseModel):
     results: str = Field("results", description="folder of all output")
     cores: int | None = Field(None, ge=1, description="processors for Snakemake; default: all")
     profile: str | None = Field(None, description="Snakemake profile, e.g. profiles/slurm")
-    timing: bool = Field(False, description="clocks matter: one job at a time, leaves computed anew each time")
+    timing: bool = Field(False, description="clocks matter: one job at a time, the second call of each leaf counts")
     target: str = Field("solver", description="stage kind at the end of each chain")
     comparison: str = Field("", description="heading of the table that a variant belongs to")
     caption: str = Field("", description="sentence below that table")

@@ -26,11 +26,10 @@ def records(keys):
 
 
 # What is there is right, for its key says what it was made from: it has no input, so that nothing makes Snakemake run it
-# again when a damaged result before it is replaced. Where clocks matter, leaves run each time, after all that they read.
+# again when a damaged result before it is replaced.
 @functools.cache
 def inputs(key):
-    done = store.is_done(results, plan.nodes[key].kind, key)
-    return [] if done and not plan.settings.timing else records(stored_inputs(plan.nodes, key))
+    return [] if store.is_done(results, plan.nodes[key].kind, key) else records(stored_inputs(plan.nodes, key))
 
 
 wildcard_constraints:

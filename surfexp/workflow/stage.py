@@ -64,6 +64,7 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     event: dict[str, Any] = {"kind": node.kind, "plugin": node.plugin, "failure": failure}
     event |= {"seconds": _progress["seconds"], "peak_memory_mb": memory, "warnings": compiled_code.complaints()}
+    event["alone"] = plan.settings.timing
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0
 

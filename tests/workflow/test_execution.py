@@ -52,7 +52,7 @@ def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run the plan with its stages in this process; return the names of those that were started."""
     started: list[str] = []
 
-    def in_this_process(plan: Plan, path: Path, results: Path, missing: Any, forced: bool) -> None:
+    def in_this_process(plan: Plan, path: Path, results: Path, missing: Any) -> None:
         wanted = {node.key for node in missing}
         started.extend(node.plugin for node in plan.stored if node.key in wanted)
         for key in plan.nodes:
@@ -170,6 +170,18 @@ def test_a_store_without_digests_is_made_again_with_a_line_for_each(
         file.write_text(json.dumps(json.loads(file.read_text())["result"], indent=1, sort_keys=True) + "\n")
     assert len(run()) == 6 and capsys.readouterr().err.count("of an earlier version, which stored no digests") == 6
     assert store_bytes(results) == undisturbed
+
+
+def test_where_clocks_matter_a_leaf_is_measured_alone_and_once(run: Run, plan: Plan) -> None:
+    run()
+    plan.settings = plan.settings.model_copy(update={"timing": True})
+    assert run() == ["toy_distance"]  # its seconds may be those of a busy machine
+    assert run() == []
+    results = Path(plan.settings.results)
+    event_path(results, "pairing", plan.leaves[0].key).unlink()
+    assert run() == ["toy_distance"]
+    plan.settings = plan.settings.model_copy(update={"timing": False})
+    assert run() == []
 
 
 def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
