@@ -69,6 +69,7 @@ class LevelSet:
         """
         energy, problem = self.energy, self.energy.fidelity(fidelity)
         values = problem.initial() if start is None else energy.band.extend(start.values)
+        values = np.clip(values, problem.lower, problem.upper)  # interpolation rounds
         spread = max(float(np.ptp(problem.target) if problem.is_quadratic else problem.upper - problem.lower), 1e-12)
         eps = self.regularisation * spread / operator.edge_length
         step = 1.8 * eps / energy.difference_bound

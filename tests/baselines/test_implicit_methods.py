@@ -120,6 +120,15 @@ def test_a_model_runs_on_them_and_they_start_from_a_solution():
         assert solution.metrics["memory_bytes"] > 100 * solution.metrics["node_count"]
 
 
+@pytest.mark.parametrize("prepare", [closest_point, level_set])
+def test_the_energy_of_a_start_within_the_bounds_is_finite_though_interpolation_rounds(prepare):
+    start = primal_dual(FIDELITY, OPERATOR, tolerance=1e-3)
+    method = prepare(MESH, 0.1)
+    assert start.values.min() >= 0.0 and start.values.max() == 1.0
+    limit = {"iteration_limit": 3} if prepare is closest_point else {"step_limit": 3}
+    assert np.isfinite(replace(method, **limit)(FIDELITY, OPERATOR, start).history["energy"]).all()
+
+
 def test_non_convex_chan_vese_moves_a_small_curve_to_the_cap():
     height = MESH.vertices[:, 2]
     initial = 0.5 - np.arccos(np.clip(height, -1, 1))
