@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from sklearn.utils.validation import check_is_fitted
 
 from surfexp.arrays import Floats
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
 from surfexp.tasks.distances import embedded
 from surfexp.tasks.inputs import SurfaceLike
-from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each, positive
+from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each
 
 
 class SpectralDistance(SurfaceTransformer):
@@ -41,52 +40,13 @@ class SpectralDistance(SurfaceTransformer):
         self.weighting = weighting
         self.limit = limit
 
-    def fit(self, X: Surfaces, y: Any = None) -> SpectralDistance:
-        """Keep the embeddings of the surfaces to which distances are measured.
-
-        Parameters
-        ----------
-        X : list of Surface, path, or (vertices, faces)
-        y : optional
-            Not used.
-
-        Returns
-        -------
-        SpectralDistance
-            Itself.
-
-        Raises
-        ------
-        ValueError
-            If a surface is unfit or too coarse, or the number of modes is no integer from 1 on.
-        """
-        positive(self.n, "n")
+    def _learn(self, X: Surfaces) -> int:
         self.embeddings_ = of_each(X, self._embedding)
-        self.n_features_out_ = len(self.embeddings_)
-        return self
+        return len(self.embeddings_)
 
-    def transform(self, X: Surfaces) -> Floats:
-        """Return the distances of surfaces to those of `fit`.
-
-        Parameters
-        ----------
-        X : list of Surface, path, or (vertices, faces)
-
-        Returns
-        -------
-        (s, r) float64
-            Of s surfaces to the r of `fit`.
-
-        Raises
-        ------
-        ValueError
-            If a surface is unfit or too coarse.
-        """
-        check_is_fitted(self)
-        others = of_each(X, self._embedding)
-        return np.array(
-            [[spectral_distance(one, other, limit=self.limit).value for other in self.embeddings_] for one in others]
-        )
+    def _row(self, given: SurfaceLike) -> Floats:
+        one = self._embedding(given)
+        return np.array([spectral_distance(one, other, limit=self.limit).value for other in self.embeddings_])
 
     def fit_transform(self, X: Surfaces, y: Any = None, **_: Any) -> Floats:
         """Return the distances between surfaces, each pair measured once.

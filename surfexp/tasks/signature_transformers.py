@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-
-import numpy as np
-from sklearn.utils.validation import check_is_fitted
-
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.arrays import Floats
 from surfexp.mesh.surface import Surface
@@ -17,38 +12,10 @@ from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_mod
 from surfexp.spectrum.shape_dna import Normalisation, shape_dna
 from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
-from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each
+from surfexp.tasks.surface_transformer import SurfaceTransformer
 
 
-class SignatureTransformer(SurfaceTransformer):
-    """A transformer that makes one row of numbers of each surface by itself."""
-
-    def transform(self, X: Surfaces) -> Floats:
-        """Return the signatures of surfaces.
-
-        Parameters
-        ----------
-        X : list of Surface, path, or (vertices, faces)
-
-        Returns
-        -------
-        (s, n) float64
-            A row for each of s surfaces.
-
-        Raises
-        ------
-        ValueError
-            If a surface is unfit or too coarse, or open where its volume is asked for.
-        """
-        check_is_fitted(self)
-        return np.stack(of_each(X, self._row))
-
-    @abstractmethod
-    def _row(self, given: SurfaceLike) -> Floats:
-        """Return the (n,) signature of one surface."""
-
-
-class ShapeDNA(SignatureTransformer):
+class ShapeDNA(SurfaceTransformer):
     """The first eigenvalues above 0 of each surface (Reuter, Wolter and Peinecke 2006).
 
     The defaults are those of the best retrieval on two collections, bodies in poses and structures of brains: mean average
@@ -81,7 +48,7 @@ class ShapeDNA(SignatureTransformer):
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
 
 
-class NodalCounts(SignatureTransformer):
+class NodalCounts(SurfaceTransformer):
     """The number of nodal domains of each of the first modes after the constant.
 
     Parameters

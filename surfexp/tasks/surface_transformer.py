@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from sklearn.base import BaseEstimator, TransformerMixin
+from sklearn.utils.validation import check_is_fitted
 
+from surfexp.arrays import Floats
 from surfexp.tasks.inputs import SurfaceLike
 
 Surfaces = Sequence[SurfaceLike]
@@ -21,6 +24,8 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
     Of scikit-learn's `check_estimator` those checks apply that give no data: parameters, cloning, tags.
     """
 
+    n: int
+
     def __sklearn_tags__(self) -> Any:
         """Say that the input is no array of numbers."""
         tags = super().__sklearn_tags__()
@@ -28,8 +33,8 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         tags.no_validation = True
         return tags
 
-    def fit(self, X: Surfaces, y: Any = None) -> SurfaceTransformer:
-        """Check the number of modes; nothing is learned.
+    def fit(self, X: Surfaces, y: Any = None) -> Self:
+        """Check the number of modes, and keep what surfaces are compared with.
 
         Parameters
         ----------
@@ -45,10 +50,40 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         Raises
         ------
         ValueError
-            If the number of modes is no integer from 1 on.
+            If the number of modes is no integer from 1 on, or a surface that is kept is unfit or too coarse.
         """
-        self.n_features_out_ = positive(self.n, "n")
+        if not (isinstance(self.n, int | np.integer) and self.n >= 1):
+            raise ValueError(f"n is {self.n!r}, must be an integer from 1 on")
+        self.n_features_out_ = self._learn(X)
         return self
+
+    def transform(self, X: Surfaces) -> Floats:
+        """Return a row of numbers for each surface: its signature, or its distances to those of `fit`.
+
+        Parameters
+        ----------
+        X : list of Surface, path, or (vertices, faces)
+
+        Returns
+        -------
+        (s, k) float64
+            Of s surfaces.
+
+        Raises
+        ------
+        ValueError
+            If a surface is unfit or too coarse, or open where its volume is asked for.
+        """
+        check_is_fitted(self)
+        return np.stack(of_each(X, self._row))
+
+    def _learn(self, X: Surfaces) -> int:
+        """Keep what is compared with; return the length of a row."""
+        return int(self.n)
+
+    @abstractmethod
+    def _row(self, given: SurfaceLike) -> Floats:
+        """Return the (k,) row of one surface."""
 
 
 def of_each(surfaces: Surfaces, make: Callable[[SurfaceLike], Made]) -> list[Made]:
@@ -61,10 +96,3 @@ def of_each(surfaces: Surfaces, make: Callable[[SurfaceLike], Made]) -> list[Mad
             name = surface if isinstance(surface, str | Path) else getattr(surface, "name", "")
             raise ValueError(f"surface {number}{f' ({name})' if name else ''}: {error}") from None
     return found
-
-
-def positive(value: int, name: str) -> int:
-    """Return a number of modes; ValueError if it is none."""
-    if not (isinstance(value, int | np.integer) and value >= 1):
-        raise ValueError(f"{name} is {value!r}, must be an integer from 1 on")
-    return int(value)
