@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from surfexp.workflow.errors import UserError, check_known
@@ -35,8 +36,20 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
         return kept | {"description": f"{configuration.get('description', '')} {CLAIMS_LEFT_OUT}".strip()}
     headings: dict[str, str] = {}
     variants = [_wordless(variant, headings) for variant in configuration.get("variants") or []]
-    words = {"title": f"{configuration.get('experiment', 'experiment')}, other data", "description": WORDS_LEFT_OUT}
+    title = f"{configuration.get('experiment', 'experiment')}: {_data_named(overrides) or 'other data'}"
+    words = {"title": title, "description": WORDS_LEFT_OUT}
     return _wordless(kept, headings) | words | {"variants": variants}
+
+
+def _data_named(overrides: Sequence[str]) -> str:
+    """The collection, surface and image that a command line names, a file by its name: what a title says."""
+    named: dict[str, str] = {}
+    for text in overrides:
+        key, _, value = text.lstrip("+~").partition("=")
+        kind, _, option = key.partition(".")
+        if value and (kind == "axes" or (kind in ("surface", "image") and option in ("", "path"))):
+            named[kind] = named[kind] if not option and kind in named else Path(value.strip("'\"")).name
+    return ", ".join(named[kind] for kind in ("axes", "image", "surface") if kind in named)
 
 
 def with_collections(axes: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -44,10 +44,25 @@ def test_another_method_leaves_the_claims_out_and_says_so(override: str) -> None
 @pytest.mark.parametrize("override", [*DATA, "statistic.inputs.template.surface=file"])
 def test_other_data_leave_titles_and_captions_out_too(override: str) -> None:
     words = without_foreign_words(EXPERIMENT, [override])
-    assert words["claims"] == [] and words["title"] == "cup, other data" and "caption" not in words
+    assert words["claims"] == [] and words["title"].startswith("cup: ") and "caption" not in words
     assert words["figures"] == ["denoising", {"name": "sweep", "metric": "rmse"}]
     assert words["variants"] == [{"comparison": "Table 1"}, {"comparison": "Table 2"}, {"comparison": "Table 1"}]
     assert words["surface"] == "cup"  # stages are the business of overrides
+
+
+@pytest.mark.parametrize(
+    ("overrides", "title"),
+    [
+        (["surface=file", "surface.path=/data/lh.white"], "cup: lh.white"),
+        (["surface.path='my brain.ply'", "surface=file", "image.path=a/b.gii"], "cup: b.gii, my brain.ply"),
+        (["+axes=blobs"], "cup: blobs"),
+        (["axes.people=blobs", "surface=icosphere"], "cup: blobs, icosphere"),
+        (["grid.image.seed=[1]"], "cup: other data"),
+        (["image.noise=3"], "cup: other data"),
+    ],
+)
+def test_the_title_names_the_data_in_their_place(overrides: list[str], title: str) -> None:
+    assert without_foreign_words(EXPERIMENT, overrides)["title"] == title
 
 
 @pytest.fixture
@@ -68,7 +83,7 @@ def test_blobs_through_an_experiment_on_animals_show_nothing_of_animals(blobs: P
     plans: list[Plan] = []
     launch(["experiment=tosca_classification", "axes=blobs"], plans.append)
     page = (write_report(plans[0], blobs / "results") / "report.html").read_text()
-    assert len(plans[0].leaves) == 11 and "tosca_classification, other data" in page
+    assert len(plans[0].leaves) == 11 and "tosca_classification: blobs" in page
     for foreign in ("figure 4.8", "Animals", ">reproduced<", "centaur", "Lioness", "several poses", 'class="claims"'):
         assert foreign not in page, foreign
 
