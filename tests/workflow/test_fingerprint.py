@@ -97,10 +97,14 @@ def test_imports_for_type_checkers_do_not_count(package: Path) -> None:
 @pytest.mark.parametrize(
     ("code", "reached", "unreached"),
     [
-        ("import surfexp as sx\n\ndef f(x):\n    return sx.denoise(x)\n", "denoising.py", "transformers.py"),
-        ("import surfexp\n\ndef f(x):\n    return surfexp.denoise(x)\n", "denoising.py", "transformers.py"),
-        ("from surfexp import denoise\n\ndef f(x):\n    return denoise(x)\n", "denoising.py", "transformers.py"),
-        ("def f(x):\n    import surfexp as sx\n    return getattr(sx, x)\n", "transformers.py", ""),
+        ("import surfexp as sx\n\ndef f(x):\n    return sx.denoise(x)\n", "denoising.py", "signature_transformers.py"),
+        ("import surfexp\n\ndef f(x):\n    return surfexp.denoise(x)\n", "denoising.py", "signature_transformers.py"),
+        (
+            "from surfexp import denoise\n\ndef f(x):\n    return denoise(x)\n",
+            "denoising.py",
+            "signature_transformers.py",
+        ),
+        ("def f(x):\n    import surfexp as sx\n    return getattr(sx, x)\n", "signature_transformers.py", ""),
     ],
 )
 def test_what_a_plugin_takes_from_the_face_counts(package: Path, code: str, reached: str, unreached: str) -> None:

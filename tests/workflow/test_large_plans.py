@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from surfexp.catalogue import planned
-from surfexp.workflow import plan as plan_module
-from surfexp.workflow import registry
+from surfexp.workflow import registry, resolution
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.plan import Plan, read_plan
@@ -80,8 +79,8 @@ def test_each_stage_is_resolved_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_settings_are_checked_once_for_leaves_that_share_them(monkeypatch: pytest.MonkeyPatch) -> None:
     checked = []
-    original = plan_module.settings_of
-    monkeypatch.setattr(plan_module, "settings_of", lambda given: checked.append(1) or original(given))
+    original = resolution.settings_of
+    monkeypatch.setattr(resolution, "settings_of", lambda given: checked.append(1) or original(given))
     plan = make_plan(expand(sweep(5, 8)))
     assert len(checked) == 2 and len({id(leaf.settings) for leaf in plan.leaves}) == 2
 
@@ -119,9 +118,9 @@ def test_the_nodes_of_other_stages_are_not_parsed(tmp_path: Path, monkeypatch: p
         plan = make_plan(expand(sweep(1, shifts)))
         path = plan.write(tmp_path)
         parsed: list[int] = []
-        monkeypatch.setattr(plan_module.json, "loads", lambda text, into=parsed: into.append(1) or original(text))
+        monkeypatch.setattr(resolution.json, "loads", lambda text, into=parsed: into.append(1) or original(text))
         read_plan(path, plan.leaves[1].key)
-        monkeypatch.setattr(plan_module.json, "loads", original)
+        monkeypatch.setattr(resolution.json, "loads", original)
         counts[shifts] = len(parsed)
     assert counts[4] == counts[40]
 
