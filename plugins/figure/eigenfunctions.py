@@ -7,7 +7,7 @@ from pydantic import Field
 from surfexp.figures.boundary_line import INSIDE, barycentric, without_rim
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, compare
+from surfexp.figures.figure import Figure, compare, noun
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import INK, QUIET
@@ -55,7 +55,7 @@ def eigenfunctions_figure(options: Eigenfunctions, *, surface: Surface, eigensol
     unit = f" (λ in 1/{surface.unit}²)" if surface.unit else ""
     against = compare(options.reference)
     caption = (
-        f"Laplace-Beltrami eigenfunctions of the {surface.name} with their nodal lines{unit}; "
+        f"Laplace-Beltrami eigenfunctions of {noun(surface.name)} with their nodal lines{unit}; "
         f"signs are arbitrary.{against}"
     )
     return replace(surface_panel(rows, width=options.width, caption=caption), title=surface.name)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from pydantic import Field
 
-from surfexp.figures.figure import Figure, compare
+from surfexp.figures.figure import Figure, compare, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -35,7 +35,7 @@ def geometry_figure(
     if any("one by one" in note for note in solver.notes):
         model = f"{model}, coordinate by coordinate"
     caption = (
-        f"{clean.name.capitalize()} by {model}: normals off by "
+        f"{sentence(clean.name)} by {model}: normals off by "
         f"{numbers['normal_error_before']:.1f} degrees before, {numbers['normal_error']:.1f} after."
         f"{compare(options.reference)}"
     )

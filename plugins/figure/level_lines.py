@@ -5,7 +5,7 @@ from dataclasses import replace
 from pydantic import Field
 
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -31,5 +31,5 @@ def level_lines_figure(options: LevelLines, *, surface: Surface, image: Image, s
         for field, colour in ((image.values, "#4d4d4d"), (solver.values, "#d7191c"))
     )
     views = [SurfaceView(surface.mesh, None, view, contours=lines) for view in options.views]
-    caption = f"{surface.name.capitalize()}: a level line before (grey) and after (red) the {solver.model}."
+    caption = f"{sentence(surface.name)}: a level line before (grey) and after (red) the {solver.model}."
     return replace(surface_panel(views, width=options.width, caption=caption), title=f"{surface.name} · {solver.model}")

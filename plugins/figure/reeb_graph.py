@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from surfexp.drawings.skeleton_drawing import SkeletonView, skeleton_panel
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, sentence
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.skeleton import Skeleton
@@ -28,7 +28,7 @@ def reeb_graph_figure(options: ReebGraphPicture, *, surface: Surface, feature: F
     ]
     counts = {name: int(skeleton.metrics[name]) for name in ("contours", "b1", "leaves", "branch_nodes")}
     caption = options.caption or (
-        f"{surface.name.capitalize()}, {feature.name}: {counts['contours']} contours at {len(skeleton.levels)} levels, "
+        f"{sentence(surface.name)}, {feature.name}: {counts['contours']} contours at {len(skeleton.levels)} levels, "
         f"{counts['b1']} loops, {counts['leaves']} leaves (green), {counts['branch_nodes']} branch nodes (orange)."
     )
     title = f"{surface.name} · {feature.name}"

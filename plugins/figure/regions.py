@@ -7,7 +7,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure
+from surfexp.figures.figure import Figure, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -24,6 +24,7 @@ class Regions(Options):
         [(-100.0, 12.0), (-40.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
     )
     line_width: float = Field(2.5, gt=0, le=20, description="width of the red lines in pixels")
+    colormap: str = Field("gray", description="matplotlib's name of the colour map of the image")
     width: int = Field(1800, ge=200, le=8000, description="pixels across")
 
 
@@ -41,22 +42,22 @@ def regions_figure(
         means[part] = np.average(image.values[part], axis=0, weights=operator.mass[part])
     colour = image.values.ndim == 2
     shown, flat = ((np.clip(a / 255.0, 0.0, 1.0) if colour else a) for a in (image.values, means))
-    grey = ColorScale(label="grey level", colormap="gray")
+    scale = ColorScale(image.name, image.unit, options.colormap)
     lines = tuple(
         Contours((labels == label).astype(np.float64), levels=(0.5,), width=options.line_width)
         for label in np.unique(labels)[1:]
     )
     rows = [
         [
-            SurfaceView(mesh, shown, view, grey, title="image"),
-            SurfaceView(mesh, flat, view, grey, title="regions in their mean colours"),
-            SurfaceView(mesh, shown, view, grey, lines, "boundaries on the image"),
+            SurfaceView(mesh, shown, view, scale, title="image"),
+            SurfaceView(mesh, flat, view, scale, title="regions in their mean colours"),
+            SurfaceView(mesh, shown, view, scale, lines, "boundaries on the image"),
         ]
         for view in options.views
     ]
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
     caption = (
-        f"{image.name.capitalize()} on a {surface.name}, {len(mesh.vertices):,} vertices{noise}: "
+        f"{sentence(image.name)} on {noun(surface.name)}, {len(mesh.vertices):,} vertices{noise}: "
         f"{len(np.unique(labels))} regions; in red their boundaries."
     )
     return replace(surface_panel(rows, width=options.width, caption=caption), title=solver.solver.replace("_", " "))

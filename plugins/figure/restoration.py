@@ -7,7 +7,7 @@ from pydantic import Field
 
 from surfexp.arrays import Floats
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.figure import Figure, compare
+from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -25,6 +25,7 @@ class Restoration(Options):
     azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
     elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")
     reference: str = Field("", description="equation or figure of the dissertation that this one answers")
+    colormap: str = Field("gray", description="matplotlib's name of the colour map of the image")
     width: int = Field(1800, ge=200, le=8000, description="pixels across")
 
 
@@ -33,13 +34,12 @@ def restoration_figure(
     options: Restoration, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
     """Clean, observed and restored image and the error, lost parts in red; three channels as colours."""
-    scale = ColorScale(label=image.name, unit=image.unit, colormap="gray", percentiles=(0.0, 100.0))
+    scale = ColorScale(label=image.name, unit=image.unit, colormap=options.colormap, percentiles=(0.0, 100.0))
     scale = scale.fitted(solver.values if image.clean is None else image.clean)
     low, high = scale.limits or (0.0, 1.0)
 
     def colours(values: Floats) -> Floats:
-        shown = np.clip((values - low) / (high - low), 0.0, 1.0)
-        return shown if values.ndim == 2 else np.repeat(shown[:, None], 3, axis=1)
+        return np.clip((values - low) / (high - low), 0.0, 1.0) if values.ndim == 2 else scale.rgb(values)
 
     def panel(values: Floats, name: str) -> SurfaceView:
         flat = values.ndim == 1
@@ -61,6 +61,6 @@ def restoration_figure(
         panels.append(SurfaceView(surface.mesh, error, view, signed, (), "error"))
     where = compare(options.reference)
     error_text = f"; error {solver.metrics['rmse']:.3g}" if "rmse" in solver.metrics else ""
-    caption = f"{image.name.capitalize()} on a {surface.name}: {solver.model}{error_text}.{where}"
+    caption = f"{sentence(image.name)} on {noun(surface.name)}: {solver.model}{error_text}.{where}"
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.model, solver.solver))
     return replace(surface_panel(panels, width=options.width, caption=caption), title=title)

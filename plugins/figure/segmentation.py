@@ -7,7 +7,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, compare
+from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.mesh.surface import Surface
@@ -31,6 +31,7 @@ class Segmentation(Options):
     radius: float = Field(10.0, gt=0, description="radius of an initial circle in edge lengths")
     seed: int = Field(0, ge=0, description="seed of the initial circles")
     line_width: float = Field(2.5, gt=0, le=20, description="width of the red lines in pixels")
+    colormap: str = Field("gray", description="matplotlib's name of the colour map of the image")
     width: int = Field(1800, ge=200, le=8000, description="pixels across")
 
 
@@ -39,7 +40,7 @@ def segmentation_figure(
     options: Segmentation, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
 ) -> Figure:
     """The image with the initial curve, the result, and the image with the boundary found, from each side."""
-    mesh, grey = surface.mesh, ColorScale(label="grey level", colormap="gray")
+    mesh, scale = surface.mesh, ColorScale(image.name, image.unit, options.colormap)
     start: tuple[Contours, ...] = ()
     if options.discs:
         distance = disc_distance(mesh, options.discs, options.radius * mesh.edge_length, options.seed)
@@ -50,16 +51,16 @@ def segmentation_figure(
     regions = inside * LIGHT + (1.0 - inside) * DARK
     rows = [
         [
-            SurfaceView(mesh, image.values, view, grey, start, "image and initial curve" if start else "image"),
+            SurfaceView(mesh, image.values, view, scale, start, "image and initial curve" if start else "image"),
             SurfaceView(mesh, regions, view, title="regions"),
-            SurfaceView(mesh, image.values, view, grey, edges, "boundary on the image"),
+            SurfaceView(mesh, image.values, view, scale, edges, "boundary on the image"),
         ]
         for view in options.views
     ]
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
     where = compare(options.reference)
     caption = (
-        f"{image.name.capitalize()} on a {surface.name}, {len(mesh.vertices):,} vertices{noise}; in red the boundary, "
+        f"{sentence(image.name)} on {noun(surface.name)}, {len(mesh.vertices):,} vertices{noise}; in red the boundary, "
         f"{solver.metrics['perimeter']:.3g} long.{where}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver))

@@ -33,3 +33,19 @@ class Figure:
 def compare(reference: str) -> str:
     """The sentence, after a space, that sends a reader to a figure of the dissertation; nothing where there is none."""
     return f" Compare {reference} of the dissertation." if reference else ""
+
+
+def sentence(text: str) -> str:
+    """A text with a capital at its beginning; a file's name (lh.thickness, white_left) is left as it is."""
+    return text[:1].upper() + text[1:] if _is_prose(text.split(" ")[0]) else text
+
+
+def noun(name: str) -> str:
+    """The name of a surface with its article, "a torus", "an ellipsoid"; a file's name as it is."""
+    if not _is_prose(name):
+        return name
+    return f"{'an' if name[:1].lower() in tuple('aeiou') else 'a'} {name}"
+
+
+def _is_prose(name: str) -> bool:
+    return not {*"._/"} & {*name}
