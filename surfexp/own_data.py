@@ -48,7 +48,9 @@ def _data_named(overrides: Sequence[str]) -> str:
         key, _, value = text.lstrip("+~").partition("=")
         kind, _, option = key.partition(".")
         if value and (kind == "axes" or (kind in ("surface", "image") and option in ("", "path"))):
-            named[kind] = named[kind] if not option and kind in named else Path(value.strip("'\"")).name
+            parts = [Path(part.strip("'\" ")).name for part in value.split(",")]
+            words = parts[0] if len(parts) == 1 else f"{parts[0]} and {len(parts) - 1} more"
+            named[kind] = named[kind] if not option and kind in named else words
     return ", ".join(named[kind] for kind in ("axes", "image", "surface") if kind in named)
 
 

@@ -1,7 +1,7 @@
 """All plugins described by another process: whatever a file does when it is imported, the rest of the tool works.
 
-`python -m surfexp.catalogue.contained FOLDER FAULTS` writes lines of JSON: the name of each file before it is loaded, at the
-end the description. What is found out is remembered by the state of the files, so this runs when one has changed.
+`python -m surfexp.catalogue.contained FOLDER FAULTS` writes lines of JSON: the name of each file before it is loaded, and
+at the end the description. What is found out is remembered by the state of the files, so this runs when one has changed.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ def _ask(working_folder: Path, faults: dict[str, str]) -> tuple[dict[str, Any] |
     try:
         while select.select([process.stdout], [], [], max(0.0, deadline - time.monotonic()))[0]:
             if not (received := os.read(process.stdout.fileno(), 2**20)):
-                return None, file, _end(process.wait())
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    return None, file, _end(process.wait(max(0.0, deadline - time.monotonic())))
+                break
             *lines, waiting = (waiting + received).split(b"\n")
             for message in map(json.loads, lines):
                 if "refused" in message:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from surfexp.catalogue.folders import entry_points_of_plugins, plugin_files
@@ -16,30 +15,22 @@ from surfexp.workflow.errors import UserError
 if TYPE_CHECKING:
     from surfexp.workflow.plan import Plan
 
-Tell = Callable[[str], None]
 # how `registry.load_file` begins the names of modules
 OF_FILE = "surfexp_plugin_"
 
 
-def load_all(
-    working_folder: Path, faults: Mapping[str, str] = MappingProxyType({}), tell: Tell = lambda file: None
-) -> None:
-    """Load every plugin: the package's own, installed packages' (entry-point group `surfexp.plugins`), `plugins/` here.
+def loaders(working_folder: Path) -> dict[str, Callable[[], Any]]:
+    """What loads each plugin file: the package's own, installed ones (entry points `surfexp.plugins`), `plugins/` here."""
+    from surfexp.workflow.registry import load_file
 
-    A file that fails is remembered in `BROKEN` and the rest still works; two plugins of one name are refused. Files with known
-    `faults` are not loaded; the name of each other one is told before it is.
-    """
-    from surfexp.workflow.registry import BROKEN, load_file
+    files = {str(file): partial(load_file, file) for file in plugin_files(working_folder)}
+    return {**files, **{point.value: point.load for point in entry_points_of_plugins()}}
 
-    files: list[tuple[Path, Callable[[], Any]]] = [
-        (file, partial(load_file, file)) for file in plugin_files(working_folder)
-    ]
-    for file, load in [*files, *((Path(point.value), point.load) for point in entry_points_of_plugins())]:
-        if str(file) in faults:
-            BROKEN[file] = faults[str(file)]
-            continue
-        tell(str(file))
-        _guarded(file, load)
+
+def load_all(working_folder: Path) -> None:
+    """Load every plugin; a file that fails is remembered and the rest still works, two plugins of one name are refused."""
+    for file, load in loaders(working_folder).items():
+        guarded(file, load)
 
 
 def load_own_kinds(plan: Plan) -> None:
@@ -58,7 +49,7 @@ def load_own_kinds(plan: Plan) -> None:
 
 
 def load_known_kinds(plan: Plan) -> None:
-    """Load plugins of a plan that others may have made: those found here or installed, never the files that it names."""
+    """Load plugins of a plan that others may have made: those found here or installed, never files that it names."""
     from surfexp.workflow import registry
 
     registry.open_catalogue(Path.cwd())
@@ -67,7 +58,8 @@ def load_known_kinds(plan: Plan) -> None:
             registry.plugin(kind, name)
 
 
-def _guarded(file: Path, load: Callable[[], Any]) -> None:
+def guarded(file: str, load: Callable[[], Any]) -> None:
+    """Load one plugin file, or remember in `BROKEN` why it fails."""
     from surfexp.workflow.registry import BROKEN
 
     try:
@@ -75,4 +67,4 @@ def _guarded(file: Path, load: Callable[[], Any]) -> None:
     except Exception as error:
         if "defined twice" in str(error):
             raise
-        BROKEN[file] = str(error) if isinstance(error, UserError) else f"{file}: {error}"
+        BROKEN[Path(file)] = str(error) if isinstance(error, UserError) else f"{file}: {error}"

@@ -12,6 +12,7 @@ from typing import Any
 from surfexp.catalogue.contained import contained_description
 from surfexp.catalogue.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
 from surfexp.catalogue.installed import installed_state
+from surfexp.catalogue.loading import guarded, loaders
 from surfexp.catalogue.user_cache import Memory
 
 PLAIN = (bool, int, float, str, list, dict, type(None))
@@ -95,11 +96,16 @@ def _python_files(folder: str) -> Iterator[Path]:
 
 
 def describe_all(working_folder: Path, faults: Mapping[str, str], tell: Callable[[str], None]) -> dict[str, Any]:
-    """Load all plugins and describe them and the stage kinds; see `load_all`."""
+    """Load all plugins but those with known faults, telling the name of each file before, and describe them."""
     from surfexp.workflow import registry
     from surfexp.workflow.kinds import KINDS
 
-    registry.load_all(working_folder, faults, tell)
+    for file, load in loaders(working_folder).items():
+        if file in faults:
+            registry.BROKEN[Path(file)] = faults[file]
+        else:
+            tell(file)
+            guarded(file, load)
     plugins = []
     for method in registry.PLUGINS.values():
         try:

@@ -6,6 +6,7 @@ import fcntl
 import os
 import shutil
 import sys
+import traceback
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -116,8 +117,8 @@ def _profile(name: str) -> Path:
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:
-    """What plain Snakemake does before it looks for results: what has to be made again is removed."""
-    clear(plan, results, unfinished(plan, results))
+    """What plain Snakemake does before it looks for results, in a dry run too: damaged ones alone are removed."""
+    clear(plan, results, {key: fault for key, fault in unfinished(plan, results).items() if fault})
 
 
 def hold_results(results: Path, wait: bool = False) -> None:
@@ -171,6 +172,8 @@ def _told(what: str) -> Iterator[None]:
     except UserError:
         raise
     except Exception as error:  # of MLflow, SQLAlchemy, SQLite, matplotlib, templates: any of them
+        if os.environ.get("SURFEXP_DEBUG"):
+            traceback.print_exc()
         reason = " ".join(str(error).split())[:200]
         _warn([f"{what} ({type(error).__name__}: {reason}); the results are whole, the same command tries again"])
 

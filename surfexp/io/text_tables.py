@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.arrays import Floats
+from surfexp.io.csv_cells import cell
 from surfexp.io.numbers import real_array
 
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
@@ -28,15 +29,15 @@ def read_table(path: Path) -> dict[str, Floats]:
     rows = [row for row in rows if not row[0].lstrip().startswith("#")]
     if not rows:
         raise ValueError("it holds no row")
-    header = [] if all(_is_number(cell) for cell in rows[0]) else [cell.strip() for cell in rows.pop(0)]
+    header = [] if all(map(_is_number, rows[0])) else [word.strip() for word in rows.pop(0)]
     width = len(header) or len(rows[0])
     for number, row in enumerate(rows, 1 + bool(header)):
         if len(row) != width:
             raise ValueError(f"row {number} has {len(row)} cells, {width} are needed")
-        for cell in row:
-            if not _is_number(cell):
-                raise ValueError(f"row {number} has the cell {cell[:20]!r}, a number is needed")
-    values = np.array([[_number(cell) for cell in row] for row in rows], dtype=np.float64).reshape(len(rows), width)
+        for word in row:
+            if not _is_number(word):
+                raise ValueError(f"row {number} has the cell {word[:20]!r}, a number is needed")
+    values = np.array([list(map(_number, row)) for row in rows], dtype=np.float64).reshape(len(rows), width)
     names = header or [f"map {k + 1}" for k in range(width)]
     if len(set(names)) < len(names):
         raise ValueError(f"two columns have the name {next(name for name in names if names.count(name) > 1)!r}")
@@ -48,18 +49,18 @@ def write_table(path: Path, maps: dict[str, Floats]) -> None:
     separator = "," if path.suffix.lower() == ".csv" else " "
     rows = zip(*(values.tolist() for values in maps.values()), strict=True)
     lines = [separator.join(map(repr, row)) for row in rows]
-    head = [separator.join(name.replace(",", " ") for name in maps)] if separator == "," else []
+    head = [separator.join(cell(name.replace(",", " ")) for name in maps)] if separator == "," else []
     path.write_text("\n".join([*head, *lines]) + "\n")
 
 
-def _is_number(cell: str) -> bool:
+def _is_number(text: str) -> bool:
     try:
-        _number(cell)
+        _number(text)
     except ValueError:
         return False
     return True
 
 
-def _number(cell: str) -> float:
-    word = cell.strip()
+def _number(text: str) -> float:
+    word = text.strip()
     return float("nan") if word.lower() in UNKNOWN else float(word)

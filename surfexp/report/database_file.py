@@ -1,7 +1,7 @@
 """The file of MLflow's database: made whole or not at all, and set aside where it cannot be used.
 
-MLflow makes its tables by going through all versions that it ever had, which takes seconds and leaves a file that is of no use
-when it is interrupted. So they are made once for a user, and a results folder gets a copy.
+MLflow makes its tables by going through all versions that it ever had, which takes seconds and leaves a file that is of
+no use when it is interrupted. So they are made once for a user, and a results folder gets a copy.
 """
 
 from __future__ import annotations
@@ -55,11 +55,21 @@ def prepare(database: Path) -> str:
                 return ""
             kept = _free_name(database)
             database.rename(kept)
+            _set_journals_aside(database, kept)
             said = f"{database} {reason}: it is kept as {kept.name}, and runs are recorded in a new one"
+        else:
+            _set_journals_aside(database, _free_name(database))
         temporary = database.with_name(f".{database.name}.{os.getpid()}")
         shutil.copyfile(empty, temporary)
         temporary.replace(database)
     return said
+
+
+def _set_journals_aside(database: Path, kept: Path) -> None:
+    """Move what SQLite would play back into the next file of this name: the journal goes with its database."""
+    for suffix in ("-journal", "-wal", "-shm"):
+        with suppress(FileNotFoundError):
+            database.with_name(database.name + suffix).rename(kept.with_name(kept.name + suffix))
 
 
 def unusable(database: Path, expected: Schema) -> str:

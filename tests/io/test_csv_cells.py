@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from surfexp.commands.exporting.writers import write_csv
 from surfexp.io.csv_cells import STARTS_A_FORMULA, cell
+from surfexp.io.text_tables import write_table
 from surfexp.report.table import Row, to_csv
 from surfexp.studies.sulci.sulcal_export import write_length_table
 from surfexp.workflow.plan import Leaf
@@ -37,6 +38,7 @@ def test_numbers_stay(number: float) -> None:
 def test_every_table_is_written_so(tmp_path: Path) -> None:
     write_csv(tmp_path / "export.csv", (EVIL, "value"), [(EVIL, -0.5)])
     write_length_table(tmp_path / "lengths.csv", [EVIL], {EVIL: np.array([-0.5])})
+    write_table(tmp_path / "maps.csv", {EVIL: np.array([-0.5])})
     row = Row(Leaf("key", "none", {"comparison": EVIL}), {"solver.name": EVIL}, {"gap": -0.5}, 0.0, failure=EVIL)
     (tmp_path / "report.csv").write_text(to_csv([row]))
     for file in tmp_path.iterdir():

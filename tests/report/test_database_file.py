@@ -158,6 +158,27 @@ def test_what_an_interrupted_writer_left_is_undone_not_set_aside(database: Path,
     assert prepare(copy) == "" and schema(copy) == schema(database)
 
 
+@pytest.mark.parametrize("deleted", [True, False])
+def test_a_journal_is_never_played_into_another_database(database: Path, tmp_path: Path, deleted: bool) -> None:
+    """A writer died within a transaction, and its database was deleted or damaged since; its journal is hot."""
+    with closing(sqlite3.connect(database, isolation_level=None)) as connection:
+        connection.execute("PRAGMA cache_size = 1")
+        connection.execute("BEGIN IMMEDIATE")
+        connection.executemany("INSERT INTO alembic_version VALUES (?)", [(f"{k:032d}",) for k in range(3000)])
+        copy = tmp_path / "results" / "mlflow.db"
+        copy.parent.mkdir()
+        shutil.copyfile(f"{database}-journal", f"{copy}-journal")
+        connection.execute("ROLLBACK")
+    if not deleted:
+        copy.write_bytes(b"no database" * 1000)
+    empty = database.read_bytes()
+    assert ("no database" in prepare(copy)) != deleted
+    assert copy.read_bytes() == empty and schema(copy) == schema(database) and copy.read_bytes() == empty
+    kept = "mlflow.db.set-aside-1-journal" if deleted else "mlflow.db.set-aside-1"
+    assert {"mlflow.db", kept} <= {file.name for file in copy.parent.iterdir()}
+    assert not Path(f"{copy}-journal").exists()
+
+
 def test_a_copy_that_is_interrupted_leaves_no_database(
     cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -83,7 +83,8 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     again = surfexp("run", "experiment=chain")
     assert "nothing to compute" in again.stdout and len(runs(laboratory)) == 2 and store_bytes(laboratory) == before
     nothing = subprocess.run(
-        [sys.executable, "-P", "-m", "snakemake", "-n", "--snakefile", str(ROOT / "Snakefile"), "--config", "experiment=chain"],
+        [sys.executable, "-P", "-m", "snakemake", "-n", "--snakefile", str(ROOT / "Snakefile"),
+         "--config", "experiment=chain"],
         capture_output=True, text=True, timeout=LIMIT,
     )  # fmt: skip
     assert "Nothing to be done" in nothing.stdout + nothing.stderr, nothing.stdout + nothing.stderr

@@ -56,6 +56,7 @@ def test_other_data_leave_titles_and_captions_out_too(override: str) -> None:
         (["surface=file", "surface.path=/data/lh.white"], "cup: lh.white"),
         (["surface.path='my brain.ply'", "surface=file", "image.path=a/b.gii"], "cup: b.gii, my brain.ply"),
         (["+axes=blobs"], "cup: blobs"),
+        (["surface.path=a/one.ply,b/two.ply,three.ply"], "cup: one.ply and 2 more"),
         (["axes.people=blobs", "surface=icosphere"], "cup: blobs, icosphere"),
         (["grid.image.seed=[1]"], "cup: other data"),
         (["image.noise=3"], "cup: other data"),

@@ -40,6 +40,7 @@ MISDEEDS = {
     "is_no_python": ("def f(:", "line 1"),
     "divides": ("1 / 0", "line 1: division by zero"),
     "closes_everything": ("import os\nos.closerange(0, 4096)", "ends the process"),
+    "closes_everything_and_hangs": ("import os\nos.closerange(0, 4096)\nwhile True:\n    pass", "takes longer than"),
     "has_a_number_for_a_name": (GOOD.replace('"well")', "3)"), "plugin surface/3: a name is a word"),
     "names_no_kind": (GOOD.replace('"surface", "well"', '"surfaec", "x"'), "did you mean 'surface'"),
 }
