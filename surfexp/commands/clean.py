@@ -13,7 +13,7 @@ from surfexp.workflow.plan import read_plan
 
 # what runs make below a results folder, which may hold other files as well
 MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",
-        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
+        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json", "index.html")  # fmt: skip
 
 
 def command(name: str, arguments: list[str]) -> int:

@@ -7,7 +7,7 @@ import os
 import shutil
 import sys
 import traceback
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -27,8 +27,11 @@ LINES_OF_DAMAGE = 10
 _locks: list[int] = []
 
 
-def run(plan: Plan) -> None:
-    """Run what is missing of a plan, record it and write the report; StageFailure if a stage failed."""
+def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
+    """Run what is missing of a plan, record it and write the report, with the arguments that asked for it.
+
+    StageFailure if a stage failed.
+    """
     _profile(plan.settings.profile or "default")
     results = Path(plan.settings.results).resolve()
     if {*"{}"} & {*str(results)}:
@@ -46,7 +49,7 @@ def run(plan: Plan) -> None:
         _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
-    finish(path, plan)
+    finish(path, plan, arguments)
     if missing:
         failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
         said = "\n".join(filter(None, dict.fromkeys(failures)))
@@ -143,7 +146,7 @@ def after_snakemake(path: Path) -> None:
         finish(path, read_plan(path))
 
 
-def finish(path: Path, plan: Plan) -> None:
+def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None) -> None:
     """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
     results = path.parent.parent
     views, state = results / plan.settings.experiment, _state(path, plan, results)
@@ -153,11 +156,14 @@ def finish(path: Path, plan: Plan) -> None:
         and done.read_text() == state
     ):
         return
+    from surfexp.report.origin import write_origin
     from surfexp.report.page import write_report  # which draws with matplotlib
     from surfexp.report.tracking import record
 
     done.unlink(missing_ok=True)
     with _told("the report is not written"):
+        if arguments is not None:
+            write_origin(views, arguments)
         folder = write_report(plan, results)
         with _told("runs are not recorded in MLflow"):
             _warn(record(plan, results, folder))

@@ -31,7 +31,7 @@ def command(name: str, arguments: list[str]) -> int:
         return 0
     check_arguments(arguments)
     doubtful: list[str] = []
-    action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful)
+    action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful, arguments)
     try:
         plan_and_act(arguments, action)
     except OSError as error:
@@ -69,7 +69,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
         remember(kept_at, plans[0])
 
 
-def _run(doubtful: list[str], plan: Plan) -> None:
+def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
     from surfexp.commands.execution import run, unfinished
     from surfexp.commands.views import print_tables, wide_console
@@ -83,7 +83,7 @@ def _run(doubtful: list[str], plan: Plan) -> None:
     console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
     failure = None
     try:
-        run(plan)
+        run(plan, arguments)
     except StageFailure as error:
         failure = error
     groups = comparisons(rows_of(plan, results.resolve()))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 from pydantic.fields import FieldInfo
@@ -11,10 +13,10 @@ from surfexp.metric import NAMES_METRIC, Metric, find_metric
 from surfexp.report.claim import read_claims
 from surfexp.report.table import Row
 from surfexp.report.verdict import equal, selected
-from surfexp.workflow.errors import unknown
+from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Leaf, Node, Plan
-from surfexp.workflow.registry import names_of, plugin
+from surfexp.workflow.registry import names_of, open_catalogue, plugin
 
 SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
 
@@ -31,6 +33,20 @@ def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
     for child in node.children:
         if nodes[child].kind in handed_on or not KINDS[nodes[child].kind].stored:
             metrics |= declared(nodes, child)
+    return metrics
+
+
+def declared_in(plan: Plan) -> dict[str, Metric]:
+    """The metrics that some row of a plan declares; those of plugins that are not found here are left out."""
+    chains = {
+        tuple((name, value) for name, value in plan.parameters(leaf).items() if name.endswith(".name")): leaf
+        for leaf in plan.leaves
+    }
+    open_catalogue(Path.cwd())
+    metrics = dict[str, Metric]()
+    for leaf in chains.values():
+        with suppress(UserError):
+            metrics |= declared(plan.nodes, leaf.key)
     return metrics
 
 

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-from jinja2 import Environment, PackageLoader
-from markupsafe import Markup, escape
 
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.report.claim import read_claims
 from surfexp.report.costs import cost_figure
-from surfexp.report.table import Comparison, comparisons, format_number, number_notes, rows_of, short_name, to_csv
+from surfexp.report.declared import declared_in
+from surfexp.report.origin import read_origin
+from surfexp.report.overview import write_overview, write_summary
+from surfexp.report.render import render
+from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.verdict import judge
 from surfexp.workflow import store
 from surfexp.workflow.errors import DamagedResult
@@ -25,38 +27,60 @@ from surfexp.workflow.plan import Plan
 ROWS_SHOWN, FIGURES_SHOWN, FAILURES_SHOWN = 500, 200, 20
 
 
+@dataclass(frozen=True)
+class Section:
+    """A comparison as the page shows it: some or all of its rows, its notes by number, its figures.
+
+    `figure_of` leads from the place of a row to that of its first figure, `row_of` from a figure to its first row.
+    """
+
+    group: Comparison
+    rows: list[Row]
+    notes: dict[str, int]
+    figures: list[dict[str, Any]]
+    figure_of: dict[int, int]
+    row_of: dict[int, int]
+
+
 def write_report(plan: Plan, results: Path) -> Path:
     """Write `report.html`, `metrics.csv` and `figures/` of a plan below `results/<experiment>/`; return that folder."""
     folder = results / plan.settings.experiment
     rows = rows_of(plan, results)
-    groups = comparisons(rows)
+    groups = comparisons(rows, declared_in(plan))
     figures = _write_figures(plan, results, folder / "figures")
-    costs = [_costs_of(group, folder / "figures", k) for k, group in enumerate(groups)]
+    sections = [_section(group, figures, _costs_of(group, folder / "figures", k)) for k, group in enumerate(groups)]
+    verdicts = judge(read_claims(plan.settings.claims), rows)
     store.write_text(folder / "metrics.csv", to_csv(rows))
-    environment = Environment(loader=PackageLoader("surfexp.report", "templates"), autoescape=True)
-    environment.filters.update(number=format_number, heading=short_name, prose=prose)
-    sections = [
-        (group, shown, number_notes(shown), [*_figures_of(group, figures), *cost])
-        for group, cost in zip(groups, costs, strict=True)
-        for shown in [group.excerpt(ROWS_SHOWN)]
-    ]
-    page = environment.get_template("report.html.j2").render(
+    page = render(
+        "report.html.j2",
         settings=plan.settings,
         sections=sections,
         figures_shown=FIGURES_SHOWN,
         failures=Counter(row.failure for row in rows if row.failure).most_common(),
         failures_shown=FAILURES_SHOWN,
-        verdicts=judge(read_claims(plan.settings.claims), rows),
+        verdicts=verdicts,
         stages=len(plan.stored),
         requested=plan.requested,
+        made=read_origin(folder),
     )
     store.write_text(folder / "report.html", page)
+    pictures = [item["file"] for section in sections for item in section.figures]
+    write_summary(folder, plan, rows, verdicts, pictures[0] if pictures else "")
+    write_overview(results)
     return folder
 
 
-def prose(text: str) -> Markup:
-    """A text as the page shows it: everything as written, what stands between backticks as code."""
-    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], costs: list[dict[str, Any]]) -> Section:
+    shown = group.excerpt(ROWS_SHOWN)
+    keys = list(dict.fromkeys(key for row in group.rows for key in row.leaf.figures if key in drawn))
+    places = {key: place for place, key in enumerate(keys[:FIGURES_SHOWN])}
+    figure_of, row_of = dict[int, int](), dict[int, int]()
+    for number, row in enumerate(shown):
+        for key in row.leaf.figures:
+            if key in places:
+                figure_of.setdefault(number, places[key])
+                row_of.setdefault(places[key], number)
+    return Section(group, shown, number_notes(shown), [*(drawn[key] for key in keys), *costs], figure_of, row_of)
 
 
 def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:
@@ -101,8 +125,3 @@ def _shown(name: str, figure: Figure) -> dict[str, Any]:
     """What the page needs of a figure; its pixels are let go."""
     height, width = figure.pixels.shape[:2]
     return {"file": name, "title": figure.title, "caption": figure.caption, "width": width, "height": height}
-
-
-def _figures_of(group: Comparison, figures: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
-    keys = dict.fromkeys(key for row in group.rows for key in row.leaf.figures)
-    return [figures[key] for key in keys if key in figures]

@@ -5,25 +5,30 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from surfexp.io.csv_cells import cells
+from surfexp.metric import Metric, find_metric
 from surfexp.workflow.outcome import outcome
 from surfexp.workflow.plan import Leaf, Plan
 
-LOWER_IS_BETTER = ("rmse", "relative_gap", "error_bound", "energy", "iterations", "perimeter", "energy_excess")
-HIGHER_IS_BETTER = ("dice", "accuracy", "psnr")
+# the kinds whose results are given: rows on other data have no common best
+DATA = ("surface", "image")
+# the kinds whose rows are answers to one question where their data agree; a statistic may ask another in each row
+ANSWERS = ("solver", "measurement", "distance", "distance_matrix", "embedding", "classifier")
 
 
 @dataclass
 class Row:
     """One leaf: its parameters, metrics, notes and whether its certificate was reached.
 
-    `seconds` is measured, not a part of the result: None where the event of the stage was lost.
+    `seconds` is measured, not a part of the result: None where the event of the stage was lost. `data` are the keys of the
+    surfaces and images that it starts from.
     """
 
     leaf: Leaf
@@ -32,6 +37,7 @@ class Row:
     seconds: float | None
     notes: list[str] = field(default_factory=list)
     failure: str = ""
+    data: frozenset[str] = frozenset()
 
     @property
     def limited(self) -> bool:
@@ -43,13 +49,15 @@ class Row:
 class Comparison:
     """The rows of one table: the columns are the parameters that differ and the metrics that were asked for.
 
-    The columns are found once, when they are first asked for: the rows have to be complete then.
+    The columns are found once, when they are first asked for: the rows have to be complete then. `metrics` are the
+    declarations by which metrics have a unit and a good direction; without them there is no best.
     """
 
     title: str
     caption: str
     rows: list[Row]
     columns: list[str]
+    metrics: Mapping[str, Metric] = field(default_factory=dict)
 
     @cached_property
     def varying(self) -> list[str]:
@@ -85,47 +93,77 @@ class Comparison:
         names = dict.fromkeys(name for row in self.rows for name in row.metrics if name != "converged")
         return [name for name in self.columns if name in names] if self.columns else list(names)
 
+    def meaning(self, name: str) -> Metric:
+        """The declaration of a metric; an empty one where there is none."""
+        return find_metric(name, self.metrics) or Metric("")
+
     @cached_property
-    def best(self) -> dict[str, float]:
-        """The best value of each metric whose good direction is known and which tells converged rows apart."""
-        found = {}
+    def best(self) -> dict[tuple[str, frozenset[str]], float]:
+        """The best value of each metric that has a good direction, by data: of the rows that converged and differ in it."""
+        rows = [row for row in self.rows if self._may_be_best(row)]
+        found = dict[tuple[str, frozenset[str]], float]()
         for name in self.metric_names:
-            values = {row.metrics[name] for row in self.rows if name in row.metrics and not row.limited}
-            values = {value for value in values if not math.isnan(value)}
-            if len(values) > 1 and name.startswith(HIGHER_IS_BETTER + LOWER_IS_BETTER):
-                found[name] = max(values) if name.startswith(HIGHER_IS_BETTER) else min(values)
+            better, values = self.meaning(name).better, dict[frozenset[str], set[float]]()
+            for row in rows if better else ():
+                if not math.isnan(value := row.metrics.get(name, math.nan)):
+                    values.setdefault(row.data, set()).add(value)
+            choose = max if better == "higher" else min
+            found |= {(name, data): choose(some) for data, some in values.items() if len(some) > 1}
         return found
 
     def is_best(self, row: Row, name: str) -> bool:
-        """Whether a row holds the best value of a metric."""
-        return not row.limited and name in self.best and row.metrics.get(name) == self.best[name]
+        """Whether a row holds the best value of a metric on its data."""
+        best = self.best.get((name, row.data))
+        return best is not None and row.metrics.get(name) == best and self._may_be_best(row)
+
+    @cached_property
+    def _some_converged(self) -> bool:
+        return any("converged" in row.metrics for row in self.rows)
+
+    def _may_be_best(self, row: Row) -> bool:
+        answers = row.leaf.settings["target"] in ANSWERS and not row.limited
+        return answers and ("converged" in row.metrics or not self._some_converged)
 
     def excerpt(self, limit: int) -> list[Row]:
         """The first rows, and of the others the first with the best value of each metric; all where they are few."""
         if len(self.rows) <= limit:
             return self.rows
-        first = {name: next(row for row in self.rows if self.is_best(row, name)) for name in self.best}
-        ahead = {id(row) for row in (*self.rows[:limit], *first.values())}
-        return [row for row in self.rows if id(row) in ahead]
+        first: dict[tuple[str, frozenset[str]], int] = {}
+        for place, row in enumerate(self.rows):
+            for name in self.metric_names:
+                if (name, row.data) not in first and self.is_best(row, name):
+                    first[name, row.data] = place
+        ahead = {*range(limit), *sorted(first.values())[:limit]}
+        return [row for place, row in enumerate(self.rows) if place in ahead]
 
 
 def rows_of(plan: Plan, results: Path) -> list[Row]:
     """Read what is known of every leaf: numbers from its result, seconds and failure from its event."""
-    rows = []
+    rows, known = [], dict[str, frozenset[str]]()
     for leaf in plan.leaves:
         found = outcome(results, plan.nodes[leaf.key])
         parameters = {key: value for key, value in plan.parameters(leaf).items() if value is not None}
-        rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure))
+        data = _data(plan, leaf.key, known)
+        rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure, data))
     return rows
 
 
-def comparisons(rows: list[Row]) -> list[Comparison]:
-    """Group rows by the comparison that their variant names, in order of appearance."""
+def _data(plan: Plan, key: str, known: dict[str, frozenset[str]]) -> frozenset[str]:
+    """The surfaces and images nearest before a stage; `known` are those that were asked for before."""
+    if key not in known:
+        node = plan.nodes[key]
+        before = (_data(plan, child, known) for child in node.children)
+        known[key] = frozenset([key]) if node.kind in DATA else frozenset().union(*before)
+    return known[key]
+
+
+def comparisons(rows: list[Row], metrics: Mapping[str, Metric] = MappingProxyType({})) -> list[Comparison]:
+    """Group rows by the comparison that their variant names, in order of appearance; `metrics` are those declared."""
     groups: dict[str, Comparison] = {}
     for row in rows:
         settings = row.leaf.settings
         title = settings["comparison"] or settings["title"] or settings["experiment"]
-        group = groups.setdefault(title, Comparison(title, settings["caption"], [], []))
+        group = groups.setdefault(title, Comparison(title, settings["caption"], [], [], metrics))
         group.rows.append(row)
         group.columns += [name for name in settings["columns"] if name not in group.columns]
     return list(groups.values())

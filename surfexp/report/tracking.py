@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import logging
 import os
-import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from surfexp.report.origin import commit
 from surfexp.workflow import store
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.outcome import NOT_COMPUTED, Outcome, outcome
@@ -162,6 +162,4 @@ def _safe(name: str) -> str:
 
 
 def _versions() -> dict[str, str]:
-    commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
-    versions = {f"version.{name}": version(name) for name in PACKAGES}
-    return {**versions, "git_commit": commit.stdout.strip() or "not a checkout"}
+    return {**{f"version.{name}": version(name) for name in PACKAGES}, "git_commit": commit()}

@@ -1,0 +1,47 @@
+"""Where the results of a page come from: the command, the date, the versions and the machine of the last computation."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import shlex
+import subprocess
+from collections.abc import Sequence
+from contextlib import suppress
+from datetime import datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from surfexp.workflow import store
+
+FILE = "origin.json"
+
+
+def write_origin(folder: Path, arguments: Sequence[str]) -> None:
+    """Note beside a report how its results were just made: by `surfexp run` with these arguments."""
+    origin = {
+        "command": shlex.join(["surfexp", "run", *arguments]),
+        "date": datetime.now().isoformat(" ", "minutes"),
+        "version": version("surfexp"),
+        "python": platform.python_version(),
+        "commit": commit(),
+        "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors",
+    }
+    store.write_text(folder / FILE, json.dumps(origin, indent=1))
+
+
+def read_origin(folder: Path) -> dict[str, Any]:
+    """What `write_origin` noted; empty where plain Snakemake made the results, or another version did."""
+    with suppress(OSError, ValueError, TypeError):
+        return dict(json.loads((folder / FILE).read_text()))
+    return {}
+
+
+def commit() -> str:
+    """The commit of the checkout that is worked in, or "not a checkout"."""
+    with suppress(OSError):
+        asked = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
+        return asked.stdout.strip() or "not a checkout"
+    return "not a checkout"

@@ -1,0 +1,58 @@
+"""The overview of a results folder: every experiment with its lead picture, verdicts and cost, the newest first."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from surfexp.report.render import render
+from surfexp.report.table import Row
+from surfexp.report.verdict import Verdict
+from surfexp.workflow import store
+from surfexp.workflow.plan import Plan
+
+FILE = "summary.json"
+PICTURE = re.compile(r"[\w-]+\.png")
+
+
+def write_summary(folder: Path, plan: Plan, rows: Sequence[Row], verdicts: Sequence[Verdict], picture: str) -> None:
+    """Write beside a report what the overview shows of it."""
+    summary = {
+        "title": plan.settings.title,
+        "question": re.split(r"(?<=[.?!])\s", plan.settings.description, maxsplit=1)[0],
+        "date": datetime.now().isoformat(" ", "minutes"),
+        "rows": len(rows),
+        "failed": sum(bool(row.failure) for row in rows),
+        "limited": sum(row.limited for row in rows),
+        "seconds": round(sum(row.seconds or 0.0 for row in rows)),
+        "verdicts": Counter(item.verdict for item in verdicts),
+        "picture": picture,
+    }
+    store.write_text(folder / FILE, json.dumps(summary, indent=1))
+
+
+def write_overview(results: Path) -> None:
+    """Write `index.html` from the summaries beside the reports; one that cannot be read is left out."""
+    pages = [page for file in results.glob(f"*/{FILE}") if (page := _read(file)) is not None]
+    pages.sort(key=lambda page: page["date"], reverse=True)
+    store.write_text(results / "index.html", render("index.html.j2", pages=pages))
+
+
+def _read(file: Path) -> dict[str, Any] | None:
+    """A summary as the overview takes it: what others may have written is text and numbers, and leads nowhere else."""
+    with suppress(OSError, ValueError, TypeError, KeyError, AttributeError):
+        found = json.loads(file.read_text())
+        texts = {key: str(found[key]) for key in ("title", "question", "date", "picture")}
+        numbers = {key: int(found[key]) for key in ("rows", "failed", "limited", "seconds")}
+        verdicts = {str(name): int(count) for name, count in found["verdicts"].items()}
+        if not PICTURE.fullmatch(texts["picture"]):
+            texts["picture"] = ""
+        if (file.parent / "report.html").is_file():
+            return {**texts, **numbers, "verdicts": verdicts, "name": file.parent.name}
+    return None

@@ -1,0 +1,62 @@
+"""Pages from templates: every text as written, one script and one style inside, nothing from elsewhere."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from typing import Any
+
+from jinja2 import Environment, PackageLoader
+from markupsafe import Markup, escape
+
+from surfexp.report.table import format_number, short_name
+
+
+def render(template: str, **content: Any) -> str:
+    """Return a page; a browser runs no script in it but our own, whatever titles, labels and names hold."""
+    loader = PackageLoader("surfexp.report", "templates")
+    environment = Environment(loader=loader, autoescape=True)
+    environment.filters.update(
+        number=format_number, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
+    )
+    style, script = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js"))
+    policy = "; ".join(
+        (
+            "default-src 'none'",
+            "img-src 'self' data:",
+            f"style-src {_hash(style)}",
+            f"script-src {_hash(script)}",
+            "base-uri 'none'",
+            "form-action 'none'",
+        )
+    )
+    page = environment.get_template(template)
+    return page.render(style=Markup(style), script=Markup(script), policy=policy, **content)
+
+
+def prose(text: str) -> Markup:
+    """A text as the page shows it: everything as written, what stands between backticks as code."""
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+
+
+def exact(value: float | None) -> str:
+    """All digits of a number, by which a column is sorted; nothing where there is none."""
+    return "" if value is None or value != value else repr(float(value))
+
+
+def word(value: Any) -> str:
+    """The value of an option in a table."""
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
+
+
+def duration(seconds: float) -> str:
+    """Seconds, minutes or hours, whichever a person would say."""
+    for unit, length in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.3g} {unit}"
+    return f"{seconds:.3g} s"
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"

@@ -1,0 +1,70 @@
+"""The overview of a results folder lists what is there, the newest first, and takes nothing from a summary but text."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from benchmarks.synthetic_results import fill, plan_of, sweep
+from surfexp.report.origin import read_origin, write_origin
+from surfexp.report.overview import FILE, write_overview
+from surfexp.report.page import write_report
+
+SUMMARY = {
+    "title": "T",
+    "question": "Q?",
+    "date": "2026-01-02 03:04",
+    "rows": 2,
+    "failed": 0,
+    "limited": 1,
+    "seconds": 3,
+}
+SUMMARY |= {"verdicts": {"holds": 2, "does not hold": 1}, "picture": "error-1a2b3c4d.png"}
+
+
+def summarise(results: Path, name: str, **changes: object) -> None:
+    (results / name).mkdir(parents=True)
+    (results / name / "report.html").write_text("")
+    (results / name / FILE).write_text(json.dumps(SUMMARY | changes))
+
+
+def overview(results: Path) -> str:
+    write_overview(results)
+    return (results / "index.html").read_text()
+
+
+def test_experiments_are_listed_the_newest_first(tmp_path: Path) -> None:
+    summarise(tmp_path, "old", date="2025-12-31 23:59")
+    summarise(tmp_path, "new")
+    page = overview(tmp_path)
+    assert page.index('href="new/report.html"') < page.index('href="old/report.html"')
+    assert "2 rows" in page and "1 row did not converge" in page and "2 holds" in page and "1 does not hold" in page
+    assert 'src="new/figures/error-1a2b3c4d.png"' in page
+
+
+def test_what_a_summary_says_is_text(tmp_path: Path) -> None:
+    summarise(tmp_path, "evil", title="<script>1</script>", picture="../../../etc/passwd", question="<b>")
+    summarise(tmp_path, "odd", rows="many")
+    summarise(tmp_path, "list", verdicts=[1])
+    (tmp_path / "half").mkdir()
+    (tmp_path / "half" / FILE).write_text('{"title": ')
+    (tmp_path / "gone").mkdir()
+    (tmp_path / "gone" / FILE).write_text(json.dumps(SUMMARY))
+    page = overview(tmp_path)
+    assert "<script>1" not in page and "&lt;script&gt;1" in page and "passwd" not in page and "&lt;b&gt;" in page
+    assert page.count("<article>") == 1
+
+
+def test_a_report_adds_its_experiment_and_says_how_it_was_made(tmp_path: Path) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    fill(plan, tmp_path)
+    folder = tmp_path / plan.settings.experiment
+    first = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "Made by" not in first and 'href="synthetic/report.html"' in (tmp_path / "index.html").read_text()
+    write_origin(folder, ["experiment=synthetic", "grid.x=[1, 2]"])
+    second = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert (
+        "surfexp run experiment=synthetic &#39;grid.x=[1, 2]&#39;" in second and read_origin(folder)["commit"] in second
+    )
+    (folder / "origin.json").write_text("[]")
+    assert "Made by" not in (write_report(plan, tmp_path) / "report.html").read_text()

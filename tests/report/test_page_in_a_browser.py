@@ -1,0 +1,93 @@
+"""The page in a browser: tables sort, filter and hide columns, and nothing but our own script runs."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from benchmarks.synthetic_results import fill, plan_of, sweep
+from surfexp.report.page import write_report
+from surfexp.report.render import render
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytestmark = pytest.mark.skipif(BROWSER is None, reason="needs chromium")
+HEAD = """
+const said = [], table = document.querySelector("table.rows"), heads = [...table.tHead.rows[0].cells];
+const column = (name) => heads.findIndex((head) => head.dataset.name === name);
+const values = (name) => [...table.tBodies[0].rows].filter((row) => !row.hidden)
+  .map((row) => row.cells[column(name)].dataset.value ?? row.cells[column(name)].textContent);
+const click = (name) => heads[column(name)].querySelector("button").click();
+const type = (text) => { const box = document.querySelector(".tools input[type=search]");
+  box.value = text; box.dispatchEvent(new Event("input")); };
+"""
+
+
+def page_of(tmp_path: Path, **changes: Any) -> Path:
+    plan = plan_of({**sweep(24), **changes}, tmp_path)
+    fill(plan, tmp_path)
+    return write_report(plan, tmp_path) / "report.html"
+
+
+def driven(page: Path, script: str) -> Any:
+    """What a script returns in the page, whose policy forbids it: so it runs in a copy without one."""
+    text = re.sub(r"<meta http-equiv[^>]*>", "", page.read_text())
+    answer = f"<script>{HEAD}document.title = JSON.stringify((() => {{ {script} }})());</script></body>"
+    copy = page.with_name("driven.html")
+    copy.write_text(text.replace("</body>", answer))
+    found = re.search(r"<title>(.*?)</title>", shown(copy))
+    assert found
+    return json.loads(found[1].replace("&amp;", "&"))
+
+
+def shown(page: Path) -> str:
+    """The page as a browser has it after its scripts."""
+    assert BROWSER is not None
+    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={page.parent / 'profile'}"]
+    done = subprocess.run([BROWSER, *options, "--dump-dom", page.as_uri()], capture_output=True, text=True, timeout=120)
+    return done.stdout
+
+
+def test_a_table_sorts_by_all_digits_and_goes_back(tmp_path: Path) -> None:
+    script = """
+      const start = values("rmse"); click("rmse"); const up = values("rmse"); click("rmse"); const down = values("rmse");
+      click("rmse"); return [start, up, down, values("rmse"), heads[column("rmse")].getAttribute("aria-sort")];
+    """
+    start, up, down, back, state = driven(page_of(tmp_path), script)
+    numbers = sorted(map(float, start))
+    assert [*map(float, up)] == numbers and [*map(float, down)] == numbers[::-1] and numbers != [*map(float, start)]
+    assert back == start and state is None
+
+
+def test_rows_are_filtered_and_columns_hidden(tmp_path: Path) -> None:
+    script = """
+      const all = values("solver tolerance"); type(all[3]); const some = values("solver tolerance");
+      const box = [...document.querySelectorAll(".tools label")].find((one) => one.textContent.includes("rmse"));
+      box.querySelector("input").click();
+      return [all, some, [...table.rows].every((row) => row.cells[column("rmse")].hidden)];
+    """
+    rows, kept, hidden = driven(page_of(tmp_path), script)
+    assert rows[3] in kept and len(kept) < len(rows) == 24 and hidden
+
+
+def test_no_text_of_an_experiment_runs(tmp_path: Path) -> None:
+    evil = "</title></style></script><script>document.title='run'</script><img src=x onerror=document.title='run'>"
+    page = page_of(tmp_path, title=evil, description=f"`{evil}`", comparison=evil, caption=evil)
+    for file in (page, tmp_path / "index.html"):
+        text = shown(file)
+        assert "<title>run</title>" not in text and "alert" not in text
+    # and if a text did get into the page, its policy would stop it
+    injected = page.read_text().replace("</body>", "<script>document.title='run'</script></body>")
+    page.write_text(injected.replace("<h1>", "<h1><img src='x' onerror=\"document.title='run'\">"))
+    assert "<title>run</title>" not in shown(page) and 'class="tools"' in shown(page)
+
+
+def test_pages_ask_no_other_host() -> None:
+    for name in ("index.html.j2", "report.html.j2"):
+        template = Path(render.__code__.co_filename).parent / "templates" / name
+        assert not re.search(r"https?://|//[a-z]", template.read_text().replace("<!doctype html>", ""))
