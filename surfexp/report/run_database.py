@@ -17,18 +17,28 @@ from mlflow.entities import LifecycleStage, SourceType
 from mlflow.store.tracking.dbmodels.models import SqlLatestMetric, SqlMetric, SqlParam, SqlRun, SqlTag
 from mlflow.utils.mlflow_tags import MLFLOW_RUN_NAME
 from mlflow.utils.uri import append_to_uri_path
-from sqlalchemy import delete, insert, select, update
+from sqlalchemy import bindparam, delete, insert, select, update
 
 RUNS_AT_ONCE = 500
+_TABLE = SqlRun.__table__
+_CHANGED = (
+    update(_TABLE)
+    .where(_TABLE.c.run_uuid == bindparam("run"))
+    .values(name=bindparam("called"), status=bindparam("state"), end_time=_TABLE.c.start_time + bindparam("took"))
+)
 LONGEST_PARAMETER, LONGEST_TAG = 6000, 8000  # MLflow's own limits
 
 
 @dataclass(frozen=True)
 class RunContent:
-    """All that a run shows. `series` are metrics as (name, step, value); the last step of each is its value."""
+    """All that a run shows. `series` are metrics as (name, step, value); the last step of each is its value.
+
+    `seconds` are those of the computation: what the dashboard calls the duration of the run.
+    """
 
     name: str
     status: str
+    seconds: float
     parameters: Mapping[str, str]
     series: Sequence[tuple[str, int, float]]
     tags: Mapping[str, str]
@@ -71,13 +81,13 @@ def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None,
         with store.ManagedSessionMaker(read_only=False) as session:
             if new:  # a millisecond apart, so that the dashboard shows them in their order
                 starts = range(now - len(new), now)
-                rows = [_run(experiment, *item, start, now) for item, start in zip(new, starts, strict=True)]
+                rows = [_run(experiment, *item, start) for item, start in zip(new, starts, strict=True)]
                 session.execute(insert(SqlRun), rows)
             if old:
                 _forget(session, old)
-                changed = [{"run_uuid": run, "status": item.status, "end_time": now} for run, item in old]
-                session.execute(update(SqlRun), changed)
-            for table, rows in _rows(store, [*new, *old], {run for run, _ in new}).items():
+                session.connection().execute(_CHANGED, [{"run": run, "took": _milliseconds(item), "called": item.name,
+                                                         "state": item.status} for run, item in old])  # fmt: skip
+            for table, rows in _rows(store, [*new, *old]).items():
                 if rows:
                     session.execute(insert(table), rows)
 
@@ -90,7 +100,11 @@ def set_tag(store: Any, identities: Sequence[str], key: str, value: str) -> None
             session.execute(update(SqlTag).where(SqlTag.key == key, SqlTag.run_uuid.in_(part)).values(value=value))
 
 
-def _run(experiment: Any, identity: str, content: RunContent, start: int, end: int) -> dict[str, Any]:
+def _milliseconds(content: RunContent) -> int:
+    return round(1000.0 * content.seconds)
+
+
+def _run(experiment: Any, identity: str, content: RunContent, start: int) -> dict[str, Any]:
     return {
         "run_uuid": identity,
         "name": content.name,
@@ -103,7 +117,7 @@ def _run(experiment: Any, identity: str, content: RunContent, start: int, end: i
         "user_id": "unknown",
         "status": content.status,
         "start_time": start,
-        "end_time": end,
+        "end_time": start + _milliseconds(content),
         "lifecycle_stage": LifecycleStage.ACTIVE,
     }
 
@@ -112,11 +126,11 @@ def _forget(session: Any, runs: Sequence[tuple[str, RunContent]]) -> None:
     identities = [run for run, _ in runs]
     for table in (SqlParam, SqlMetric, SqlLatestMetric):
         session.execute(delete(table).where(table.run_uuid.in_(identities)))
-    keys = {key for _, content in runs for key in content.tags}
+    keys = {MLFLOW_RUN_NAME, *(key for _, content in runs for key in content.tags)}
     session.execute(delete(SqlTag).where(SqlTag.run_uuid.in_(identities), SqlTag.key.in_(keys)))
 
 
-def _rows(store: Any, runs: Sequence[tuple[str, RunContent]], new: set[str]) -> dict[Any, list[dict[str, Any]]]:
+def _rows(store: Any, runs: Sequence[tuple[str, RunContent]]) -> dict[Any, list[dict[str, Any]]]:
     """Rows of every table but that of the runs; as MLflow writes them, without repeated metrics."""
     rows: dict[Any, list[dict[str, Any]]] = {SqlParam: [], SqlMetric: [], SqlLatestMetric: [], SqlTag: []}
     for run, content in runs:
@@ -124,10 +138,9 @@ def _rows(store: Any, runs: Sequence[tuple[str, RunContent]], new: set[str]) -> 
             {"run_uuid": run, "key": key, "value": value[:LONGEST_PARAMETER]}
             for key, value in content.parameters.items()
         ]
-        named = {MLFLOW_RUN_NAME: content.name} if run in new else {}
         rows[SqlTag] += [
             {"run_uuid": run, "key": key, "value": value[:LONGEST_TAG]}
-            for key, value in {**content.tags, **named}.items()
+            for key, value in {**content.tags, MLFLOW_RUN_NAME: content.name}.items()
         ]
         points = dict.fromkeys(
             (name, step, *store.sanitize_metric_value(value)) for name, step, value in content.series

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfexp.report.origin import commit
+from surfexp.report.table import Row, comparisons, short_name
 from surfexp.workflow import store
 from surfexp.workflow.fingerprint import digest
 from surfexp.workflow.outcome import NOT_COMPUTED, Outcome, outcome
@@ -62,8 +63,11 @@ def record(plan: Plan, results: Path, views: Path) -> list[str]:
     versions = _versions()
     changes = _changes(plan, outcomes, runs)
     tags = {**versions, "mlflow.parentRunId": parent_id}
+    names = _names(plan) if changes else {}
     write_runs(
-        database, experiment, ((change.run, _content(plan, results, change, outcomes, tags)) for change in changes)
+        database,
+        experiment,
+        ((change.run, _content(plan, results, change, outcomes, names, tags)) for change in changes),
     )
     set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
@@ -114,7 +118,12 @@ def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRu
 
 
 def _content(
-    plan: Plan, results: Path, change: _Change, outcomes: Mapping[str, Outcome], tags: Mapping[str, str]
+    plan: Plan,
+    results: Path,
+    change: _Change,
+    outcomes: Mapping[str, Outcome],
+    names: Mapping[str, str],
+    tags: Mapping[str, str],
 ) -> RunContent:
     """What the run of a leaf shows: its options, its numbers and history, what the stages before it took."""
     from surfexp.report.run_database import RunContent
@@ -140,9 +149,8 @@ def _content(
     own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
     parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
     status = "FAILED" if own.failure else "FINISHED"
-    return RunContent(
-        _label(parameters), status, parameters, series, {**tags, **own_tags, "failure": "; ".join(failures)}
-    )
+    all_tags = {**tags, **own_tags, "failure": "; ".join(failures)}
+    return RunContent(names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags)
 
 
 def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
@@ -153,8 +161,16 @@ def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[
     return known[key]
 
 
-def _label(parameters: Mapping[str, str]) -> str:
-    return " ".join(value for key, value in parameters.items() if key.endswith(".name"))[:250]
+def _names(plan: Plan) -> dict[str, str]:
+    """A name for the run of every leaf: what tells it from the others of its table, then the table if there are several."""
+    groups = comparisons([Row(leaf, plan.parameters(leaf), {}, None) for leaf in plan.leaves])
+    names = {}
+    for group in groups:
+        for row in group.rows:
+            known = [(name, row.parameters[name]) for name in group.varying if row.parameters.get(name) is not None]
+            parts = [str(value) if name.endswith(".name") else f"{short_name(name)} {value}" for name, value in known]
+            names[row.leaf.key] = " · ".join([*parts, group.title][: len(parts) + (len(groups) > 1)])[:250]
+    return names
 
 
 def _safe(name: str) -> str:

@@ -107,7 +107,7 @@ def test_a_run_is_what_the_client_of_mlflow_writes(results: Path) -> None:
     tags = {"leaf": "ours", "failure": "", "note": "two\nlines", "long": "y" * 8000}
     write = sql_store(results)
     run_database.write_runs(
-        write, experiment, [(None, run_database.RunContent("r", "FAILED", parameters, series, tags))]
+        write, experiment, [(None, run_database.RunContent("r", "FAILED", 0.0, parameters, series, tags))]
     )
     theirs = client.create_run(identity, run_name="r", tags=tags).info.run_id
     metrics = [Metric(name, value, 0, step) for name, step, value in series]
@@ -192,6 +192,27 @@ def test_a_failed_run_is_taken_over_and_a_changed_one_replaced(results: Path) ->
     again = recorded(plan, results)
     assert again[leaf].data.metrics["seconds.solver"] == 0.125
     assert again[leaf].data.metrics.keys() == after[leaf].data.metrics.keys()
+    assert again[leaf].info.end_time - again[leaf].info.start_time == 125
+    assert again[leaf].info.start_time == before[leaf].info.start_time
+
+
+def test_names_tell_runs_apart_and_durations_are_those_of_the_computation(results: Path) -> None:
+    plan = finished(3, results)
+    found = recorded(plan, results)
+    names = [found[leaf.key].info.run_name for leaf in plan.leaves]
+    tolerances = [plan.parameters(leaf)["solver.tolerance"] for leaf in plan.leaves]
+    assert names == [f"solver tolerance {tolerance}" for tolerance in tolerances] and len(set(names)) == 3
+    for leaf in plan.leaves:
+        seconds = json.loads(event_path(results, "solver", leaf.key).read_text())["seconds"]
+        info = found[leaf.key].info
+        assert info.end_time - info.start_time == round(1000.0 * seconds)
+
+
+def test_a_run_says_which_table_it_is_in_where_there_are_several(results: Path) -> None:
+    tables = [{"comparison": "one", "operator": "fem"}, {"comparison": "other", "operator": "libigl"}]
+    plan = plan_of({**sweep(2), "variants": tables}, results)
+    assert {name.rpartition(" · ")[2] for name in tracking._names(plan).values()} == {"one", "other"}
+    assert len(set(tracking._names(plan).values())) == len(plan.leaves) == 4
 
 
 def test_a_run_of_older_code_is_kept_and_no_longer_current(results: Path) -> None:
