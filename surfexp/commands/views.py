@@ -10,12 +10,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
-from surfexp.report.table import Comparison, comparisons, format_number, rows_of, short_name
+from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name
 from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
+
+
+# a name of a method longer than this is broken over lines
+NAME_WIDTH = 12
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -61,30 +66,60 @@ def wide_console() -> Console:
 
 
 def print_tables(groups: Sequence[Comparison], console: Console, limit: int | None = None) -> None:
-    """One table a comparison; a row that did not converge is red and says so. Of more than `limit` rows an excerpt."""
+    """One table a comparison; a row that did not converge is red and says so. Of more than `limit` rows an excerpt.
+
+    Where the terminal is too narrow for a table without a cut number, each row is a block of lines.
+    """
     for group in groups:
-        console.print(f"\n[bold]{group.title}[/bold]", soft_wrap=True)
-        table = Table(header_style="bold")
-        for name in group.varying:
-            table.add_column(short_name(name), overflow="fold")
-        for name in group.metric_names:
-            table.add_column(name.replace("_", " "), justify="right")
-        limited = any(row.limited for row in group.rows)
-        if limited:
-            table.add_column("state", style="red")
+        console.print(f"\n[bold]{escape(group.title)}[/bold]", soft_wrap=True)
         rows = group.rows if limit is None else group.excerpt(limit)
-        for row in rows:
-            values = [str(row.parameters.get(name, "–")) for name in group.varying]
-            if row.failure:
-                table.add_row(*values, "failed", style="red")
-                continue
-            numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
-            state = ("not converged",) if row.limited else ()
-            table.add_row(*values, *numbers, *state, style="red" if state else None)
-        console.print(table)
+        table = _table(group, rows)
+        if sum(_least_widths(table)) + 3 * len(table.columns) + 1 <= console.width:
+            console.print(table)
+        else:
+            _print_blocks(table, console)
         if len(rows) < len(group.rows):
             said = "the first ones and the best; metrics.csv beside the report and surfexp table have all"
             console.print(f"{len(rows)} of {len(group.rows)} rows: {said}", soft_wrap=True)
+
+
+def _table(group: Comparison, rows: Sequence[Row]) -> Table:
+    table = Table(header_style="bold")
+    for name in group.varying:
+        table.add_column(short_name(name), overflow="fold")
+    for name in group.metric_names:
+        table.add_column(name.replace("_", " "), justify="right")
+    limited = any(row.limited or row.failure for row in group.rows)
+    if limited:
+        table.add_column("state", style="red", no_wrap=True)
+    for row in rows:
+        values = [escape(str(row.parameters.get(name, "–"))) for name in group.varying]
+        numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
+        state = "failed" if row.failure else "not converged" if row.limited else ""
+        table.add_row(*values, *numbers, *([state] if limited else []), style="red" if state else None)
+    return table
+
+
+def _least_widths(table: Table) -> list[int]:
+    """Least width of each column: numbers and the words of headings are never broken, long names are."""
+    widths = []
+    for column in table.columns:
+        words = [word for text in [str(column.header)] for word in text.split()]
+        cells = [str(cell) for cell in column.cells]
+        whole = cells if column.justify == "right" or column.no_wrap else [cell[:NAME_WIDTH] for cell in cells]
+        widths.append(max(map(len, [*words, *whole]), default=0))
+    return widths
+
+
+def _print_blocks(table: Table, console: Console) -> None:
+    """Each row as lines: what tells it apart, then its numbers by name."""
+    headings = [str(column.header) for column in table.columns]
+    width = max(map(len, headings))
+    for row, *cells in zip(table.rows, *(column.cells for column in table.columns), strict=True):
+        console.print()
+        for heading, cell in zip(headings, cells, strict=True):
+            if cell not in ("", "–"):
+                console.print(f"  {heading:{width}}  {cell}", style=row.style, soft_wrap=True)
 
 
 def _dashboard(given: argparse.Namespace) -> int:
