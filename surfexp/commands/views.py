@@ -18,7 +18,6 @@ from surfexp.report.tracking import tracking_uri
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
 
-
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
 
