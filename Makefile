@@ -19,7 +19,7 @@ test-all: .venv/ready
 	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 optional: .venv/ready # open3d, cvxpy: their tests are skipped without
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-optional.lock
+	$(BIN)/python -m pip install --quiet --no-deps --no-compile --require-hashes -r requirements-optional.lock
 
 test-optional: optional
 	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/io tests/mesh tests/variational tests/test_plugins.py

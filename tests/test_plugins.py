@@ -324,7 +324,8 @@ def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
 
 
 # a population on a whole cortex, computed twice
-LONG = {("statistic", name) for name in ("sulcal_population", "sulcal_table", "sulci_names")}
+SULCAL = ("sulcal_population", "sulcal_table", "sulci_names", "sulcal_asymmetry", "template_distances")
+LONG = {("statistic", name) for name in SULCAL} | {("surface", "cortex")}
 STORED = [pytest.param(*key, marks=[pytest.mark.slow] * (key in LONG)) for key in PLUGINS if KINDS[key[0]].stored]
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surfexp.io.tosca import read_mat
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.workflow import registry
@@ -31,6 +32,8 @@ def test_mat_and_text_agree(tmp_path: Path) -> None:
     one, two = read(tmp_path / "cat0.mat"), read(tmp_path / "cat0.vert")
     assert one.name == "cat0" and one.metrics["changes"] == 0.0
     assert np.array_equal(one.mesh.vertices, two.mesh.vertices) and np.array_equal(one.mesh.faces, two.mesh.faces)
+    points, faces = read_mat(tmp_path / "cat0.mat")
+    assert np.array_equal(points, mesh.vertices) and np.array_equal(faces, mesh.faces)
     savemat(tmp_path / "dog0.mat", {"shape": 1.0})
     with pytest.raises(ValueError, match=r"dog0\.mat has no variable 'surface'"):
         read(tmp_path / "dog0.mat")

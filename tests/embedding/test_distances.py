@@ -11,6 +11,7 @@ from scipy.spatial.distance import cdist
 
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks, size_at_gap
+from surfexp.embedding.mean_hausdorff import summarised
 from surfexp.embedding.nearest import mutual_distances, nearest
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
@@ -163,3 +164,37 @@ def test_hausdorff_and_wasserstein_obey_the_triangle_inequality_over_signs() -> 
         table = np.array([[distance(a, b) for b in shapes] for a in shapes])
         assert table == pytest.approx(table.T, abs=1e-9) and np.abs(np.diag(table)).max() < 1e-9
         assert (table[:, None, :] <= table[:, :, None] + table[None, :, :] + 1e-9).all()
+
+
+def test_the_lower_bound_of_blocks_is_that_of_their_lengths() -> None:
+    """No orthogonal matrix on a block changes the length of a point in it, so lengths alone bound the distance."""
+    first, second, blocks = cloud(4, 60, 1), cloud(4, 50, 2), ((0, 1), (1, 3), (3, 4))
+    found = block_distance(first, second, blocks, starts=2)
+    lengths = [
+        np.stack([np.linalg.norm(one.points[:, start:stop], axis=1) for start, stop in blocks], axis=1)
+        for one in (first, second)
+    ]
+    apart = cdist(*lengths)
+    bound = max(float(apart.min(axis=1) @ first.weights), float(apart.min(axis=0) @ second.weights))
+    assert found.lower_bound == pytest.approx(bound, rel=1e-9)
+    assert found.lower_bound < 0.99 * found.value and not found.optimal
+
+
+def test_the_correspondence_is_the_nearest_source_point_of_each_target_point() -> None:
+    first, second = cloud(5, 60, 3), cloud(5, 50, 4)
+    found = spectral_distance(first, second)
+    apart = cdist(found.target_points, found.source_points)
+    assert (found.correspondence == apart.argmin(axis=1)).all() and len(found.correspondence) == 50
+    assert found.metrics["backward"] == pytest.approx(float(apart.min(axis=1) @ second.weights))
+    assert found.metrics["forward"] == pytest.approx(float(apart.min(axis=0) @ first.weights))
+
+
+@pytest.mark.parametrize("summary", ["mean", "largest"])
+@pytest.mark.parametrize("direction", ["forward", "backward", "both"])
+def test_a_summary_is_of_the_distances_each_way(summary: str, direction: str) -> None:
+    first, second = cloud(3, 30, 1), cloud(3, 20, 2)
+    there, back = np.linspace(0.5, 2.0, 30), np.linspace(0.1, 7.0, 20)
+    by_hand = {"mean": (there @ first.weights, back @ second.weights), "largest": (2.0, 7.0)}[summary]
+    expected = {"forward": by_hand[0], "backward": by_hand[1], "both": max(by_hand)}[direction]
+    found = summarised(there, back, first, second, direction, summary)  # type: ignore[arg-type]
+    assert found == pytest.approx(expected, rel=1e-12)

@@ -12,7 +12,15 @@ from surfexp.embedding.geodesic_error import geodesic_errors, share_within
 from surfexp.embedding.labels import desikan_killiany, label_accuracy, map_metrics
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.embedding.surface_map import Pair, contested, embedding_map, icp_map, vertex_index_map, zoomout_map
+from surfexp.embedding.surface_map import (
+    Pair,
+    contested,
+    embedding_map,
+    icp_map,
+    signature_map,
+    vertex_index_map,
+    zoomout_map,
+)
 from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -46,6 +54,13 @@ def test_maps_to_a_disguised_copy_are_exact(pair: Pair) -> None:
     for found in (embedding_map(pair, 6), icp_map(pair, 6), zoomout_map(pair, 6, 30), with_field):
         assert found.metrics["label accuracy"] > 0.999
         assert found.metrics["origin error"] < 1e-3
+
+
+@pytest.mark.parametrize("signature", ["heat", "wave"])
+def test_signatures_of_a_copy_in_another_size_and_order_are_the_same(pair: Pair, signature: str) -> None:
+    found = signature_map(pair, signature)  # type: ignore[arg-type]
+    assert found.metrics["label accuracy"] > 0.99 and found.metrics["origin error"] < 0.01
+    assert found.method == f"{signature} kernel signature"
 
 
 def test_vertex_index_scores_as_chance(pair: Pair) -> None:

@@ -37,6 +37,8 @@ def test_named_views(view: str, right: list[int], up: list[int]) -> None:
 def test_lateral_is_the_outer_side_of_either_hemisphere() -> None:
     mirrored = TriangleMesh(CLOUD.vertices * [-1, 1, 1], CLOUD.faces)
     assert viewing_direction("lateral", CLOUD) == VIEWS["left"] == viewing_direction("medial", mirrored)
+    barely = TriangleMesh(CLOUD.vertices - [CLOUD.vertices[:, 0].mean() - 0.01, 0.0, 0.0], CLOUD.faces)
+    assert viewing_direction("lateral", barely) == VIEWS["right"]
     assert viewing_direction("medial", CLOUD) == VIEWS["right"] == viewing_direction("lateral", mirrored)
 
 

@@ -43,7 +43,7 @@ def check(name: str, mesh: TriangleMesh) -> None:
         assert mesh.vertices[:, 2].min() == 0.0
 
 
-@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize("name", [name for name, (_, count, published, *_) in SURFACES.items() if count < published])
 def test_count_topology_and_triangles(name: str) -> None:
     make, count = SURFACES[name][:2]
     mesh = make(count).mesh

@@ -48,6 +48,8 @@ def test_the_midline_of_a_callosum_from_a_bare_file(seed, tmp_path):
     assert found["midline_miss"] == pytest.approx(miss / h) and found["genu_miss"] <= found["midline_miss"]
     shifted = replace(good, positions=good.positions + 5.0 * h * np.eye(3)[2])
     assert 5.0 < miss_metrics({"one": surface}, {"one": shifted})["genu_miss"] < 5.2
+    both = miss_metrics({"one": surface, "other": surface}, {"one": good, "other": shifted})
+    assert both["midline_miss_worst"] == miss_metrics({"one": surface}, {"one": shifted})["midline_miss"]
     assert miss_metrics({"y": y_patch()}, {"y": good}) == {}
 
 

@@ -134,3 +134,14 @@ def test_unfit_times_and_conditions_are_refused() -> None:
         hear_geometry(system.values)
     with pytest.raises(ValueError, match="choose closed"):
         heat_trace_expansion(np.ones(1), 1.0, condition="open")
+
+
+def test_times_of_the_signature_run_from_the_last_to_the_first_eigenvalue() -> None:
+    surface = icosphere(2)
+    elements = surface_elements(surface.mesh)
+    system = eigenpairs(elements.stiffness, elements.mass, 12)
+    times = heat_times(system, 5)
+    # the slowest mode has fallen to 10^-4 at the last time, the fastest at the first
+    assert np.exp(-system.values[1] * times[-1]) == pytest.approx(1e-4)
+    assert np.exp(-system.values[-1] * times[0]) == pytest.approx(1e-4)
+    assert np.ptp(np.diff(np.log(times))) < 1e-12

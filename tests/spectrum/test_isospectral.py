@@ -16,7 +16,7 @@ from surfexp.studies.drums.isospectral_drums import (
     tile_layout,
     tile_mesh,
 )
-from surfexp.studies.drums.isospectral_graphs import compare_graphs
+from surfexp.studies.drums.isospectral_graphs import PATH, compare_graphs
 from surfexp.studies.drums.transplantation import transplant, transplantation_matrix
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, TransplantationPair, transplantation_pairs
 
@@ -175,3 +175,9 @@ def test_a_wrong_gluing_of_graphs_is_heard() -> None:
     assert compare_graphs(TransplantationPair(pair.first, pair.first)).isomorphic
     with pytest.raises(ValueError, match="at least 3 x 3"):
         compare_graphs(pair, np.ones((2, 2)))
+
+
+def test_the_tile_of_the_graphs_is_a_path_of_four() -> None:
+    degrees = PATH.sum(axis=0)
+    assert np.array_equal(PATH, PATH.T) and not np.diag(PATH).any() and set(np.unique(PATH)) == {0.0, 1.0}
+    assert sorted(degrees) == [1.0, 1.0, 2.0, 2.0] and np.linalg.matrix_power(PATH + np.eye(4), 3).all()

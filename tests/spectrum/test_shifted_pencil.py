@@ -53,8 +53,12 @@ def test_a_shift_on_an_eigenvalue_moves_a_little(matrices) -> None:
 def test_the_best_of_several_shifts_is_taken_where_none_is_good_enough(matrices) -> None:
     a, b, values = matrices
     pencil = ShiftedPencil(a, b)
-    shift, _ = pencil.factor(50.0, accuracy=0.0)
+    shift, factors = pencil.factor(50.0, accuracy=0.0)
     assert len(pencil.counts) > 3 and pencil.doubts[shift] == min(pencil.doubts.values())
+    x = np.random.default_rng(0).normal(size=(642, 8))
+    load = pencil.stiffness @ x - shift * pencil.multiply_mass(x)
+    factors.solve_in_order(load)  # the factors of the best shift, not of the last one that was tried
+    assert np.allclose(load, x, atol=1e-8)
     assert all(count == (values < at).sum() for at, count in pencil.counts.items())
     quick = ShiftedPencil(a, b)
     assert quick.factor(50.0)[0] == 50.0 and len(quick.counts) == 1

@@ -272,3 +272,15 @@ def test_readings_of_a_picture() -> None:
     assert "rank cat, wolf" not in metrics and "remoteness wolf" not in metrics
     absent = class_readings(collection(points[:4], labels[:4]), near[1:], ["wolf"])
     assert absent.metrics["readings"] == 0.0 and set(absent.metrics) == {"members", "classes", "readings"}
+
+
+def test_as_many_neighbours_vote_as_were_asked_for() -> None:
+    """On a line about x = 0: a at 1, b at 2 and 3, a at 4, a at 5. One says a, three b, five a."""
+    points = np.array([0.0, 1.0, -2.0, 3.0, -4.0, 5.0, 50.0])[:, None]
+    written = ["b @ own x", "a @ 1 x", "b @ 2 x", "b @ 3 x", "a @ 4 x", "a @ 5 x", "b @ 6 x"]
+    said = {
+        count: classify(collection(points, written), "k_nearest", count, permutations=0).predicted[0]
+        for count in (1, 3, 5)
+    }
+    assert said == {1: "a", 3: "b", 5: "a"}
+    assert classify(collection(points, written), "nearest_neighbour", permutations=0).predicted[0] == "a"

@@ -130,3 +130,33 @@ def test_derivatives_and_damaged_volumes(working_folder: Path) -> None:
     Path("bad/mri/aseg.mgz").write_bytes(b"\x1f\x8b nothing")
     damaged = sx.fingerprint("bad")
     assert not damaged.columns and "no volume that can be read" in damaged.refused["aseg.mgz"]
+
+
+def test_labels_of_structures_are_those_of_freesurfer() -> None:
+    """A union has the labels of its parts, and both sides have the same structures, 39 labels apart where one is."""
+    from surfexp.anatomy.aseg import STRUCTURES
+
+    assert set(STRUCTURES["Left-Striatum"]) == {
+        code for part in ("Caudate", "Putamen", "Accumbens-area") for code in STRUCTURES[f"Left-{part}"]
+    }
+    left = {name.removeprefix("Left-"): codes for name, codes in STRUCTURES.items() if name.startswith("Left-")}
+    right = {name.removeprefix("Right-"): codes for name, codes in STRUCTURES.items() if name.startswith("Right-")}
+    # FreeSurferColorLUT: deep grey matter of the right is 39 above that of the left up to pallidum, 36 from hippocampus
+    apart = {name: right[name][0] - left[name][0] for name in left}
+    assert left.keys() == right.keys()
+    assert {name for name, by in apart.items() if by == 39} >= {"Thalamus-Proper", "Caudate", "Putamen", "Pallidum"}
+    assert apart["Hippocampus"] == apart["Amygdala"] == 36 and apart["Accumbens-area"] == apart["VentralDC"] == 32
+    single = [codes[0] for codes in [*left.values(), *right.values()] if len(codes) == 1]
+    assert len(set(single)) == len(single)
+
+
+def test_a_volume_with_a_single_fraction_holds_no_labels(tmp_path: Path) -> None:
+    import nibabel
+
+    from surfexp.anatomy.aseg import read_label_volume
+
+    values = np.ones((4, 4, 4))
+    values[1, 2, 3] = 0.5
+    nibabel.save(nibabel.Nifti1Image(values, np.eye(4)), tmp_path / "volume.nii.gz")
+    with pytest.raises(ValueError, match="holds fractions"):
+        read_label_volume(tmp_path / "volume.nii.gz")

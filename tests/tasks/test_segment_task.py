@@ -13,6 +13,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
+from surfexp.tasks.segmentation import Segmentation
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
 
@@ -109,3 +110,9 @@ def test_labels_leave_and_come_back_as_a_mask(name: str, working_folder: Path) -
 def test_what_cannot_be_divided_is_refused(call: dict, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         sx.segment(SPHERE, **call)
+
+
+def test_the_map_of_labels_is_unknown_outside_the_mask_alone() -> None:
+    parts = Segmentation(np.array([0, 1, -1, 1, 0]), 1.0, 0.0, 1.0, 0.9, 0.1, 0.1, True, 2.0)
+    assert np.array_equal(parts.values, [0.0, 1.0, np.nan, 1.0, 0.0], equal_nan=True)
+    assert parts.label_map.keys.tolist() == [1, 2, 0, 2, 1]

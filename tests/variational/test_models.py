@@ -22,6 +22,7 @@ from surfexp.variational.models.deblurring import Deblurring
 from surfexp.variational.models.inpainting import Inpainting
 from surfexp.variational.models.multiphase import MultiphaseSegmentation
 from surfexp.variational.models.rof import ROF
+from surfexp.variational.separable_quadratic import inpainting, rof
 from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.solvers.split_bregman import split_bregman
@@ -252,3 +253,17 @@ def test_any_convex_fidelity_works_by_its_value_and_prox(surface: Surface) -> No
 def test_bad_input_is_refused_by_name(surface: Surface, image: Image, message: str, act: object) -> None:
     with pytest.raises(ValueError, match=message):
         act(surface, image)  # type: ignore[operator]
+
+
+def test_no_fidelity_claims_more_strong_convexity_than_it_has(surface: Surface, image: Image) -> None:
+    """H((u + v) / 2) <= (H(u) + H(v)) / 2 - mu/8 |u - v|^2, and no larger mu holds but for HeatBlur, whose mu is 0."""
+    operator = fem(surface.mesh)
+    known = surface.mesh.vertices[:, 0] > 0.0
+    random = np.random.default_rng(0)
+    terms = [rof(operator.mass, image.values, 0.7), inpainting(operator.mass, image.values, known, 0.7)]
+    for fidelity in [*terms, HeatBlur(operator, image.values, 3.0, 4.0 * operator.edge_length**2)]:
+        box = getattr(fidelity, "lower", -np.inf), getattr(fidelity, "upper", np.inf)
+        u, v = np.clip(image.values + random.normal(size=(2, len(image.values))), *box)
+        bent = 0.5 * (fidelity.value(u) + fidelity.value(v)) - fidelity.value(0.5 * (u + v))
+        claimed = fidelity.strong_convexity / 8.0 * float(operator.mass @ (u - v) ** 2)
+        assert claimed <= bent * (1.0 + 1e-6)
