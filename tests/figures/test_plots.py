@@ -10,12 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from surfexp.figures import convergence_plot as convergence_module
 from surfexp.figures.axes import add_axes, class_style, label_lines, logarithmic, spread
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.interval_plot import interval_plot
 from surfexp.figures.order_plot import convergence_order, order_plot
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.figures.typography import canvas
+from surfexp.figures.typography import canvas, drawn
 
 ITERATIONS = np.arange(1.0, 101.0)
 SMALL = (400, 260)
@@ -144,3 +145,11 @@ def test_plots_of_nothing_are_refused(empty) -> None:  # type: ignore[no-untyped
         empty()
     with pytest.raises(ValueError, match="positive numbers"):
         convergence_order(np.array([1.0, 0.5]), np.array([1.0, 0.0]))
+
+
+def test_powers_are_straight_lines_in_a_convergence_plot(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+    monkeypatch.setattr(convergence_module, "drawn", lambda figure: seen.append(figure.axes[0]) or drawn(figure))
+    convergence_plot({"a": (ITERATIONS, ITERATIONS**-2.0)}, rates=(2,), size=SMALL)
+    (axes,) = seen
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")

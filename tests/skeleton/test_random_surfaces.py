@@ -89,3 +89,15 @@ def test_levels_between_all_critical_values_give_the_exact_graph():
     found = networkx.Graph(skeleton.arcs.tolist())
     forks = sorted(degree for _, degree in found.degree() if degree != 2)
     assert forks == sorted(degrees[degrees != 2].tolist())
+
+
+@settings(max_examples=10)
+@given(st.integers(0, 10**6))
+def test_every_vertex_lies_on_an_arc_whose_values_hold_its_own(seed):
+    mesh = random_closed_surface(seed)
+    lonely = TriangleMesh(np.vstack([mesh.vertices, [[0.0, 0.0, 0.0]]]), mesh.faces)
+    values = smooth_function(lonely, seed)
+    graph = exact_reeb_graph(lonely, values)
+    assert graph.vertex_arcs[-1] == -1 and (graph.vertex_arcs[:-1] >= 0).all()
+    ends = graph.values[graph.arcs[graph.vertex_arcs[:-1]]]
+    assert (ends[:, 0] <= values[:-1]).all() and (values[:-1] <= ends[:, 1]).all()

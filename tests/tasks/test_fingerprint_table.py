@@ -132,6 +132,12 @@ def test_derivatives_and_damaged_volumes(working_folder: Path) -> None:
     assert not damaged.columns and "no volume that can be read" in damaged.refused["aseg.mgz"]
 
 
+def test_fifty_values_are_the_default_as_in_brainprint(working_folder: Path) -> None:
+    sx.write("body.ply", BODY)
+    (values,) = sx.fingerprint("body.ply").columns.values()
+    assert np.array_equal(values, next(iter(sx.fingerprint("body.ply", count=50).columns.values())), equal_nan=True)
+
+
 def test_labels_of_structures_are_those_of_freesurfer() -> None:
     """A union has the labels of its parts, and both sides have the same structures, 39 labels apart where one is."""
     from surfexp.anatomy.aseg import STRUCTURES

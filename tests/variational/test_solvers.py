@@ -11,6 +11,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
 from surfexp.variational.duality_gap import certify
 from surfexp.variational.image import Image
+from surfexp.variational.published.averaged_iterations import averaged_primal_dual
 from surfexp.variational.published.chambolle import published_chambolle
 from surfexp.variational.published.split_bregman import published_split_bregman
 from surfexp.variational.published.vector_pair import VectorPair, shrink
@@ -215,3 +216,15 @@ def test_published_dual_segmentation_is_biased_by_theta(surface: Surface, image:
         run = published_chambolle(fidelity, operator, theta=factor * size, tolerance=1e-9, iteration_limit=1500)
         excess.append((run.energy - best.lower_bound) / float(operator.mass @ np.abs(fidelity.slope)))
     assert excess[0] > 2 * excess[1] > 0
+
+
+def test_averaged_steps_begin_where_they_are_told(surface: Surface, image: Image) -> None:
+    """From the values of a start, or from those of the fidelity; a step of nearly no length leaves them."""
+    averaged = vertex_averaged(surface.mesh)
+    fidelity = denoising(surface, image)
+    known = primal_dual(fidelity, fem(surface.mesh), iteration_limit=50)
+    tiny = 1e-12
+    _, plain = next(averaged_primal_dual(fidelity, averaged, None, tiny, 1))
+    _, warm = next(averaged_primal_dual(fidelity, averaged, known, tiny, 1))
+    assert plain == pytest.approx(fidelity.initial(), abs=1e-6) and warm == pytest.approx(known.values, abs=1e-6)
+    assert np.abs(warm - plain).max() > 1.0
