@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -44,4 +46,4 @@ def test_each_colour_bar_is_as_high_as_its_map_and_beside_it() -> None:
     assert len(maps) == len(bars) == 3
     for drawn, bar in zip(maps, bars, strict=True):
         assert (bar.y0, bar.y1) == pytest.approx((drawn.y0, drawn.y1)) and drawn.x1 < bar.x0 < drawn.x1 + 0.05
-    assert all(upper.y0 > lower.y1 for upper, lower in zip(maps, maps[1:], strict=False))
+    assert all(upper.y0 > lower.y1 for upper, lower in itertools.pairwise(maps))
