@@ -38,6 +38,7 @@ BALL = icosphere(2)
 MESH = BALL.mesh
 N = len(MESH.vertices)
 RING = torus().mesh
+LOOSE = TriangleMesh(np.vstack([MESH.vertices, [[9.0, 9.0, 9.0]]]), MESH.faces)
 
 
 def averaged_conic() -> object:
@@ -84,6 +85,10 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "numbers that are words": (lambda: real_array(np.array(["a"]), "x"), "x is an array of type <U1"),
     "numbers in records": (lambda: real_array(np.zeros(2, dtype=[("a", float)]), "x"), "type structured"),
+    "matrices on a mesh with a loose vertex": (
+        lambda: matrix_operator(LOOSE, csr_array((N + 1, N + 1)), csr_array(eye_array(N + 1)), "own"),
+        f"vertex {N} belongs to no face",
+    ),
     "matrix of another size": (
         lambda: matrix_operator(MESH, csr_array(eye_array(3)), csr_array(eye_array(3)), "own"), "has shape",
     ),

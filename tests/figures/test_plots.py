@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from matplotlib.colors import to_rgb
 
 from surfexp.figures import convergence_plot as convergence_module
+from surfexp.figures import cost_plot as cost_module
 from surfexp.figures.axes import add_axes, class_style, label_lines, logarithmic, spread
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.interval_plot import interval_plot
@@ -153,3 +155,15 @@ def test_powers_are_straight_lines_in_a_convergence_plot(monkeypatch: pytest.Mon
     convergence_plot({"a": (ITERATIONS, ITERATIONS**-2.0)}, rates=(2,), size=SMALL)
     (axes,) = seen
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+def test_the_range_of_seconds_is_a_band_of_the_colour_of_its_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+    monkeypatch.setattr(cost_module, "drawn", lambda figure: seen.append(figure.axes[0]) or drawn(figure))
+    seconds = np.array([[1.0, 0.5, 2.0], [3.0, 2.0, 5.0]])
+    cost_module.cost_plot({"a": (np.array([1e-2, 1e-4]), seconds)}, title="", caption="", size=SMALL)
+    (axes,) = seen
+    (band,), (line, *_) = axes.collections, axes.lines
+    corners = band.get_paths()[0].vertices
+    assert corners[:, 0].min() == 0.5 and corners[:, 0].max() == 5.0
+    assert to_rgb(line.get_color()) == pytest.approx(band.get_facecolor()[0][:3])

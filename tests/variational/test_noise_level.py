@@ -75,3 +75,11 @@ def test_rof_estimates_the_noise_of_a_map_that_came_as_it_is() -> None:
     assert ROF(mu=1.0).run(Image(noisy, "map"), operator, primal_dual).notes == known.notes
     with pytest.raises(ValueError, match="needs sigma > 0"):
         ROF().run(Image(noisy, "clean", clean=noisy), operator, primal_dual)
+
+
+def test_channels_are_pooled() -> None:
+    operator = fem(icosphere(4).mesh)
+    noise = np.random.default_rng(0).normal(size=(len(operator.mass), 3))
+    assert noise_level(operator, 0.3 * noise) == pytest.approx(0.3, rel=0.05)
+    pooled = noise_level(operator, noise * [0.1, 0.1, 5.0])
+    assert noise_level(operator, 0.1 * noise[:, 0]) < pooled < noise_level(operator, 5.0 * noise[:, 2])
