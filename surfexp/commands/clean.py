@@ -8,12 +8,13 @@ import sys
 from pathlib import Path
 
 from surfexp.commands.execution import hold_results
+from surfexp.report.overview import is_ours
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import read_plan
 
 # what runs make below a results folder, which may hold other files as well
 MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",
-        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json", "index.html")  # fmt: skip
+        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -46,7 +47,8 @@ def command(name: str, arguments: list[str]) -> int:
 def _everything(results: Path) -> list[Path]:
     experiments = {file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
     pages = [results / name for name in experiments if (results / name / "report.html").is_file()]
-    return [path for pattern in MADE for path in results.glob(pattern)] + pages
+    overview = [page for page in [results / "index.html"] if is_ours(page)]
+    return [path for pattern in MADE for path in results.glob(pattern)] + pages + overview
 
 
 def _without_content(results: Path) -> list[Path]:

@@ -49,7 +49,7 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
         _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
-    finish(path, plan, arguments)
+    finish(path, plan, arguments, bool(tried))
     if missing:
         failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
         said = "\n".join(filter(None, dict.fromkeys(failures)))
@@ -120,8 +120,10 @@ def _profile(name: str) -> Path:
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:
-    """What plain Snakemake does before it looks for results, in a dry run too: damaged ones alone are removed."""
-    clear(plan, results, {key: fault for key, fault in unfinished(plan, results).items() if fault})
+    """What plain Snakemake does before it looks for results, in a dry run too: nothing sound is removed."""
+    missing = unfinished(plan, results).items()
+    kinds = {key: plan.nodes[key].kind for key, _ in missing}
+    clear(plan, results, {key: said for key, said in missing if said or not store.is_done(results, kinds[key], key)})
 
 
 def hold_results(results: Path, wait: bool = False) -> None:
@@ -146,24 +148,24 @@ def after_snakemake(path: Path) -> None:
         finish(path, read_plan(path))
 
 
-def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None) -> None:
+def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, computed: bool = True) -> None:
     """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
     results = path.parent.parent
     views, state = results / plan.settings.experiment, _state(path, plan, results)
     done = results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
     if (
-        all(file.exists() for file in (done, views / "report.html", results / "mlflow.db"))
+        all(file.exists() for file in (done, views / "report.html", results / "index.html", results / "mlflow.db"))
         and done.read_text() == state
     ):
         return
-    from surfexp.report.origin import write_origin
+    from surfexp.report.origin import forget_origin, write_origin
     from surfexp.report.page import write_report  # which draws with matplotlib
     from surfexp.report.tracking import record
 
     done.unlink(missing_ok=True)
     with _told("the report is not written"):
-        if arguments is not None:
-            write_origin(views, arguments)
+        if computed:
+            write_origin(views, arguments) if arguments is not None else forget_origin(views)
         folder = write_report(plan, results)
         with _told("runs are not recorded in MLflow"):
             _warn(record(plan, results, folder))

@@ -85,9 +85,9 @@ def print_tables(groups: Sequence[Comparison], console: Console, limit: int | No
 def _table(group: Comparison, rows: Sequence[Row]) -> Table:
     table = Table(header_style="bold")
     for name in group.varying:
-        table.add_column(short_name(name), overflow="fold")
+        table.add_column(escape(short_name(name)), overflow="fold")
     for name in group.metric_names:
-        table.add_column(name.replace("_", " "), justify="right")
+        table.add_column(escape(name.replace("_", " ")), justify="right")
     limited = any(row.limited or row.failure for row in group.rows)
     if limited:
         table.add_column("state", style="red", no_wrap=True)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
 from pydantic.fields import FieldInfo
 
+from surfexp.catalogue.loading import load_known_kinds
 from surfexp.metric import NAMES_METRIC, Metric, find_metric
 from surfexp.report.claim import read_claims
 from surfexp.report.table import Row
@@ -16,7 +16,7 @@ from surfexp.report.verdict import equal, selected
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.plan import Leaf, Node, Plan
-from surfexp.workflow.registry import names_of, open_catalogue, plugin
+from surfexp.workflow.registry import names_of, plugin
 
 SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
 
@@ -36,17 +36,17 @@ def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
     return metrics
 
 
-def declared_in(plan: Plan) -> dict[str, Metric]:
-    """The metrics that some row of a plan declares; those of plugins that are not found here are left out."""
+def declared_by(plan: Plan, rows: Sequence[Row]) -> dict[str, Metric]:
+    """The metrics that the rows of a table declare; those of plugins that are not found here are left out."""
     chains = {
-        tuple((name, value) for name, value in plan.parameters(leaf).items() if name.endswith(".name")): leaf
-        for leaf in plan.leaves
+        tuple((name, value) for name, value in row.parameters.items() if name.endswith(".name")): row.leaf.key
+        for row in rows
     }
-    open_catalogue(Path.cwd())
+    load_known_kinds(plan)
     metrics = dict[str, Metric]()
-    for leaf in chains.values():
-        with suppress(UserError):
-            metrics |= declared(plan.nodes, leaf.key)
+    for key in chains.values():
+        with suppress(UserError, KeyError, ImportError):
+            metrics |= declared(plan.nodes, key)
     return metrics
 
 

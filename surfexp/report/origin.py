@@ -17,6 +17,7 @@ from typing import Any
 from surfexp.workflow import store
 
 FILE = "origin.json"
+KEYS = ("command", "date", "version", "python", "commit", "machine")
 
 
 def write_origin(folder: Path, arguments: Sequence[str]) -> None:
@@ -33,10 +34,16 @@ def write_origin(folder: Path, arguments: Sequence[str]) -> None:
 
 
 def read_origin(folder: Path) -> dict[str, Any]:
-    """What `write_origin` noted; empty where plain Snakemake made the results, or another version did."""
-    with suppress(OSError, ValueError, TypeError):
-        return dict(json.loads((folder / FILE).read_text()))
+    """What `write_origin` noted, as text; empty where nothing was noted, as by plain Snakemake."""
+    with suppress(OSError, ValueError, TypeError, RecursionError):
+        found = dict(json.loads((folder / FILE).read_text()))
+        return {key: str(found[key]).encode(errors="replace").decode() for key in KEYS if key in found}
     return {}
+
+
+def forget_origin(folder: Path) -> None:
+    """Remove what was noted: something was computed in another way since."""
+    (folder / FILE).unlink(missing_ok=True)
 
 
 def commit() -> str:

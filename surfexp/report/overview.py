@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -10,6 +11,8 @@ from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import Any
+
+from markupsafe import Markup
 
 from surfexp.report.render import render
 from surfexp.report.table import Row
@@ -19,6 +22,9 @@ from surfexp.workflow.plan import Plan
 
 FILE = "summary.json"
 PICTURE = re.compile(r"[\w-]+\.png")
+# an index.html without this is somebody else's
+MARK = '<meta name="generator" content="surfexp">'
+LARGEST = 10**9
 
 
 def write_summary(folder: Path, plan: Plan, rows: Sequence[Row], verdicts: Sequence[Verdict], picture: str) -> None:
@@ -30,7 +36,7 @@ def write_summary(folder: Path, plan: Plan, rows: Sequence[Row], verdicts: Seque
         "rows": len(rows),
         "failed": sum(bool(row.failure) for row in rows),
         "limited": sum(row.limited for row in rows),
-        "seconds": round(sum(row.seconds or 0.0 for row in rows)),
+        "seconds": round(sum(row.seconds for row in rows if row.seconds and math.isfinite(row.seconds))),
         "verdicts": Counter(item.verdict for item in verdicts),
         "picture": picture,
     }
@@ -38,21 +44,36 @@ def write_summary(folder: Path, plan: Plan, rows: Sequence[Row], verdicts: Seque
 
 
 def write_overview(results: Path) -> None:
-    """Write `index.html` from the summaries beside the reports; one that cannot be read is left out."""
+    """Write `index.html` from the summaries beside the reports; one that cannot be read is left out.
+
+    A file of that name that somebody else wrote is left alone.
+    """
+    target = results / "index.html"
+    if target.exists() and not is_ours(target):
+        return
     pages = [page for file in results.glob(f"*/{FILE}") if (page := _read(file)) is not None]
     pages.sort(key=lambda page: page["date"], reverse=True)
-    store.write_text(results / "index.html", render("index.html.j2", pages=pages))
+    store.write_text(target, render("index.html.j2", pages=pages, mark=Markup(MARK)))
+
+
+def is_ours(page: Path) -> bool:
+    """Whether an overview was written here."""
+    return page.is_file() and MARK in page.read_text(errors="replace")[:2000]
 
 
 def _read(file: Path) -> dict[str, Any] | None:
     """A summary as the overview takes it: what others may have written is text and numbers, and leads nowhere else."""
-    with suppress(OSError, ValueError, TypeError, KeyError, AttributeError):
+    with suppress(OSError, ValueError, TypeError, KeyError, AttributeError, ArithmeticError, RecursionError):
         found = json.loads(file.read_text())
-        texts = {key: str(found[key]) for key in ("title", "question", "date", "picture")}
-        numbers = {key: int(found[key]) for key in ("rows", "failed", "limited", "seconds")}
-        verdicts = {str(name): int(count) for name, count in found["verdicts"].items()}
+        texts = {key: _text(found[key]) for key in ("title", "question", "date", "picture")}
+        numbers = {key: min(int(found[key]), LARGEST) for key in ("rows", "failed", "limited", "seconds")}
+        verdicts = {_text(name): min(int(count), LARGEST) for name, count in found["verdicts"].items()}
         if not PICTURE.fullmatch(texts["picture"]):
             texts["picture"] = ""
         if (file.parent / "report.html").is_file():
             return {**texts, **numbers, "verdicts": verdicts, "name": file.parent.name}
     return None
+
+
+def _text(value: Any) -> str:
+    return str(value).encode(errors="replace").decode()

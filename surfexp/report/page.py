@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections import Counter
 from collections.abc import Mapping
@@ -13,7 +14,7 @@ from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.report.claim import read_claims
 from surfexp.report.costs import cost_figure
-from surfexp.report.declared import declared_in
+from surfexp.report.declared import declared_by
 from surfexp.report.origin import read_origin
 from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.render import render
@@ -46,7 +47,9 @@ def write_report(plan: Plan, results: Path) -> Path:
     """Write `report.html`, `metrics.csv` and `figures/` of a plan below `results/<experiment>/`; return that folder."""
     folder = results / plan.settings.experiment
     rows = rows_of(plan, results)
-    groups = comparisons(rows, declared_in(plan))
+    groups = comparisons(rows)
+    for group in groups:
+        group.metrics = declared_by(plan, group.rows)
     figures = _write_figures(plan, results, folder / "figures")
     sections = [_section(group, figures, _costs_of(group, folder / "figures", k)) for k, group in enumerate(groups)]
     verdicts = judge(read_claims(plan.settings.claims), rows)
@@ -66,7 +69,10 @@ def write_report(plan: Plan, results: Path) -> Path:
     store.write_text(folder / "report.html", page)
     pictures = [item["file"] for section in sections for item in section.figures]
     write_summary(folder, plan, rows, verdicts, pictures[0] if pictures else "")
-    write_overview(results)
+    try:
+        write_overview(results)
+    except Exception as error:  # whatever lies in other folders: this report is written
+        print(f"surfexp: {results / 'index.html'} is not written ({type(error).__name__})", file=sys.stderr)
     return folder
 
 
@@ -116,7 +122,7 @@ def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, An
 
 
 def _write(figure: Figure, file: Path) -> None:
-    temporary = file.with_name(f".{file.name}")
+    temporary = file.with_name(f".{file.name}.{os.getpid()}")
     temporary.write_bytes(encode_png(figure.pixels))
     temporary.rename(file)
 

@@ -42,7 +42,7 @@ def prose(text: str) -> Markup:
 
 def exact(value: float | None) -> str:
     """All digits of a number, by which a column is sorted; nothing where there is none."""
-    return "" if value is None or value != value else repr(float(value))
+    return "" if value is None or value != value else repr(float(value)).replace("inf", "Infinity")
 
 
 def word(value: Any) -> str:

@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from surfexp.io.csv_cells import cells
@@ -19,6 +18,10 @@ from surfexp.workflow.plan import Leaf, Plan
 
 # the kinds whose results are given: rows on other data have no common best
 DATA = ("surface", "image")
+# rows with a best value that an excerpt has beyond the first ones
+BEST_BEYOND = 50
+# what depends on the model and on where a solver stops: a best among rows of different models means nothing
+OF_ONE_PROBLEM = ("gap", "relative_gap", "lower_bound", "error_bound", "iterations", "evaluations", "updates")
 # the kinds whose rows are answers to one question where their data agree; a statistic may ask another in each row
 ANSWERS = ("solver", "measurement", "distance", "distance_matrix", "embedding", "classifier")
 
@@ -104,6 +107,8 @@ class Comparison:
         found = dict[tuple[str, frozenset[str]], float]()
         for name in self.metric_names:
             better, values = self.meaning(name).better, dict[frozenset[str], set[float]]()
+            if name in OF_ONE_PROBLEM and self._several_problems:
+                continue
             for row in rows if better else ():
                 if not math.isnan(value := row.metrics.get(name, math.nan)):
                     values.setdefault(row.data, set()).add(value)
@@ -117,15 +122,21 @@ class Comparison:
         return best is not None and row.metrics.get(name) == best and self._may_be_best(row)
 
     @cached_property
-    def _some_converged(self) -> bool:
+    def _several_problems(self) -> bool:
+        return any(name.startswith("model.") or name.endswith(".tolerance") for name in self.varying)
+
+    @cached_property
+    def some_converged(self) -> bool:
+        """Whether rows say if they converged."""
         return any("converged" in row.metrics for row in self.rows)
 
     def _may_be_best(self, row: Row) -> bool:
         answers = row.leaf.settings["target"] in ANSWERS and not row.limited
-        return answers and ("converged" in row.metrics or not self._some_converged)
+        certified = row.metrics.get("converged") == 1.0 and row.metrics.get("relative_gap", 0.0) <= 1.0
+        return answers and (certified if self.some_converged else not row.failure)
 
     def excerpt(self, limit: int) -> list[Row]:
-        """The first rows, and of the others the first with the best value of each metric; all where they are few."""
+        """The first rows, and of the others some with the best value of a metric; all where they are few."""
         if len(self.rows) <= limit:
             return self.rows
         first: dict[tuple[str, frozenset[str]], int] = {}
@@ -133,7 +144,7 @@ class Comparison:
             for name in self.metric_names:
                 if (name, row.data) not in first and self.is_best(row, name):
                     first[name, row.data] = place
-        ahead = {*range(limit), *sorted(first.values())[:limit]}
+        ahead = {*range(limit), *sorted(first.values())[:BEST_BEYOND]}
         return [row for place, row in enumerate(self.rows) if place in ahead]
 
 
@@ -157,13 +168,13 @@ def _data(plan: Plan, key: str, known: dict[str, frozenset[str]]) -> frozenset[s
     return known[key]
 
 
-def comparisons(rows: list[Row], metrics: Mapping[str, Metric] = MappingProxyType({})) -> list[Comparison]:
-    """Group rows by the comparison that their variant names, in order of appearance; `metrics` are those declared."""
+def comparisons(rows: list[Row]) -> list[Comparison]:
+    """Group rows by the comparison that their variant names, in order of appearance."""
     groups: dict[str, Comparison] = {}
     for row in rows:
         settings = row.leaf.settings
         title = settings["comparison"] or settings["title"] or settings["experiment"]
-        group = groups.setdefault(title, Comparison(title, settings["caption"], [], [], metrics))
+        group = groups.setdefault(title, Comparison(title, settings["caption"], [], []))
         group.rows.append(row)
         group.columns += [name for name in settings["columns"] if name not in group.columns]
     return list(groups.values())
@@ -195,6 +206,8 @@ def format_number(value: float | None) -> str:
     """Four significant digits, powers of ten only where they help, a dash for nothing."""
     if value is None or value != value:
         return "–"
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
     if value == int(value) and abs(value) < 1e7:
         return f"{int(value):,}".replace(",", "\u202f")
     if 1e-3 <= abs(value) < 1e6:

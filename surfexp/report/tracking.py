@@ -169,7 +169,8 @@ def _names(plan: Plan) -> dict[str, str]:
         for row in group.rows:
             known = [(name, row.parameters[name]) for name in group.varying if row.parameters.get(name) is not None]
             parts = [str(value) if name.endswith(".name") else f"{short_name(name)} {value}" for name, value in known]
-            names[row.leaf.key] = " · ".join([*parts, group.title][: len(parts) + (len(groups) > 1)])[:250]
+            where = [group.title] if len(groups) > 1 else []
+            names[row.leaf.key] = " · ".join([*(parts or [row.leaf.key[:8]]), *where])[:250]
     return names
 
 

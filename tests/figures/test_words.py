@@ -16,7 +16,6 @@ from surfexp.figures.figure import noun, sentence
         ("Y", "Y", "a Y"),
         ("lh.thickness", "lh.thickness", "lh.thickness"),
         ("white_left", "white_left", "white_left"),
-        ("", "", "a "),
     ],
 )
 def test_a_name_in_a_caption(name: str, first: str, after: str) -> None:

@@ -148,3 +148,12 @@ def test_bad_matrices_are_refused() -> None:
         ldlt(eye_array(3).tocsr()).solve(np.ones(5))
     with pytest.raises(ValueError, match="4 rows"):
         ldlt(eye_array(4).tocsr(), analyse(eye_array(3).tocsr()))
+
+
+@pytest.mark.parametrize("small", [1e-9, 1e-12])
+def test_a_small_pivot_is_a_pivot(small: float) -> None:
+    """Only what is under 1e-14 of the least diagonal entry is replaced: here Schur complements as small as `small`."""
+    matrix = csr_array(block_diag([np.array([[1.0, 1.0], [1.0, 1.0 + small]])] * 3))
+    factors = ldlt(matrix)
+    assert factors.replaced_pivots == 0 and factors.inertia == (0, 6)
+    assert ldlt(csr_array(block_diag([np.ones((2, 2))] * 3))).replaced_pivots == 3

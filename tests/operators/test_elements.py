@@ -179,6 +179,8 @@ def test_unfit_requests_are_refused() -> None:
     mesh = icosphere(1).mesh
     with pytest.raises(ValueError, match="choose 1, 2 or 3"):
         surface_elements(mesh, 4)
+    with pytest.raises(ValueError, match="mass 'lump' is unknown, choose consistent, lumped or averaged"):
+        surface_elements(icosphere(1).mesh, mass="lump")
     with pytest.raises(ValueError, match="no boundary"):
         surface_elements(mesh, boundary="dirichlet")
     with pytest.raises(ValueError, match="order 1"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.report.origin import read_origin, write_origin
-from surfexp.report.overview import FILE, write_overview
+from surfexp.report.overview import FILE, is_ours, write_overview
 from surfexp.report.page import write_report
 
 SUMMARY = {
@@ -37,22 +37,37 @@ def test_experiments_are_listed_the_newest_first(tmp_path: Path) -> None:
     summarise(tmp_path, "old", date="2025-12-31 23:59")
     summarise(tmp_path, "new")
     page = overview(tmp_path)
-    assert page.index('href="new/report.html"') < page.index('href="old/report.html"')
+    assert page.index('href="./new/report.html"') < page.index('href="./old/report.html"')
     assert "2 rows" in page and "1 row did not converge" in page and "2 holds" in page and "1 does not hold" in page
-    assert 'src="new/figures/error-1a2b3c4d.png"' in page
+    assert 'src="./new/figures/error-1a2b3c4d.png"' in page
 
 
 def test_what_a_summary_says_is_text(tmp_path: Path) -> None:
     summarise(tmp_path, "evil", title="<script>1</script>", picture="../../../etc/passwd", question="<b>")
     summarise(tmp_path, "odd", rows="many")
     summarise(tmp_path, "list", verdicts=[1])
+    summarise(tmp_path, "huge", rows=10**400, seconds=1e300)
+    summarise(tmp_path, "https:evil.example", title="elsewhere")
+    for name, text in {"infinite": json.dumps(SUMMARY).replace(": 2", ": 1e999"), "deep": "[" * 200000}.items():
+        summarise(tmp_path, name)
+        (tmp_path / name / FILE).write_text(text)
+    summarise(tmp_path, "surrogate", title="\ud800")
     (tmp_path / "half").mkdir()
     (tmp_path / "half" / FILE).write_text('{"title": ')
     (tmp_path / "gone").mkdir()
     (tmp_path / "gone" / FILE).write_text(json.dumps(SUMMARY))
     page = overview(tmp_path)
     assert "<script>1" not in page and "&lt;script&gt;1" in page and "passwd" not in page and "&lt;b&gt;" in page
-    assert page.count("<article>") == 1
+    assert page.count("<article>") == 4 and 'href="https:' not in page and 'href="./https%3Aevil' in page
+
+
+def test_an_index_of_somebody_else_is_left_alone(tmp_path: Path) -> None:
+    summarise(tmp_path, "new")
+    (tmp_path / "index.html").write_text("<h1>mine</h1>")
+    assert overview(tmp_path) == "<h1>mine</h1>" and not is_ours(tmp_path / "index.html")
+    (tmp_path / "index.html").unlink()
+    overview(tmp_path)
+    assert is_ours(tmp_path / "index.html") and "<article>" in overview(tmp_path)
 
 
 def test_a_report_adds_its_experiment_and_says_how_it_was_made(tmp_path: Path) -> None:
@@ -60,11 +75,11 @@ def test_a_report_adds_its_experiment_and_says_how_it_was_made(tmp_path: Path) -
     fill(plan, tmp_path)
     folder = tmp_path / plan.settings.experiment
     first = (write_report(plan, tmp_path) / "report.html").read_text()
-    assert "Made by" not in first and 'href="synthetic/report.html"' in (tmp_path / "index.html").read_text()
+    assert "Last computed" not in first and 'href="./synthetic/report.html"' in (tmp_path / "index.html").read_text()
     write_origin(folder, ["experiment=synthetic", "grid.x=[1, 2]"])
     second = (write_report(plan, tmp_path) / "report.html").read_text()
     assert (
         "surfexp run experiment=synthetic &#39;grid.x=[1, 2]&#39;" in second and read_origin(folder)["commit"] in second
     )
     (folder / "origin.json").write_text("[]")
-    assert "Made by" not in (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "Last computed" not in (write_report(plan, tmp_path) / "report.html").read_text()

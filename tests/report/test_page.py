@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,14 @@ import numpy as np
 import pytest
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.metric import Metric
+from surfexp.metric import Metric, find_metric
 from surfexp.report import page
+from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report
 from surfexp.report.render import prose
-from surfexp.report.table import Comparison, Row, number_notes, rows_of
+from surfexp.report.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
 from surfexp.report.verdict import _quantity
+from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Leaf
 
 
@@ -34,9 +37,13 @@ def rows_by_chance(count: int, seed: int) -> list[Row]:
     leaf = Leaf("key", "configuration", {"target": "solver"})
     rows = []
     for number in range(count):
-        metrics = {"rmse": float(random.integers(3)), "psnr": random.choice([1.0, float("nan")]), "area": number / 2.0}
+        metrics = {
+            "rmse": float(random.integers(3)),
+            "psnr": random.choice([1.0, 2.0, 3.0, float("nan")]),
+            "area": number / 2.0,
+        }
         metrics |= {"converged": float(random.integers(2))} if random.integers(4) else {}
-        metrics |= {"dice sulc": 0.5} if number % 3 else {}
+        metrics |= {"dice sulc": float(random.integers(4)) / 4.0} if number % 3 else {}
         data = frozenset(random.choice(["one", "other"], 1).tolist())
         parameters = {"solver.name": "rof", "solver.seed": number}
         rows.append(Row(leaf, parameters, metrics, 1.0, [f"note {number % 2}"], "", data))
@@ -120,7 +127,7 @@ def test_work_grows_with_the_rows_and_each_file_is_read_once(tmp_path: Path, mon
         counts.clear()
         write_report(plan, tmp_path / str(leaves))
         seen[leaves] = dict(counts)
-        assert counts["read_bytes"] <= leaves + 2 and counts["read_text"] <= leaves + 2
+        assert counts["read_bytes"] <= leaves + 2 and counts["read_text"] <= leaves + 6
     assert seen[60]["limited"] <= 2 * seen[30]["limited"] and seen[30]["columns"] == seen[60]["columns"]
 
 
@@ -133,3 +140,46 @@ def test_ratios_lie_between_those_of_the_extremes() -> None:
         values, divisors = (list(random.normal(random.normal(), 1.0, random.integers(1, 6))) for _ in range(2))
         ratios = [above / below for above in values for below in divisors]
         assert _quantity(claim, values, divisors)[1:] == (min(ratios), max(ratios))
+
+
+def test_pages_ask_no_other_host() -> None:
+    folder = Path(page.__file__).parent / "templates"
+    files = [file for file in folder.iterdir() if file.suffix in (".j2", ".css", ".js")]
+    assert len(files) == 4
+    for file in files:
+        assert not re.search(r"https?:|url\(|@import|[\"'(]//[a-z]", file.read_text()), file.name
+
+
+def test_odd_numbers_are_shown_and_break_nothing(tmp_path: Path) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    fill(plan, tmp_path)
+    for seconds, leaf in zip(("NaN", "1e999", '"soon"'), plan.leaves, strict=True):
+        file = event_path(tmp_path, "solver", leaf.key)
+        file.write_text(re.sub(r'"seconds": [^,]+', f'"seconds": {seconds}', file.read_text()))
+    text = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "∞" in text and text.count("<tr ") == 3
+    assert [format_number(value) for value in (float("inf"), -float("inf"), float("nan"))] == ["∞", "−∞", "–"]
+
+
+def test_a_metric_means_what_its_own_table_declares(tmp_path: Path) -> None:
+    """The gap of a solver is better when it is low, that of an eigenvalue to the next when it is high."""
+    feature = {"target": "feature", "feature": "eigenmap", "comparison": "modes"}
+    plan = plan_of({**sweep(2), "columns": [], "variants": [{"comparison": "solvers"}, feature]}, tmp_path)
+    fill(plan, tmp_path)
+    groups = {group.title: group for group in comparisons(rows_of(plan, tmp_path))}
+    directions = {title: find_metric("gap", declared_by(plan, group.rows)) for title, group in groups.items()}
+    assert [directions[name].better for name in ("solvers", "modes")] == ["lower", "higher"]  # type: ignore[union-attr]
+
+
+def test_gaps_of_different_problems_have_no_best() -> None:
+    rows = rows_by_chance(9, 0)
+    for number, row in enumerate(rows):
+        row.parameters["model.mu"] = number
+        row.metrics |= {"converged": 1.0, "iterations": float(number)}
+    metrics = {**METRICS, "iterations": Metric("steps", "", "lower")}
+    assert "iterations" not in {name for name, _ in Comparison("", "", rows, [], metrics).best}
+    for row in rows:
+        del row.parameters["model.mu"]
+    assert "iterations" in {name for name, _ in Comparison("", "", rows, [], metrics).best}
+    rows[0].metrics |= {"relative_gap": 5.0, "iterations": -1.0}
+    assert not Comparison("", "", rows, [], metrics).is_best(rows[0], "iterations")

@@ -54,3 +54,14 @@ def test_wide_terminals_have_a_table_and_narrow_ones_blocks() -> None:
 @pytest.mark.parametrize("width", [60, 200])
 def test_a_failed_row_says_so(width: int) -> None:
     assert printed(comparison(9, "division by zero"), width).count("failed") == 1
+
+
+def test_names_with_brackets_are_shown_as_they_are() -> None:
+    leaf = Leaf("key", "configuration", {"target": "solver"})
+    rows = [
+        Row(leaf, {"solver.name": "[/b]", "solver.x": k}, {"remoteness [/b]": 1.0, "gap [mm]": 2.0}, 1.0)
+        for k in (1, 2)
+    ]
+    for width in (30, 200):
+        text = printed(Comparison("", "", rows, []), width)
+        assert "[/b]" in text and "[mm]" in text

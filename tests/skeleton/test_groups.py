@@ -27,7 +27,12 @@ from surfexp.studies.cingulate.average_cingulate import cingulate
 from surfexp.studies.cingulate.donor_cingulate import donor_cingulate, medial_face
 from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
 from surfexp.studies.skeletons.skeleton_alignment import align, bootstrap_shares, principal_components, rigid_fit
-from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton, miss_metrics, topology_metrics
+from surfexp.studies.skeletons.skeleton_study import (
+    eigenmap_skeleton,
+    group_skeletons,
+    miss_metrics,
+    topology_metrics,
+)
 from surfexp.workflow import registry
 
 
@@ -223,3 +228,10 @@ def test_a_study_of_one_member_tells_its_skeleton_and_has_no_components():
     assert one.columns == {} and "first_share" not in one.metrics and "no principal components" in one.notes[0]
     two = study.function(study.options(count=20), surfaces={"a": strip(), "b": strip(bend=0.5)})
     assert two.notes == () and len(two.columns["share"]) == 1
+
+
+def test_skeletons_of_a_group_are_those_of_its_members_with_the_plain_laplacian() -> None:
+    surface = callosum(3)
+    (found,) = group_skeletons({"one": surface}, count=12).values()
+    alone, _ = eigenmap_skeleton(surface.mesh, alpha=0.0, count=12)
+    assert np.array_equal(found.positions, alone.positions) and np.array_equal(found.arcs, alone.arcs)

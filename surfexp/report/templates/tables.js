@@ -6,7 +6,6 @@ for (const table of document.querySelectorAll("table.rows")) {
   const valueOf = (row, column) => row.cells[column].dataset.value ?? row.cells[column].textContent.trim();
   const compare = (one, other) => {
     const a = Number(one), b = Number(other);
-    if (one === "" || other === "" || one === "–" || other === "–") return NaN;
     return Number.isNaN(a) || Number.isNaN(b) ? one.localeCompare(other, "en", { numeric: true }) : a - b;
   };
   const missing = (value) => value === "" || value === "–";
