@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from embedded_clouds import cloud
 from scipy.spatial.distance import cdist
 
+from surfexp.embedding import spectral_distance as spectral_distance_module
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks, size_at_gap
 from surfexp.embedding.mean_hausdorff import summarised
 from surfexp.embedding.nearest import mutual_distances, nearest
-from surfexp.embedding.spectral_distance import spectral_distance
+from surfexp.embedding.spectral_distance import sampled_signs, spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.wasserstein import transport_cost, wasserstein_distance
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
@@ -187,6 +189,19 @@ def test_the_correspondence_is_the_nearest_source_point_of_each_target_point() -
     assert (found.correspondence == apart.argmin(axis=1)).all() and len(found.correspondence) == 50
     assert found.metrics["backward"] == pytest.approx(float(apart.min(axis=1) @ second.weights))
     assert found.metrics["forward"] == pytest.approx(float(apart.min(axis=0) @ first.weights))
+
+
+@pytest.mark.parametrize(("exact", "draws"), [(True, 1), (False, 2)])
+def test_signs_that_nothing_proves_are_drawn_twice(exact: bool, draws: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[tuple[int, int]] = []
+
+    def watched(*given: Any) -> Any:
+        seen.append(given[-2:])
+        return sampled_signs(*given)
+
+    monkeypatch.setattr(spectral_distance_module, "sampled_signs", watched)
+    spectral_distance(cloud(4, 40, 1), cloud(4, 40, 2), limit=7, exact=exact)
+    assert seen == [(draws, 7 if exact else spectral_distance_module.SAMPLED_LIMIT)]
 
 
 @pytest.mark.parametrize("summary", ["mean", "largest"])

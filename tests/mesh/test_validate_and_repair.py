@@ -137,6 +137,12 @@ def test_repair_gives_the_sphere_back(make: Callable[[], Arrays]) -> None:
     assert (mesh.face_normals * mesh.vertices[mesh.faces].mean(axis=1)).sum(axis=1).min() > 0
 
 
+@pytest.mark.parametrize(("face", "named"), [([0, 1, 99], 99), ([0, 1, -2], -2), ([3, 1, 2], 3)])
+def test_the_vertex_that_a_face_names_in_vain_is_told(face: list[int], named: int) -> None:
+    with pytest.raises(ValueError, match=f"faces name vertex {named}, but the vertices are 0..2"):
+        TriangleMesh(np.eye(3), np.array([[0, 1, 2], face]))
+
+
 def test_repair_of_a_face_without_area_keeps_the_surface() -> None:
     mesh = repair(*zero_area()).mesh
     assert mesh.is_closed and mesh.genus == 0

@@ -53,15 +53,25 @@ def test_a_shift_on_an_eigenvalue_moves_a_little(matrices) -> None:
 def test_the_best_of_several_shifts_is_taken_where_none_is_good_enough(matrices) -> None:
     a, b, values = matrices
     pencil = ShiftedPencil(a, b)
-    shift, factors = pencil.factor(50.0, accuracy=0.0)
+    shift, _ = pencil.factor(50.0, accuracy=0.0)
     assert len(pencil.counts) > 3 and pencil.doubts[shift] == min(pencil.doubts.values())
-    x = np.random.default_rng(0).normal(size=(642, 8))
-    load = pencil.stiffness @ x - shift * pencil.multiply_mass(x)
-    factors.solve_in_order(load)  # the factors of the best shift, not of the last one that was tried
-    assert np.allclose(load, x, atol=1e-8)
     assert all(count == (values < at).sum() for at, count in pencil.counts.items())
     quick = ShiftedPencil(a, b)
     assert quick.factor(50.0)[0] == 50.0 and len(quick.counts) == 1
+
+
+def test_factors_are_those_of_the_shift_that_is_returned(matrices) -> None:
+    a, b, _ = matrices
+    pencil, before_the_last = ShiftedPencil(a, b), 0
+    for wanted in np.linspace(10.0, 110.0, 12):
+        pencil.counts.clear()
+        shift, factors = pencil.factor(float(wanted), accuracy=0.0)
+        before_the_last += shift != list(pencil.counts)[-1]
+        x = np.random.default_rng(0).normal(size=(642, 8))
+        load = pencil.stiffness @ x - shift * pencil.multiply_mass(x)
+        factors.solve_in_order(load)
+        assert np.allclose(load, x, atol=1e-8)
+    assert before_the_last > 3
 
 
 def test_a_hopeless_pencil_is_refused() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -34,6 +36,14 @@ def on_whole(values: np.ndarray) -> np.ndarray:
 def test_masking_equals_cutting(task) -> None:
     masked, cut = task(MASKED, NOISY), task(CUT, NOISY[PART.vertices])
     assert np.array_equal(masked, on_whole(cut), equal_nan=True)
+
+
+def test_labels_of_another_surface_are_refused(tmp_path: Path) -> None:
+    ball = sx.shape("icosphere", levels=1)
+    sx.write(tmp_path / "ball.ply", ball)
+    sx.write(tmp_path / "parts.label.gii", np.arange(10) % 2)
+    with pytest.raises(ValueError, match=f"labels 'parts' have 10 entries, .* has {len(ball.mesh.vertices)} vertices"):
+        sx.read(tmp_path / "ball.ply", labels={"parts": tmp_path / "parts.label.gii"})
 
 
 def test_nan_in_the_map_is_the_mask_and_is_said() -> None:
