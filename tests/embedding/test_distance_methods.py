@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from embedded_clouds import cloud
@@ -10,7 +12,7 @@ from surfexp.embedding.distance_methods import Pairing
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.sup_inf import block_group, sup_inf_distance
-from surfexp.embedding.wasserstein import wasserstein_distance
+from surfexp.embedding.wasserstein import WassersteinObjective, transport_cost, wasserstein_distance
 
 FIRST, SECOND = cloud(3, 40, 1), cloud(3, 36, 2)
 SAMPLES = 100  # more than there are points
@@ -49,3 +51,16 @@ def test_distances_over_signs_come_with_their_bound(method: str, summary: str) -
 def test_transport_comes_with_its_bound() -> None:
     expected = wasserstein_distance(FIRST, SECOND, SAMPLES, 2000, 0)
     assert Pairing("wasserstein", samples=SAMPLES)(FIRST, SECOND) == (expected.value, expected.lower_bound)
+
+
+def test_transport_under_signs_and_its_bound_where_they_are_undecided() -> None:
+    objective = WassersteinObjective(FIRST, SECOND)
+    weights = FIRST.weights, SECOND.weights
+    values = {}
+    for signs in itertools.product((-1, 1), repeat=3):
+        values[signs] = objective(np.array(signs, dtype=np.int8))
+        assert values[signs] == pytest.approx(transport_cost(FIRST.points * signs, SECOND.points, weights), rel=1e-12)
+    for known in (0, 1, 2):
+        for signs in itertools.product((-1, 1), repeat=known):
+            bound = objective(np.array([*signs, *[0] * (3 - known)], dtype=np.int8))
+            assert 0.0 < bound <= min(value for full, value in values.items() if full[:known] == signs) + 1e-12

@@ -23,7 +23,7 @@ from surfexp.skeleton.flux import (
     weight_far_from_boundary,
     weighted_operator,
 )
-from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
+from surfexp.skeleton.hamilton_jacobi import _spanning_edges, hamilton_jacobi_skeleton
 
 FLAT = rectangle(61, 25, 2.5, 1.0).mesh
 H = FLAT.edge_length
@@ -145,3 +145,10 @@ def test_points_on_the_midline_of_a_rectangle_have_more_weight() -> None:
     assert weight_far_from_boundary(mesh, weights, distance) > 1.1
     assert weight_far_from_boundary(mesh, 1.0 / weights, distance) < 1.0
     assert weight_far_from_boundary(mesh, np.ones(len(distance)), distance) == pytest.approx(1.0)
+
+
+def test_of_a_face_that_is_kept_whole_the_longest_side_goes():
+    mesh = TriangleMesh(np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0], [9, 9, 0]]), np.array([[0, 1, 2], [1, 3, 2]]))
+    kept = np.array([True, True, True, False])
+    edges = _spanning_edges(mesh, kept, np.arange(4))
+    assert sorted(map(sorted, edges.tolist())) == [[0, 1], [0, 2]]
