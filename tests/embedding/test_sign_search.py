@@ -170,3 +170,12 @@ def test_senseless_requests_are_refused() -> None:
         search_signs(objective, 3, None, 1)
     with pytest.raises(ValueError, match="embeddings differ"):
         HausdorffObjective(cloud(3, 10, 0), cloud(4, 10, 1))
+
+
+def test_what_was_tried_out_is_proved() -> None:
+    first, second = cloud(4, 30, 1), cloud(4, 30, 2)
+    objective = HausdorffObjective(first, second)
+    found = enumerate_signs(objective, 4)
+    values = {signs: objective(np.array(signs, dtype=np.int8)) for signs in product((-1, 1), repeat=4)}
+    assert found.optimal and found.lower_bound == found.value == min(values.values()) == values[tuple(found.signs)]
+    assert found.evaluations == 16 and len(found.closed) == 16

@@ -36,6 +36,14 @@ def test_lines_for_viewers(tmp_path, name, points, arcs):
     assert np.array_equal(pairs, SKELETON.arcs)
 
 
+def test_a_viewer_gets_values_and_lengths_at_the_nodes(tmp_path):
+    write_skeleton(tmp_path / "s.vtk", SKELETON)
+    lines, count = (tmp_path / "s.vtk").read_text().splitlines(), len(SKELETON.positions)
+    for name, values in (("value", SKELETON.values), ("length", SKELETON.lengths)):
+        start = lines.index(f"SCALARS {name} double 1") + 2
+        assert np.allclose(np.array(lines[start : start + count], dtype=float), values, atol=1e-8)
+
+
 def test_another_ending_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"graphml, \.vtk, \.ply"):
         write_skeleton(tmp_path / "s.obj", SKELETON)
