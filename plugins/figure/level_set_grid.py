@@ -35,7 +35,8 @@ def level_set_grid_figure(options: LevelSetGrid, *, surface: Surface, statistic:
     grid = patch_grid(surface, shape[0], max(shape[1], 9), options.alpha, ahead=options.ahead)
     found = (columns["corrected_p"] <= options.level).reshape(shape)
     caption = (
-        f"{sentence(statistic.name)} by level sets, u along the skeleton and v across: {int(found.sum())} of {found.size} "
+        f"{sentence(statistic.name)} by level sets, u along the skeleton and v across: "
+        f"{int(found.sum())} of {found.size} "
         f"points differ at level {options.level:g} after correction; the smallest p is {columns['corrected_p'].min():.3f}. "
         f"Red: larger in {options.first}. Drawn on {surface.name}."
     )

@@ -1,7 +1,8 @@
 """All plugins described by another process: whatever a file does when it is imported, the rest of the tool works.
 
-`python -m surfexp.catalogue.contained FOLDER FAULTS` writes lines of JSON: the name of each file before it is loaded, and
-at the end the description. What is found out is remembered by the state of the files, so this runs when one has changed.
+`python -m surfexp.catalogue.contained FOLDER FAULTS` writes lines of JSON: the name of each file before it is loaded,
+and at the end the description. What is found out is remembered by the state of the files, so this runs when one has
+changed.
 """
 
 from __future__ import annotations

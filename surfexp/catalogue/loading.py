@@ -20,7 +20,7 @@ OF_FILE = "surfexp_plugin_"
 
 
 def loaders(working_folder: Path) -> dict[str, Callable[[], Any]]:
-    """What loads each plugin file: the package's own, installed ones (entry points `surfexp.plugins`), `plugins/` here."""
+    """What loads each plugin file: the package's own, installed ones (`surfexp.plugins`), those in `plugins/` here."""
     from surfexp.workflow.registry import load_file
 
     files = {str(file): partial(load_file, file) for file in plugin_files(working_folder)}
@@ -28,7 +28,7 @@ def loaders(working_folder: Path) -> dict[str, Callable[[], Any]]:
 
 
 def load_all(working_folder: Path) -> None:
-    """Load every plugin; a file that fails is remembered and the rest still works, two plugins of one name are refused."""
+    """Load every plugin; a file that fails is remembered and the rest works, two plugins of one name are refused."""
     for file, load in loaders(working_folder).items():
         guarded(file, load)
 

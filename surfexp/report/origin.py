@@ -1,4 +1,4 @@
-"""Where the results of a page come from: the command, the date, the versions and the machine of the last computation."""
+"""Where the results of a page come from: command, date, versions and machine of the last computation."""
 
 from __future__ import annotations
 

@@ -30,8 +30,8 @@ ANSWERS = ("solver", "measurement", "distance", "distance_matrix", "embedding", 
 class Row:
     """One leaf: its parameters, metrics, notes and whether its certificate was reached.
 
-    `seconds` is measured, not a part of the result: None where the event of the stage was lost. `data` are the keys of the
-    surfaces and images that it starts from.
+    `seconds` is measured, not a part of the result: None where the event of the stage was lost. `data` are the keys of
+    the surfaces and images that it starts from.
     """
 
     leaf: Leaf
@@ -102,7 +102,7 @@ class Comparison:
 
     @cached_property
     def best(self) -> dict[tuple[str, frozenset[str]], float]:
-        """The best value of each metric that has a good direction, by data: of the rows that converged and differ in it."""
+        """The best value of each metric that has a good direction, by data, of rows that converged and differ in it."""
         rows = [row for row in self.rows if self._may_be_best(row)]
         found = dict[tuple[str, frozenset[str]], float]()
         for name in self.metric_names:

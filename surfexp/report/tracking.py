@@ -162,7 +162,7 @@ def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[
 
 
 def _names(plan: Plan) -> dict[str, str]:
-    """A name for the run of every leaf: what tells it from the others of its table, then the table if there are several."""
+    """A name for the run of every leaf: what tells it from the others of its table, then the table among several."""
     groups = comparisons([Row(leaf, plan.parameters(leaf), {}, None) for leaf in plan.leaves])
     names = {}
     for group in groups:

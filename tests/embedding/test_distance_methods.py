@@ -1,4 +1,4 @@
-"""A name stands for its method: each is compared with the function behind it, on clouds small enough for brute force."""
+"""A name stands for its method: each is compared with the function behind it, on clouds small enough to try all."""
 
 from __future__ import annotations
 

@@ -54,7 +54,8 @@ def shown(page: Path) -> str:
 
 def test_a_table_sorts_by_all_digits_and_goes_back(tmp_path: Path) -> None:
     script = """
-      const start = values("rmse"); click("rmse"); const up = values("rmse"); click("rmse"); const down = values("rmse");
+      const start = values("rmse"); click("rmse"); const up = values("rmse");
+      click("rmse"); const down = values("rmse");
       click("rmse"); return [start, up, down, values("rmse"), heads[column("rmse")].getAttribute("aria-sort")];
     """
     start, up, down, back, state = driven(page_of(tmp_path), script)

@@ -1,8 +1,10 @@
 "use strict";
-// Tables sort by a click on a heading, keep the rows that hold a word, and hide columns. Without scripts they are whole.
+// Tables sort by a click on a heading, keep the rows that hold a word, and hide columns.
+// Without scripts they are whole.
 for (const table of document.querySelectorAll("table.rows")) {
   const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells], rows = [...body.rows];
-  const tools = document.createElement("div"), word = document.createElement("input"), count = document.createElement("span");
+  const tools = document.createElement("div"), count = document.createElement("span");
+  const word = document.createElement("input");
   const valueOf = (row, column) => row.cells[column].dataset.value ?? row.cells[column].textContent.trim();
   const compare = (one, other) => {
     const a = Number(one), b = Number(other);
@@ -53,4 +55,6 @@ for (const table of document.querySelectorAll("table.rows")) {
   if (rows.length > 2) table.parentElement.before(tools);
 }
 // what is folded away on a screen is on paper
-addEventListener("beforeprint", () => document.querySelectorAll("details.rows").forEach((part) => { part.open = true; }));
+addEventListener("beforeprint", () => {
+  for (const part of document.querySelectorAll("details.rows")) part.open = true;
+});
