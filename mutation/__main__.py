@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections import Counter
 from itertools import chain
 from pathlib import Path
 
@@ -102,14 +103,14 @@ def run_random(options: argparse.Namespace) -> list[str]:
 
 
 def run_claims(options: argparse.Namespace) -> list[str]:
-    """Return which claims no fault turned, and write the page of all that are recorded."""
+    """Return which claims their fault left untouched, and write the page of all that are recorded."""
     problems = []
-    for row in claims.try_all(claims.faults(options.words), options.workers):
-        before, after = row["before"], row["after"]
-        print(f"{row['outcome']:9}  {row['experiment']}: {row['claim'][:60]}: {before[0]} {before[1]}", end=" ")
-        print(f"→ {after[0]} {after[1]}", flush=True)
-        if row["outcome"] == "untouched":
-            problems.append(f"untouched: {row['experiment']}: {row['claim']}")
+    for trial in claims.try_all(claims.faults(options.words), options.workers):
+        counts = Counter(trial.outcome(claim) for claim in trial.before)
+        told = ", ".join(f"{counts[outcome]} {outcome}" for outcome in claims.OUTCOMES if counts[outcome])
+        print(f"{trial.fault.experiment}: {trial.fault.path}: {told}", flush=True)
+        if trial.named and trial.outcome(trial.named) == "untouched":
+            problems.append(f"untouched: {trial.fault.experiment}: {trial.named}")
     claims.write_page()
     return problems
 

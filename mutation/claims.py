@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -16,7 +17,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import yaml
 
@@ -24,14 +24,17 @@ from mutation import ROOT
 
 LIST = ROOT / "mutation" / "claims.yaml"
 RESULTS = ROOT / "results" / "mutation" / "claims"
+LIMIT = 1800  # seconds for an experiment with a fault
 PAGE = ROOT / "docs" / "claim_faults.md"
 HEAD = """# Claims that faults turn
 
-Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault below is planted in
-a copy of the code, its experiment is run and judged again. *Turned*: the verdict is another one, by a number. *Stopped*: a
-certificate, a check or an error left the claim not computed. *Untouched*: the verdict is the same.
+Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault is planted in a
+copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another one, by
+a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that was run
+changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`, or else the
+first that turned it.
 
-**{summary}** {without} of {stated} claims have no fault listed here.
+**{summary}** {faults} faults were run, {missing} not.
 
 | experiment | claim | fault | without it | with it | outcome |
 |---|---|---|---|---|---|
@@ -51,26 +54,30 @@ print(json.dumps({item.claim.claim: [item.verdict, item.number, item.why] for it
 """
 
 
+Verdicts = dict[str, list[str]]
+OUTCOMES = ("turned", "stopped", "untouched", "not computed")
+
+
 @dataclass(frozen=True)
 class ClaimFault:
-    """One exact replacement in one file, and the claim that it has to turn.
+    """One exact replacement in one file for one experiment, and the claim that it has to turn.
 
     Parameters
     ----------
     experiment : str
-    claim : str
-        How the claim begins.
     path : str
         Below the root of the checkout.
     old, new : str
         `old` occurs exactly once.
+    claim : str
+        How the claim begins; empty where any claim of the experiment will do.
     """
 
     experiment: str
-    claim: str
     path: str
     old: str
     new: str
+    claim: str = ""
 
     @property
     def change(self) -> tuple[str, str, str]:
@@ -79,12 +86,34 @@ class ClaimFault:
 
     @cached_property
     def identity(self) -> str:
-        """Digest of the fault and of the file in which it is planted."""
-        parts = [self.experiment, self.claim, *self.change, (ROOT / self.path).read_text(encoding="utf-8")]
+        """Digest of the replacement and of the file in which it is planted."""
+        parts = [self.experiment, *self.change, (ROOT / self.path).read_text(encoding="utf-8")]
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:12]
 
 
-Verdicts = dict[str, list[str]]
+@dataclass(frozen=True)
+class Trial:
+    """The verdicts of an experiment without a fault and with it."""
+
+    fault: ClaimFault
+    before: Verdicts
+    after: Verdicts
+
+    def outcome(self, claim: str) -> str:
+        """Return what the fault did to a claim, one of OUTCOMES."""
+        before, after = self.before[claim][0], self.of(claim)[0]
+        if "not computed" in (before, after):
+            return "not computed" if before == after or before == "not computed" else "stopped"
+        return "untouched" if before == after else "turned"
+
+    def of(self, claim: str) -> list[str]:
+        """Return verdict, number and reason with the fault."""
+        return self.after.get(claim, ["not computed", "–", "the run ended"])
+
+    @property
+    def named(self) -> str:
+        """The claim that the fault has to turn, empty if it names none."""
+        return next((claim for claim in self.before if self.fault.claim and claim.startswith(self.fault.claim)), "")
 
 
 def faults(words: Sequence[str] = ()) -> list[ClaimFault]:
@@ -93,8 +122,8 @@ def faults(words: Sequence[str] = ()) -> list[ClaimFault]:
     return [fault for fault in every if not words or any(word in fault.experiment for word in words)]
 
 
-def try_all(wanted: Sequence[ClaimFault], workers: int) -> Iterator[dict[str, Any]]:
-    """Run what has no record yet and give the records of all, an experiment at a time."""
+def try_all(wanted: Sequence[ClaimFault], workers: int) -> Iterator[Trial]:
+    """Run what has no record yet and give the trials of all, an experiment at a time."""
     by_experiment: dict[str, list[ClaimFault]] = {}
     for fault in wanted:
         by_experiment.setdefault(fault.experiment, []).append(fault)
@@ -102,32 +131,24 @@ def try_all(wanted: Sequence[ClaimFault], workers: int) -> Iterator[dict[str, An
         yield from chain.from_iterable(pool.map(_try, by_experiment, by_experiment.values()))
 
 
-def _try(experiment: str, wanted: list[ClaimFault]) -> list[dict[str, Any]]:
-    record = RESULTS / f"{experiment}.json"
-    known = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
-    found = {fault.identity: known[fault.identity] for fault in wanted if fault.identity in known}
-    missing = [fault for fault in wanted if fault.identity not in found]
-    if missing:
-        sound = _verdicts(experiment, None)
-    changes = {fault.change: fault for fault in missing}
-    for change, first in changes.items():
-        faulty = _verdicts(experiment, first)
-        for fault in (fault for fault in missing if fault.change == change):
-            found[fault.identity] = _compared(fault, sound, faulty)
-        record.parent.mkdir(parents=True, exist_ok=True)
-        record.write_text(json.dumps(known | found, indent=1), encoding="utf-8")
-    return [found[fault.identity] for fault in wanted]
+def _try(experiment: str, wanted: list[ClaimFault]) -> list[Trial]:
+    known = _recorded(experiment)
+    missing = {fault.identity: fault for fault in wanted if fault.identity not in known}
+    sound = _verdicts(experiment, None) if missing else {}
+    for identity, fault in missing.items():
+        known[identity] = {"before": sound, "after": _verdicts(experiment, fault)}
+        RESULTS.mkdir(parents=True, exist_ok=True)
+        _record(experiment).write_text(json.dumps(known, indent=1), encoding="utf-8")
+    return [Trial(fault, **known[fault.identity]) for fault in wanted]
 
 
-def _compared(fault: ClaimFault, sound: Verdicts, faulty: Verdicts) -> dict[str, Any]:
-    """A claim turned by a number, or stopped because the fault left it without one, or untouched by the fault."""
-    claim = next(claim for claim in sound if claim.startswith(fault.claim))
-    before, after = sound[claim], faulty.get(claim, ["not computed", "–", "the run ended"])
-    outcome = "turned" if after[0] != before[0] else "untouched"
-    if outcome == "turned" and after[0] == "not computed":
-        outcome = "stopped"
-    row = {"experiment": fault.experiment, "claim": claim, "path": fault.path, "old": fault.old, "new": fault.new}
-    return row | {"outcome": outcome, "before": before, "after": after}
+def _record(experiment: str) -> Path:
+    return RESULTS / f"{experiment}.json"
+
+
+def _recorded(experiment: str) -> dict[str, dict[str, Verdicts]]:
+    record = _record(experiment)
+    return json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
 
 
 def _verdicts(experiment: str, fault: ClaimFault | None) -> Verdicts:
@@ -142,8 +163,11 @@ def _verdicts(experiment: str, fault: ClaimFault | None) -> Verdicts:
 
         def python(*arguments: str) -> str:
             command = [sys.executable, *arguments]
-            done = subprocess.run(command, cwd=copy, env=environment, capture_output=True, text=True, check=False)
-            return done.stdout
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                return subprocess.run(
+                    command, cwd=copy, env=environment, capture_output=True, text=True, check=False, timeout=LIMIT
+                ).stdout
+            return ""
 
         options = [f"experiment={experiment}", f"results={folder}", "cores=1"]
         python("-m", "surfexp.commands.command_line", "run", *options)
@@ -161,30 +185,45 @@ def _plant(fault: ClaimFault, copy: Path) -> None:
 
 
 def write_page() -> None:
-    """Write the table of all listed faults that have a record."""
-    rows = []
-    for fault in faults():
-        record = RESULTS / f"{fault.experiment}.json"
-        known = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
-        rows += [known[fault.identity]] if fault.identity in known else []
-    counts = Counter(row["outcome"] for row in rows)
-    summary = ", ".join(f"{counts[outcome]} {outcome}" for outcome in ("turned", "stopped", "untouched"))
-    stated = sum(len(_claims_of(file)) for file in (ROOT / "conf" / "experiment").glob("*.yaml"))
-    named = {(row["experiment"], row["claim"]) for row in rows}
-    head = HEAD.format(
-        summary=f"{summary}; {len(faults()) - len(rows)} not run.", without=stated - len(named), stated=stated
+    """Write the table of all claims of experiments that have a trial."""
+    every = faults()
+    trials = [Trial(fault, **known) for fault in every if (known := _recorded(fault.experiment).get(fault.identity))]
+    rows = [_row(name, claim, trials) for name, claim in _stated()]
+    counts = Counter(outcome for outcome, _ in rows)
+    summary = f"Of {len(rows)} claims {counts['turned']} turned, {counts['stopped']} stopped, "
+    summary += f"{counts['untouched']} untouched, {counts['not computed']} not computed without a fault, "
+    summary += f"{counts['not run']} not run."
+    missing = len({(fault.experiment, fault.change) for fault in every}) - len(
+        run := {(trial.fault.experiment, trial.fault.change) for trial in trials}
     )
-    PAGE.write_text(head + "".join(map(_line, rows)), encoding="utf-8")
+    head = HEAD.format(summary=summary, faults=len(run), missing=missing)
+    PAGE.write_text(head + "".join(line for _, line in rows), encoding="utf-8")
 
 
-def _claims_of(file: Path) -> list[Any]:
-    return yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []
+def _stated() -> list[tuple[str, str]]:
+    """Return (experiment, claim) of every claim."""
+    files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
+    stated = [(file.stem, yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []) for file in files]
+    return [(name, entry["claim"]) for name, entries in stated for entry in entries]
 
 
-def _line(row: dict[str, Any]) -> str:
-    change = f"{row['path']}: `{_code(row['old'])}` → `{_code(row['new'])}`"
-    before, after = (" ".join(row[side][:2]) for side in ("before", "after"))
-    cells = (row["experiment"], row["claim"], change, before, after, row["outcome"])
+def _row(name: str, claim: str, trials: list[Trial]) -> tuple[str, str]:
+    """Return outcome and line of a claim, from the trial that says most about it."""
+    own = [trial for trial in trials if trial.fault.experiment == name and claim in trial.before]
+    if not own:
+        return "not run", _line(name, claim, "–", "–", "–", "not run")
+    best = min(own, key=lambda trial: (OUTCOMES.index(trial.outcome(claim)), trial.named != claim))
+    outcome = best.outcome(claim)
+    before = " ".join(best.before[claim][:2])
+    if outcome not in ("turned", "stopped"):
+        count = len({trial.fault.change for trial in own})
+        return outcome, _line(name, claim, f"{count} fault{'s' if count > 1 else ''}", before, before, outcome)
+    fault = best.fault
+    change = f"{fault.path}: `{_code(fault.old)}` → `{_code(fault.new)}`"
+    return outcome, _line(name, claim, change, before, " ".join(best.of(claim)[:2]), outcome)
+
+
+def _line(*cells: str) -> str:
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
 
 

@@ -77,10 +77,11 @@ def test_every_interval_has_a_reason_and_no_ours_has_a_verdict_of_others() -> No
         assert "otherwise" not in claim or "published" in claim or "reference" in claim
 
 
-def test_a_planted_fault_names_one_claim_and_one_place_in_the_code() -> None:
+def test_a_planted_fault_stands_in_one_place_and_may_name_a_claim() -> None:
     stated = [(name, claim["claim"]) for name, claim in claims()]
     for fault in FAULTS:
-        named = [text for name, text in stated if name == fault["experiment"] and text.startswith(fault["claim"])]
-        assert named, f"{fault['experiment']}: no claim begins with {fault['claim']!r}"
+        begins = fault.get("claim", "")
+        named = [text for name, text in stated if name == fault["experiment"] and text.startswith(begins)]
+        assert named, f"{fault['experiment']}: no claim begins with {begins!r}"
         count = (ROOT / fault["path"]).read_text(encoding="utf-8").count(fault["old"])
         assert count == 1 and fault["new"] != fault["old"], f"{fault['path']}: {fault['old']!r} occurs {count} times"

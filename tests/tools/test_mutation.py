@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import ast
+import dataclasses
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from mutation import claims
 from mutation.change import Change, source_of
 from mutation.import_graph import distances, imported_files, numeric_tests
 from mutation.places import changes
@@ -128,6 +130,31 @@ def test_each_explanation_belongs_to_a_line_that_stands_there() -> None:
         whole = " ".join((ROOT / path).read_text(encoding="utf-8").split())
         assert old in lines or old in whole, f"{path}: {old!r} is not there"
         assert old != new
+
+
+def test_what_a_fault_did_to_each_claim(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A claim is turned by a number, stopped by an error, untouched, or had no verdict to turn; the best trial counts."""
+    stated = [("drums", name) for name in ("equal", "steady", "fast", "empty", "late")]
+    fault = claims.ClaimFault("drums", "surfexp/operators/fem.py", "0.5 * twice_area", "twice_area", "steady")
+    before = {"equal": ["holds", "1"], "steady": ["holds", "2"], "fast": ["holds", "3"], "empty": ["not computed", "–"]}
+    after = {"equal": ["does not hold", "9"], "steady": ["holds", "5"], "fast": ["not computed", "–"]}
+    trial = claims.Trial(fault, before, after)
+    assert [trial.outcome(claim) for claim in before] == ["turned", "untouched", "stopped", "not computed"]
+    assert trial.named == "steady" and trial.of("late")[0] == "not computed"
+    other = dataclasses.replace(fault, claim="", new="3.0 * twice_area")
+    again = {"before": before, "after": before | {"fast": ["does not hold", "4"]}}
+    monkeypatch.setattr(claims, "faults", lambda: [fault, other])
+    known = {fault.identity: {"before": before, "after": after}, other.identity: again}
+    monkeypatch.setattr(claims, "_recorded", lambda experiment: known)
+    monkeypatch.setattr(claims, "_stated", lambda: stated)
+    monkeypatch.setattr(claims, "PAGE", tmp_path / "page.md")
+    claims.write_page()
+    text = (tmp_path / "page.md").read_text(encoding="utf-8")
+    assert (
+        "**Of 5 claims 2 turned, 0 stopped, 1 untouched, 1 not computed without a fault, 1 not run.** 2 faults" in text
+    )
+    assert "| drums | fast | surfexp/operators/fem.py: `0.5 * twice_area` → `3.0 * twice_area` | holds 3 |" in text
+    assert "| drums | steady | 2 faults | holds 2 | holds 2 | untouched |" in text
 
 
 @pytest.mark.slow
