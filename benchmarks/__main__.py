@@ -1,16 +1,18 @@
-"""`python -m benchmarks [--quick] [NAME ...]`: run lines, print them, and write BENCHMARKS.md after a whole run."""
+"""`python -m benchmarks [--quick] [NAME ...]`: run groups of lines, print them, and write BENCHMARKS.md of the last of each."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
 import time
+from datetime import UTC, datetime
 
 from benchmarks import ROOT
 from benchmarks.gap_curves import gap_curves
-from benchmarks.line import Line
+from benchmarks.record import Record, load, save
 from benchmarks.table import conditions, describe, page
 from surfexp.figures.encode import encode_png
+from surfexp.report.stamp import state_of_code
 
 PICTURE = ROOT / "docs" / "gap_against_time.png"
 
@@ -33,22 +35,29 @@ def main() -> None:
     for unknown in set(options.names) - set(names):
         parser.error(f"group {unknown!r} is unknown, choose from {', '.join(names)}")
     print(conditions())
-    sections: dict[str, list[Line]] = {}
-    compilation: dict[str, float] = {}
-    for heading, groups in SECTIONS.items():
-        for name in groups:
-            if options.names and name not in options.names:
-                continue
-            group = importlib.import_module(f"benchmarks.{name}")
-            begin = time.process_time()
-            group.warm_up()
-            compilation[name] = time.process_time() - begin
-            found = group.lines(options.quick)
-            sections.setdefault(heading, []).extend(found)
-            print("\n".join(describe(line) for line in found), flush=True)
-    if not options.names and not options.quick:
-        PICTURE.write_bytes(encode_png(gap_curves().pixels))
-        (ROOT / "BENCHMARKS.md").write_text(page(sections, compilation), encoding="utf-8")
+    numerics = state_of_code()[0]
+    for name in options.names or names:
+        group = importlib.import_module(f"benchmarks.{name}")
+        begin = time.process_time()
+        group.warm_up()
+        compilation = time.process_time() - begin
+        found = group.lines(options.quick)
+        print("\n".join(describe(line) for line in found), flush=True)
+        if not options.quick:
+            save(name, Record(tuple(found), compilation, conditions(), numerics, f"{datetime.now(UTC):%Y-%m-%d}"))
+    if not options.quick:
+        _write_page(names)
+
+
+def _write_page(names: list[str]) -> None:
+    """Write the page if every group has been run, and say which has not."""
+    known = {name: record for name in names if (record := load(name)) is not None}
+    if missing := [name for name in names if name not in known]:
+        print(f"BENCHMARKS.md is as it was: {', '.join(missing)} have not been run")
+        return
+    PICTURE.write_bytes(encode_png(gap_curves().pixels))
+    sections = {heading: {name: known[name] for name in groups} for heading, groups in SECTIONS.items()}
+    (ROOT / "BENCHMARKS.md").write_text(page(sections), encoding="utf-8")
 
 
 if __name__ == "__main__":

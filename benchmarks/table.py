@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 
 from benchmarks.line import Line
 from benchmarks.measurement import Cost
+from benchmarks.record import Record
 
 PACKAGES = (
     "numpy",
@@ -48,24 +49,30 @@ def conditions() -> str:
     return f"{python}; {', '.join(found)}."
 
 
-def page(sections: Mapping[str, Sequence[Line]], compilation: Mapping[str, float]) -> str:
+def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
     """Return the page as Markdown.
 
     Parameters
     ----------
-    sections : mapping of heading to lines
-    compilation : mapping of group to seconds
+    sections : mapping of heading to its groups' records by name
     """
-    parts = [HEAD, conditions() + "\n"]
-    for heading, lines in sections.items():
+    groups = {name: record for records in sections.values() for name, record in records.items()}
+    conditions = list(dict.fromkeys(record.conditions for record in groups.values()))
+    parts = [HEAD, *(f"{line}\n" for line in conditions)]
+    for heading, records in sections.items():
+        lines = [line for record in records.values() for line in record.lines]
         rows = [_row(line) for line in lines]
         parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|", *rows]) + "\n")
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
     parts.append(
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
-    spent = ", ".join(f"{name} {seconds:.1f} s" for name, seconds in compilation.items())
-    parts.append(f"## Compilation\n\nFirst call on a small case, compiled or read from the cache on disk: {spent}.\n")
+    told = "Each group is one run on a machine with nothing else to do. Compilation is that of the first call on a small case,"
+    rows = [
+        f"| {name} | {record.date} | {record.numerics} | {record.compilation:.1f} |" for name, record in groups.items()
+    ]
+    head = ["| group | measured | state of the numerics | compilation, s |", "|---|---|---|---|"]
+    parts.append("\n".join(["## When\n", f"{told} or of reading it from the cache on disk.\n", *head, *rows]) + "\n")
     return "\n".join(parts)
 
 

@@ -13,6 +13,7 @@ import pytest
 from benchmarks.convex_problem import Excess, Recorded
 from benchmarks.line import Line, race
 from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
+from benchmarks.record import Record, load, save
 from benchmarks.table import page
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
@@ -64,12 +65,17 @@ def test_a_line_refuses_medians_of_unequal_numbers_of_runs() -> None:
     assert race("work", "rival", 5.0, Cost(1.0, 1.0), Cost(4.0, 4.0), "").verdict == "not met"
 
 
-def test_the_page_says_how_many_runs() -> None:
+def test_the_page_says_how_many_runs_and_of_which_state(tmp_path: Path) -> None:
     line = Line("work", "rival", "2×", "4×", True, Cost(1.0, 1.5, 3), Cost(4.0, 4.5, 3), "alike")
-    text = page({"Heading": [line]}, {"group": 1.0})
+    limit = Line("work", "a limit", "≤ 2 s", "1 s", True, Cost(1.0, 1.5, 3))
+    record = Record((line, limit), 1.0, "Python 3", "0" * 20, "2020-01-01")
+    save("group", record, tmp_path)
+    assert load("group", tmp_path) == record and load("another", tmp_path) is None
+    text = page({"Heading": {"group": record}})
+    assert f"| group | 2020-01-01 | {'0' * 20} | 1.0 |" in text
     assert "| work | rival | 2× | 4× | met | 1 (1.5) | 4 (4.5) | 3 |" in text
     assert "- work, rival: alike." in text
-    columns = {row.count("|") for row in text.splitlines() if row.startswith("|")}
+    columns = {row.count("|") for row in text.split("## When")[0].splitlines() if row.startswith("|")}
     assert len(columns) == 1
 
 
