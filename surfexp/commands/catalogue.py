@@ -16,19 +16,24 @@ from surfexp.workflow.kinds import KINDS
 
 
 def command(name: str, arguments: list[str]) -> int:
-    """Print plugins or experiments, or the options of one plugin."""
+    """Print plugins or experiments, the options of one plugin, or what is known of one experiment."""
     parser = argparse.ArgumentParser(f"surfexp {name}")
     if name == "list":
         parser.add_argument("kind", nargs="?", help=f"one of: {', '.join(KINDS)}, experiment; default: a count of each")
     else:
-        parser.add_argument("plugin", help="KIND/NAME, e.g. solver/primal_dual")
+        parser.add_argument("what", help="KIND/NAME, e.g. solver/primal_dual, or EXPERIMENT")
+        parser.add_argument("--results", type=Path, default=Path("results"), help="results folder of the experiment")
     given = parser.parse_args(arguments)
     known = catalogue(Path.cwd())
     console = Console(highlight=False, markup=False)
     for message in known.broken.values():
         Console(stderr=True, highlight=False).print(f"warning: {message}", markup=False, soft_wrap=True)
-    if name == "info":
-        _info(given.plugin, known, console)
+    if name == "info" and "/" not in given.what:
+        from surfexp.commands.experiment_facts import print_facts
+
+        print_facts(given.what, known, given.results, console)
+    elif name == "info":
+        _info(given.what, known, console)
     elif given.kind in ("experiment", "experiments"):
         _rows(console, [(name, _title(file)) for name, file in experiments().items()])
     elif given.kind is None:
@@ -57,8 +62,6 @@ def _rows(console: Console, rows: list[tuple[str, str]]) -> None:
 
 def _info(wanted: str, known: Catalogue, console: Console) -> None:
     kind, _, name = wanted.partition("/")
-    if not name:
-        raise UserError(f"plugin {wanted!r}: write it as KIND/NAME, e.g. solver/primal_dual")
     check_known("stage kind", [kind], known.kinds)
     if (kind, name) not in known.plugins:
         broken = next((f" ({text})" for file, text in known.broken.items() if Path(file).stem == name), "")

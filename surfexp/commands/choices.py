@@ -19,10 +19,12 @@ def arguments(command: str, before: list[str], incomplete: str) -> list[str]:
         return _settings(before, incomplete)
     if command in ("table", "report"):
         return _beginning(finished_experiments(Path("results")), incomplete)
+    if command == "cite":
+        return _beginning(sorted(experiments()), incomplete)
     if before:
         return []
     if command == "info":
-        return _of_plugins(incomplete)
+        return [*_of_plugins(incomplete), *(_beginning(sorted(experiments()), incomplete) if incomplete else [])]
     known = {"list": [*kinds(), "experiment"], "new": ["kind", *kinds()]} if command in ("list", "new") else FIXED
     return _beginning(known.get(command, []), incomplete)
 

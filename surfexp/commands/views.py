@@ -13,13 +13,15 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name
+from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.tracking import tracking_uri
+from surfexp.report.words import word
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.plan import Plan, read_plan
 
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
+FORMATS = ("text", "latex", "csv")
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -30,6 +32,10 @@ def command(name: str, arguments: list[str]) -> int:
         parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")
         return _dashboard(parser.parse_args(arguments))
     parser.add_argument("experiment", nargs="*", default=["quickstart"])
+    if name == "table":
+        parser.add_argument(
+            "--format", choices=FORMATS, default="text", help="latex needs booktabs; csv has all digits"
+        )
     if name == "report":
         parser.add_argument("--claims", action="store_true", help="print the verdicts on published claims as Markdown")
     given = parser.parse_args(arguments)
@@ -41,12 +47,30 @@ def command(name: str, arguments: list[str]) -> int:
         return 0
     for plan in plans.values():
         if name == "table":
-            print_tables(comparisons(rows_of(plan, given.results.resolve())), wide_console())
+            _tables(plan, given.results.resolve(), given.format)
         else:
             from surfexp.report.page import write_report
 
             print(write_report(plan, given.results.resolve()) / "report.html")
     return 0
+
+
+def _tables(plan: Plan, results: Path, form: str) -> None:
+    rows = rows_of(plan, results)
+    if form == "csv":
+        print(to_csv(rows), end="")
+        return
+    groups = comparisons(rows)
+    if form == "text":
+        print_tables(groups, wide_console())
+        return
+    from surfexp.report.declared import declared_by
+    from surfexp.report.latex import latex_table
+
+    experiment = plan.settings.experiment
+    for count, group in enumerate(groups, 1):
+        group.metrics = declared_by(plan, group.rows)
+        print(latex_table(group, f"{experiment}-{count}", f"surfexp run experiment={experiment}"))
 
 
 def latest_plan(results: Path, experiment: str) -> Plan:
@@ -92,7 +116,7 @@ def _table(group: Comparison, rows: Sequence[Row]) -> Table:
     if limited:
         table.add_column("state", style="red", no_wrap=True)
     for row in rows:
-        values = [escape(str(row.parameters.get(name, "–"))) for name in group.varying]
+        values = [escape(word(row.parameters.get(name, "–"))) for name in group.varying]
         numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
         state = "failed" if row.failure else "not converged" if row.limited else ""
         table.add_row(*values, *numbers, *([state] if limited else []), style="red" if state else None)

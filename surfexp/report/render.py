@@ -11,6 +11,7 @@ from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
 from surfexp.report.table import format_number, short_name
+from surfexp.report.words import duration, word
 
 
 def render(template: str, **content: Any) -> str:
@@ -43,19 +44,6 @@ def prose(text: str) -> Markup:
 def exact(value: float | None) -> str:
     """All digits of a number, by which a column is sorted; nothing where there is none."""
     return "" if value is None or value != value else repr(float(value)).replace("inf", "Infinity")
-
-
-def word(value: Any) -> str:
-    """The value of an option in a table."""
-    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
-
-
-def duration(seconds: float) -> str:
-    """Seconds, minutes or hours, whichever a person would say."""
-    for unit, length in (("h", 3600.0), ("min", 60.0)):
-        if seconds >= 2.0 * length:
-            return f"{seconds / length:.3g} {unit}"
-    return f"{seconds:.3g} s"
 
 
 def _hash(text: str) -> str:

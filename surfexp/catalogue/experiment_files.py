@@ -1,0 +1,58 @@
+"""What an experiment's file says, read without composing it: its words, and the methods that it names."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+from surfexp.catalogue.folders import experiments
+from surfexp.workflow.errors import UserError, unknown
+
+
+def read_experiment(name: str) -> dict[str, Any]:
+    """Return the contents of an experiment's file.
+
+    Raises
+    ------
+    UserError
+        If there is no such experiment, or its file is no mapping.
+    """
+    import yaml
+
+    files = experiments()
+    if name not in files:
+        raise unknown("experiment", name, files)
+    try:
+        found = yaml.safe_load(files[name].read_text(encoding="utf-8"))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise UserError(f"{files[name]}: {' '.join(str(error).split())}") from None
+    if not isinstance(found, dict):
+        raise UserError(f"{files[name]} is no mapping of options")
+    return found
+
+
+def methods_named(document: Any, kinds: Collection[str]) -> dict[str, list[str]]:
+    """Return the plugins that a file names, by stage kind, in order of appearance."""
+    found: dict[str, dict[str, None]] = {}
+    _collect(document, {kind: kind for kind in kinds} | {"figures": "figure"}, found)
+    return {kind: list(names) for kind, names in found.items()}
+
+
+def _collect(part: Any, kinds: dict[str, str], found: dict[str, dict[str, None]]) -> None:
+    if isinstance(part, dict):
+        for key, value in part.items():
+            if key == "claims":  # cites figures by number
+                continue
+            if key in kinds:
+                for name in _names(value):
+                    found.setdefault(kinds[key], {})[name] = None
+            _collect(value, kinds, found)
+    elif isinstance(part, list):
+        for item in part:
+            _collect(item, kinds, found)
+
+
+def _names(value: Any) -> list[str]:
+    entries = value if isinstance(value, list) else [value]
+    names = [entry.get("name") if isinstance(entry, dict) else entry for entry in entries]
+    return [name for name in names if isinstance(name, str)]

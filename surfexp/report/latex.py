@@ -1,0 +1,128 @@
+"""A table as LaTeX with booktabs: numbers in mathematics, units and good directions in the head, the best in bold."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from surfexp.report.table import Comparison, Row, format_number, short_name
+from surfexp.report.words import word
+
+SPECIAL = {character: f"\\{character}" for character in "&%$#_{}"} | {
+    "\\": r"\textbackslash{}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": "$<$",
+    ">": "$>$",
+    "|": "$|$",
+    "\u202f": r"\,",
+    "–": "--",
+    "—": "---",
+    "−": "$-$",
+    "∓": r"$\mp$",
+    "±": r"$\pm$",
+    "√": r"$\surd$",
+    "∞": r"$\infty$",
+    "≤": r"$\leq$",
+    "≥": r"$\geq$",
+    "×": r"$\times$",
+    "·": r"$\cdot$",
+    "²": "$^2$",
+    "³": "$^3$",
+    "°": r"$^\circ$",
+    "₀": "$_0$",
+    "₁": "$_1$",
+    "₂": "$_2$",
+}
+GREEK = {
+    "α": "alpha",
+    "β": "beta",
+    "γ": "gamma",
+    "δ": "delta",
+    "ε": "varepsilon",
+    "θ": "theta",
+    "λ": "lambda",
+    "μ": "mu",
+    "π": "pi",
+    "σ": "sigma",
+    "τ": "tau",
+    "φ": "varphi",
+    "χ": "chi",
+    "ψ": "psi",
+    "Δ": "Delta",
+    "Φ": "Phi",
+    "Ω": "Omega",
+}
+ARROWS = {"lower": r" $\downarrow$", "higher": r" $\uparrow$", "": ""}
+WORDS = SPECIAL | {letter: f"$\\{name}$" for letter, name in GREEK.items()}
+
+
+def latex_table(group: Comparison, label: str, command: str) -> str:
+    r"""Return a table environment; it needs \usepackage{booktabs} and nothing else.
+
+    Parameters
+    ----------
+    group : Comparison
+    label : str
+        Of the table, after "tab:".
+    command : str
+        What computes it again, for a comment at its head.
+    """
+    names, metrics = group.varying, group.metric_names
+    state = any(row.limited or row.failure for row in group.rows)
+    head = [escape(short_name(name)) for name in names]
+    head += [_heading(group, name) for name in metrics] + (["state"] if state else [])
+    rows = [_cells(group, row, state) for row in group.rows]
+    columns = "l" * len(names) + "r" * len(metrics) + ("l" if state else "")
+    lines = [
+        f"% {command}",
+        r"\begin{table}",
+        r"  \centering",
+        f"  \\caption{{{escape(_sentence(group))}}}",
+        f"  \\label{{tab:{re.sub(r'[^A-Za-z0-9-]+', '-', label).strip('-')}}}",
+        f"  \\begin{{tabular}}{{{columns}}}",
+        r"    \toprule",
+        f"    {_row(head)}",
+        r"    \midrule",
+        *(f"    {_row(cells)}" for cells in rows),
+        r"    \bottomrule",
+        r"  \end{tabular}",
+        r"\end{table}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def escape(text: str) -> str:
+    """Return a text as LaTeX shows it: specials escaped, Greek letters and signs as mathematics, others as they are."""
+    return "".join(WORDS.get(character, character) for character in " ".join(text.split()))
+
+
+def number(value: float | None) -> str:
+    """Return a number as the tables show it, in mathematics, with a power of ten where there is one."""
+    text = format_number(value)
+    if text == "–":
+        return "--"
+    mantissa, _, exponent = text.replace("\u202f", r"\,").replace("−", "-").replace("∞", r"\infty").partition("e")
+    return f"${mantissa}\\times 10^{{{exponent}}}$" if exponent else f"${mantissa}$"
+
+
+def _sentence(group: Comparison) -> str:
+    return f"{group.title}. {group.caption}".strip() if group.caption else group.title
+
+
+def _heading(group: Comparison, name: str) -> str:
+    meaning = group.meaning(name)
+    unit = f" ({escape(meaning.unit)})" if meaning.unit else ""
+    return escape(name.replace("_", " ")) + unit + ARROWS[meaning.better]
+
+
+def _cells(group: Comparison, row: Row, state: bool) -> list[str]:
+    cells = [escape(word(row.parameters.get(name, "–"))) for name in group.varying]
+    for name in group.metric_names:
+        text = number(row.metrics.get(name))
+        cells.append(f"\\boldmath{text}" if group.is_best(row, name) else text)
+    return cells + (["failed" if row.failure else "not converged" if row.limited else ""] if state else [])
+
+
+def _row(cells: Sequence[str]) -> str:
+    return " & ".join(cells) + r" \\"
