@@ -40,7 +40,7 @@ class Record:
 def save(group: str, record: Record, folder: Path = FOLDER) -> None:
     """Keep the record of a group in place of its last one."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{group}.json").write_text(json.dumps(asdict(record), indent=1), encoding="utf-8")
+    (folder / f"{group}.json").write_text(json.dumps(asdict(record), indent=1, default=_number), encoding="utf-8")
 
 
 def load(group: str, folder: Path = FOLDER) -> Record | None:
@@ -50,6 +50,11 @@ def load(group: str, folder: Path = FOLDER) -> Record | None:
         return None
     known = json.loads(file.read_text(encoding="utf-8"))
     return Record(**known | {"lines": tuple(_line(line) for line in known["lines"])})
+
+
+def _number(value: Any) -> Any:
+    """Return a number of numpy as one of Python."""
+    return value.item()
 
 
 def _line(fields: dict[str, Any]) -> Line:

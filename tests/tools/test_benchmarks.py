@@ -67,7 +67,7 @@ def test_a_line_refuses_medians_of_unequal_numbers_of_runs() -> None:
 
 def test_the_page_says_how_many_runs_and_of_which_state(tmp_path: Path) -> None:
     line = Line("work", "rival", "2×", "4×", True, Cost(1.0, 1.5, 3), Cost(4.0, 4.5, 3), "alike")
-    limit = Line("work", "a limit", "≤ 2 s", "1 s", True, Cost(1.0, 1.5, 3))
+    limit = Line("work", "a limit", "≤ 2 s", "1 s", np.float64(1.0) < 2.0, Cost(1.0, 1.5, 3))
     record = Record((line, limit), 1.0, "Python 3", "0" * 20, "2020-01-01")
     save("group", record, tmp_path)
     assert load("group", tmp_path) == record and load("another", tmp_path) is None
