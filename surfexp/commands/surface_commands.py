@@ -154,8 +154,9 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
 @click.argument("first")
 @click.argument("second")
 @click.option("-n", "count", default=20, show_default=True, help="number of eigenfunctions")
+@click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
 @result_option(required=False)
-def distance(first: str, second: str, count: int, target: Path | None) -> None:
+def distance(first: str, second: str, count: int, limit: int | None, target: Path | None) -> None:
     """Spectral distance of two surfaces: value, proved lower bound, signs; the map with --to."""
     import numpy as np
 
@@ -163,7 +164,7 @@ def distance(first: str, second: str, count: int, target: Path | None) -> None:
 
     started = time.perf_counter()
     with progress_line("distance") as progress:
-        found = task(first, second, count, progress=progress)
+        found = task(first, second, count, limit=limit, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     click.echo(f"distance {found.value:.6g} ({proof}), signs {signs}")

@@ -25,7 +25,13 @@ class SpectralDistance(SurfaceTransformer):
         Number of eigenfunctions.
     weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
     limit : int
-        Most evaluations of the search over signs.
+        Most evaluations of the search over signs for each pair. Where the proof needs more, the value is that of the best
+        signs that were found.
+
+    Attributes
+    ----------
+    proved_ : float
+        After `fit_transform`, the share of pairs whose signs are proved best.
 
     Examples
     --------
@@ -35,7 +41,7 @@ class SpectralDistance(SurfaceTransformer):
     array([0., 0.])
     """
 
-    def __init__(self, n: int = 20, weighting: Weighting = "biharmonic", limit: int = 2000) -> None:
+    def __init__(self, n: int = 20, weighting: Weighting = "biharmonic", limit: int = 60) -> None:
         self.n = n
         self.weighting = weighting
         self.limit = limit
@@ -69,10 +75,14 @@ class SpectralDistance(SurfaceTransformer):
             As `fit`.
         """
         self.fit(X)
-        matrix = np.zeros((len(self.embeddings_),) * 2)
+        count, proved = len(self.embeddings_), 0
+        matrix = np.zeros((count, count))
         for i, one in enumerate(self.embeddings_):
             for j, other in enumerate(self.embeddings_[:i]):
-                matrix[i, j] = matrix[j, i] = spectral_distance(one, other, limit=self.limit).value
+                found = spectral_distance(one, other, limit=self.limit)
+                matrix[i, j] = matrix[j, i] = found.value
+                proved += found.optimal
+        self.proved_ = proved / max(count * (count - 1) // 2, 1)
         return matrix
 
     def _embedding(self, given: SurfaceLike) -> SpectralEmbedding:

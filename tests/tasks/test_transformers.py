@@ -12,8 +12,10 @@ from sklearn.preprocessing import StandardScaler
 from sklearn.utils import estimator_checks
 
 import surfexp as sx
+from surfexp.embedding.spectral_embedding import SpectralEmbedding
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.distances import search_limit
 
 BODY = sx.shape("icosphere", levels=3)
 
@@ -49,6 +51,22 @@ def test_distances_are_a_matrix_and_equal_those_of_the_function() -> None:
     assert matrix[1, 0] == pytest.approx(sx.distance(BODIES[1], BODIES[0], n=4).value, rel=1e-9)
     rows = measure.transform([BODIES[2]])
     assert rows[0] == pytest.approx(matrix[2], abs=1e-9)
+    assert measure.proved_ == 1.0
+    rushed = sx.SpectralDistance(n=4, limit=2)
+    assert (rushed.fit_transform(BODIES) >= matrix - 1e-12).all() and rushed.proved_ <= 1.0
+
+
+def test_a_search_without_a_limit_ends_in_about_a_minute() -> None:
+    """The number of evaluations follows from the number of points alone, so that a result repeats on any machine."""
+
+    def sized(count: int) -> SpectralEmbedding:
+        return SpectralEmbedding(np.zeros((count, 1)), np.full(count, 1.0 / count), np.ones(1))
+
+    limits = [search_limit(sized(count), sized(count)) for count in (100, 1_000, 7_000, 10_000, 100_000)]
+    assert limits == [2000, 2000, 408, 200, 100]
+    one, other = sx.shape("ellipsoid", levels=3), sx.shape("ellipsoid", levels=3, semiaxes=(1.0, 0.7, 0.4))
+    stopped, whole = sx.distance(one, other, n=8, limit=2), sx.distance(one, other, n=8)
+    assert whole.optimal and stopped.lower_bound <= whole.value + 1e-12 <= stopped.value + 2e-12
 
 
 def test_paths_and_pipelines(working_folder: Path) -> None:
