@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate reproduction ui lock clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction ui lock clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -40,6 +40,9 @@ mutate: .venv/ready
 	$(BIN)/python -m mutation planted
 	$(BIN)/python -m mutation random
 	$(BIN)/python -m mutation claims
+
+torture: .venv/ready
+	$(BIN)/python -m torture
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.

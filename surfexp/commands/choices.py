@@ -17,7 +17,7 @@ def arguments(command: str, before: list[str], incomplete: str) -> list[str]:
     """Return what the next argument of a command that is not made with click can be."""
     if command in ("run", "plan"):
         return _settings(before, incomplete)
-    if command in ("table", "report"):
+    if command in ("table", "report", "open"):
         return _beginning(finished_experiments(Path("results")), incomplete)
     if command == "cite":
         return _beginning(sorted(experiments()), incomplete)

@@ -42,6 +42,8 @@ COMMANDS: dict[str, tuple[str, str]] = {
     ),
     "table": ("views", "print the tables of an experiment again: surfexp table [EXPERIMENT]"),
     "report": ("views", "where the report page of an experiment is: surfexp report [EXPERIMENT]"),
+    "open": ("open", "the page of an experiment, or the overview of all, in the browser: surfexp open [EXPERIMENT]"),
+    "diff": ("diff", "in what two rows differ, options and numbers: surfexp diff RUN RUN"),
     "cite": ("cite", "what to cite for an experiment, as BibTeX: surfexp cite EXPERIMENT"),
     "export": ("export", "results as files for other programs: surfexp export EXPERIMENT|RUN --to FOLDER"),
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),

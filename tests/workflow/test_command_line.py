@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import shutil
@@ -103,6 +104,11 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     assert "3 configurations: 24 stages without sharing, 18 with sharing" in planned
     surfexp("run", "experiment=chain", "surface.size=2.0,3.0,4.0")
     assert latest_log(laboratory).count("localrule") == 13  # the stages of two new sizes, and the rule all
+
+    with (laboratory / "results" / "chain" / "metrics.csv").open() as file:
+        one, other, *_ = [row["leaf"] for row in csv.DictReader(file)]
+    told = surfexp("diff", one[:8], other[:8]).stdout
+    assert "surface.size" in told and "distance" in told and one[:8] in told
 
     toys = laboratory / "plugins" / "pairing" / "toys.py"
     good = toys.read_text()
