@@ -67,7 +67,10 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
     parts.append(
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
-    told = "Each group is one run on a machine with nothing else to do. Compilation is that of the first call on a small case,"
+    told = (
+        "Each group is one run; ratios hold, seconds vary with the machine and the hour. Compilation is that of the first "
+        "call on a small case,"
+    )
     rows = [
         f"| {name} | {record.date} | {record.numerics} | {record.compilation:.1f} |" for name, record in groups.items()
     ]
