@@ -47,9 +47,10 @@ def imported_files(path: Path) -> frozenset[Path]:
     helpers = {file for name in names if (file := path.parent / f"{name}.py").exists()}
     texts = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     examples: set[Path] = set()
-    if "examples" in texts:
+    if texts & {"examples", "inside"}:
         functions = {node.name.removeprefix("test_") for node in tree.body if isinstance(node, ast.FunctionDef)}
-        examples = {file for file in (ROOT / "examples").rglob("*.py") if file.stem in texts | functions}
+        shown = [*(ROOT / "examples").glob("*.py"), *(ROOT / "docs" / "inside").glob("*.py")]
+        examples = {file for file in shown if file.stem in texts | functions}
     return frozenset(files | helpers | examples)
 
 

@@ -6,7 +6,7 @@ import re
 import runpy
 from pathlib import Path
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "inside"
 
 
 def numbers(name, pattern, capsys):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "inside"
 EXPECTED = {
     "painted_cup": ["genus 1, minimum angle 3", "noise 40."],
 }

@@ -29,7 +29,7 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.solvers.split_bregman import split_bregman
 from surfexp.variational.surface_flows import heat_flow
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "inside" / "heat_kernel_laplacian.py"
+EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "inside" / "heat_kernel_laplacian.py"
 SOLVERS = (primal_dual, split_bregman, chambolle_dual, fista_dual, gradient_descent, newton)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "inside"
 
 
 def numbers(name, capsys):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "inside"
 
 
 def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:

@@ -102,7 +102,7 @@ def test_tests_are_chosen_by_imports_and_seconds() -> None:
     near = ROOT / "tests" / "skeleton" / "test_width_test.py"
     assert near in numeric_tests() and distances(near)[path] == 1
     examples = imported_files(ROOT / "tests" / "mesh" / "test_mesh_examples.py")
-    assert ROOT / "examples" / "inside" / "painted_cup.py" in examples
+    assert ROOT / "docs" / "inside" / "painted_cup.py" in examples
     name = near.relative_to(ROOT).as_posix()
     seconds = {f"{name}::slow": 5.0, f"{name}::quick": 0.1, f"{name}::red": 0.1, f"{name}::hours": 3000.0}
     baseline = {name: {"seconds": seconds, "failed": [f"{name}::red: assert"]}}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "inside"
+EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "inside"
 
 BOUNDS = {
     "why_the_operator_matters": [(10.0, 20.0), (24.0, 35.0)],
