@@ -1,4 +1,4 @@
-"""`python -m benchmarks [--quick] [NAME ...]`: run groups of lines, print them, and write BENCHMARKS.md of the last of each."""
+"""`python -m benchmarks [--quick] [NAME ...]`: run groups of lines and write BENCHMARKS.md of the last run of each."""
 
 from __future__ import annotations
 

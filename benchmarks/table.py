@@ -68,8 +68,8 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
     told = (
-        "Each group is one run; ratios hold, seconds vary with the machine and the hour. Compilation is that of the first "
-        "call on a small case,"
+        "Each group is one run; ratios hold, seconds vary with the machine and the hour. Compilation is that of the "
+        "first call on a small case,"
     )
     rows = [
         f"| {name} | {record.date} | {record.numerics} | {record.compilation:.1f} |" for name, record in groups.items()

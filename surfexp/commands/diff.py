@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 def diff(first: str, second: str, results: Path) -> int:
     """Show the options in which two rows differ, and their numbers side by side.
 
-    RUN is the key of a row (the column leaf of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or the id
-    of an MLflow run.
+    RUN is the key of a row (the column leaf of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or
+    the id of an MLflow run.
     """
     from rich.console import Console
     from rich.table import Table

@@ -46,8 +46,8 @@ def distance(
     weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
         Biharmonic weights converge with n, those of the global point signature do not.
     limit : int, optional
-        Most evaluations of the search; where the proof needs more, `lower_bound` says what is left open. By default as many
-        as compare 2e10 pairs of points, between 100 and 2,000: 400 for two surfaces of 7,000 vertices.
+        Most evaluations of the search; where the proof needs more, `lower_bound` says what is left open. By default as
+        many as compare 2e10 pairs of points, between 100 and 2,000: 400 for two surfaces of 7,000 vertices.
     progress : callable, optional
         Called with the number of evaluations and the relative gap that is left.
 
