@@ -15,6 +15,7 @@ from surfexp.catalogue.installed import installed_state
 from surfexp.catalogue.loading import guarded, loaders
 from surfexp.catalogue.user_cache import Memory
 
+LONGEST_REASON = 300
 PLAIN = (bool, int, float, str, list, dict, type(None))
 # every state of the code has an entry of its own, and they are large
 STATES_KEPT = 8
@@ -114,7 +115,7 @@ def describe_all(working_folder: Path, faults: Mapping[str, str], tell: Callable
             registry.BROKEN[method.file] = f"plugin file {method.file}: {method.name} cannot be described ({error})"
     kinds = [(kind.name, kind.path, kind.stored) for kind in KINDS.values()]
     certified = [kind.name for kind in KINDS.values() if "converged" in getattr(kind.result, "METRICS", {})]
-    broken = {str(file): text for file, text in registry.BROKEN.items()}
+    broken = {str(file): brief(text) for file, text in registry.BROKEN.items()}
     return {"plugins": plugins, "kinds": kinds, "broken": broken, "certified": certified}
 
 
@@ -146,3 +147,9 @@ def domain(field: Any) -> str:
         if hasattr(rule, name)
     ]
     return ", ".join([text, *bounds])
+
+
+def brief(text: str) -> str:
+    """Return a text of any length on one line that a person reads to its end."""
+    line = " ".join(text.split())
+    return line if len(line) <= LONGEST_REASON else f"{line[: LONGEST_REASON - 4]} ..."

@@ -41,6 +41,8 @@ MISDEEDS = {
     "divides": ("1 / 0", "line 1: division by zero"),
     "closes_everything": ("import os\nos.closerange(0, 4096)", "ends the process"),
     "closes_everything_and_hangs": ("import os\nos.closerange(0, 4096)\nwhile True:\n    pass", "takes longer than"),
+    "talks_for_ever": ("raise ValueError('no ' * 10_000)", "line 1: no no"),
+    "talks_in_lines": ("raise ValueError('\\n' * 50 + 'at last')", "line 1: at last"),
     "has_a_number_for_a_name": (GOOD.replace('"well")', "3)"), "plugin surface/3: a name is a word"),
     "names_no_kind": (GOOD.replace('"surface", "well"', '"surfaec", "x"'), "did you mean 'surface'"),
 }
@@ -54,7 +56,7 @@ HARMLESS = {
 }
 
 
-QUICK = ("exits", "is_killed", "leaves", "has_a_number_for_a_name")
+QUICK = ("exits", "is_killed", "leaves", "talks_for_ever", "talks_in_lines", "has_a_number_for_a_name")
 
 
 @pytest.mark.timeout(1800)  # a process for each misdeed, of seconds on an idle machine
@@ -74,6 +76,7 @@ def test_every_misdeed_is_named_and_the_rest_is_described(
     assert set(said) == set(names)
     for name in names:
         assert MISDEEDS[name][1] in said[name] and "\n" not in said[name], said[name]
+        assert len(said[name]) <= 300
 
 
 def test_what_hangs_is_not_waited_for_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
