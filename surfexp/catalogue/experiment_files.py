@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from surfexp.catalogue.folders import experiments
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.catalogue.yaml_files import read_yaml
+from surfexp.workflow.errors import unknown
 
 
 def read_experiment(name: str) -> dict[str, Any]:
@@ -15,20 +16,32 @@ def read_experiment(name: str) -> dict[str, Any]:
     Raises
     ------
     UserError
-        If there is no such experiment, or its file is no mapping.
+        If there is no such experiment, or as `read_yaml`.
     """
-    import yaml
-
     files = experiments()
     if name not in files:
         raise unknown("experiment", name, files)
-    try:
-        found = yaml.safe_load(files[name].read_text(encoding="utf-8"))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise UserError(f"{files[name]}: {' '.join(str(error).split())}") from None
-    if not isinstance(found, dict):
-        raise UserError(f"{files[name]} is no mapping of options")
-    return found
+    return read_yaml(files[name])
+
+
+def check_files(arguments: Iterable[str]) -> None:
+    """Read the files of the experiments that a request names, so that a mistake in one is told with its line.
+
+    Parameters
+    ----------
+    arguments : iterable of str
+        As of `surfexp run`: experiment=NAME, or several names with commas.
+
+    Raises
+    ------
+    UserError
+        As `read_yaml`.
+    """
+    files = experiments()
+    values = [text.partition("=")[2] for text in arguments if text.partition("=")[0].lstrip("+") == "experiment"]
+    for name in (name.strip() for value in values for name in value.split(",")):
+        if name in files:
+            read_yaml(files[name])
 
 
 def methods_named(document: Any, kinds: Collection[str]) -> dict[str, list[str]]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
+from surfexp.catalogue.experiment_files import check_files
 from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.workflow.errors import StageFailure, UserError
@@ -48,6 +49,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     if (known := remembered(kept_at)) is not None:
         action(known)
         return
+    check_files(arguments)
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
 

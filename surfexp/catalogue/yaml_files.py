@@ -1,0 +1,72 @@
+"""YAML files of people, read with a line for every mistake: nothing is taken twice, nothing unfolds without end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from surfexp.workflow.errors import UserError
+
+# entries with all aliases written out; the longest experiment has some 700
+LARGEST = 100_000
+
+
+def read_yaml(file: Path) -> dict[str, Any]:
+    """Return the mapping that a file holds.
+
+    Raises
+    ------
+    UserError
+        If it is no UTF-8, no YAML or no mapping, has a key twice, or its aliases unfold to over 100,000 entries; with the
+        line where that is.
+    """
+    import yaml
+
+    try:
+        text = file.read_text(encoding="utf-8")
+        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        if node is not None:
+            _check(node, file, {}, ())
+        found = yaml.safe_load(text)
+    except UnicodeDecodeError as error:
+        raise UserError(f"{file}: byte {error.start} is no UTF-8; save the file as UTF-8") from None
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        where = f", line {mark.line + 1}" if mark else ""
+        raise UserError(f"{file}{where}: {_line(error.problem or error.context or 'not YAML')}") from None
+    except yaml.YAMLError as error:
+        raise UserError(f"{file}: {_line(str(error).splitlines()[0])}") from None
+    except RecursionError:
+        raise UserError(f"{file}: its entries lie too deep in one another") from None
+    if not isinstance(found, dict):
+        raise UserError(
+            f"{file} holds {type(found).__name__}, a mapping of options is needed: NAME: VALUE in each line"
+        )
+    return found
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())[:160]
+
+
+def _check(node: Any, file: Path, sizes: dict[int, int], above: tuple[int, ...]) -> int:
+    """Return how many entries a node has with its aliases written out; refuse what is inside itself and keys that repeat."""
+    import yaml
+
+    where = f"{file}, line {node.start_mark.line + 1}"
+    if id(node) in above:
+        raise UserError(f"{where}: an alias stands inside of what it is an alias of")
+    if id(node) in sizes:
+        return sizes[id(node)]
+    size = 1
+    if isinstance(node, yaml.MappingNode):
+        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
+        if twice := next((key for key in keys if keys.count(key) > 1), None):
+            raise UserError(f"{where}: key {_line(twice)!r} stands there twice")
+        size += sum(_check(value, file, sizes, (*above, id(node))) for _, value in node.value)
+    elif isinstance(node, yaml.SequenceNode):
+        size += sum(_check(value, file, sizes, (*above, id(node))) for value in node.value)
+    if size > LARGEST:
+        raise UserError(f"{where}: its aliases unfold to over {LARGEST:,} entries")
+    sizes[id(node)] = size
+    return size

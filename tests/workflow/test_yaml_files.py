@@ -1,0 +1,51 @@
+"""Mistakes in the files of experiments: one line with the file, the line and what is wrong, exit code 2."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from surfexp.catalogue.folders import experiments
+from surfexp.catalogue.yaml_files import read_yaml
+from surfexp.commands.command_line import main
+
+BOMB = "a0: &a0 [x, x]\n" + "".join(f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9)}]\n" for k in range(1, 9))
+MISTAKES = {
+    "a: [": "line 1: expected the node content",
+    "title: x\n\tx: 1\n": "line 2: found character",
+    "a: \x00": "special characters are not allowed",
+    "a: &a [*a]\n": "line 1: an alias stands inside of what it is an alias of",
+    "experiment: sent\nsurface:\n  name: cup\n  name: torus\n": "line 3: key 'name' stands there twice",
+    BOMB: "its aliases unfold to over 100,000 entries",
+    "a: *unknown\n": "line 1: found undefined alias",
+    "title: !!python/object/apply:os.system [x]\n": "line 1: could not determine a constructor",
+    "- a\n": "holds list, a mapping of options is needed",
+    "": "holds NoneType",
+    "a: " + "[" * 3000: "",
+}
+
+
+@pytest.mark.parametrize("text", MISTAKES, ids=range(len(MISTAKES)))
+def test_a_mistake_is_one_line_with_its_place(
+    text: str, working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = working_folder / "conf" / "experiment"
+    folder.mkdir(parents=True)
+    (folder / "sent.yaml").write_text(text)
+    assert main(["plan", "experiment=sent"]) == 2
+    said = capsys.readouterr().err.strip()
+    assert MISTAKES[text] in said and "sent.yaml" in said and "\n" not in said and len(said) <= 400
+
+
+def test_bytes_that_are_no_text_are_told(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = working_folder / "conf" / "experiment"
+    folder.mkdir(parents=True)
+    (folder / "sent.yaml").write_bytes(b"title: \xe9t\xe9\n")
+    assert main(["info", "sent"]) == 2
+    assert "byte 7 is no UTF-8" in capsys.readouterr().err
+
+
+def test_every_experiment_that_ships_is_read(working_folder: Path) -> None:
+    for name, file in experiments().items():
+        assert read_yaml(file)["experiment"] == name
