@@ -1,0 +1,117 @@
+"""One thing that goes wrong, and how it ended."""
+
+from __future__ import annotations
+
+import os
+import resource
+import selectors
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+REFUSED, MENDED, RIGHT, UNKNOWABLE = "refused clearly", "mended", "right", "nobody can tell"
+WRONG, HUNG = "wrong", "hung"
+OUTCOMES = (REFUSED, MENDED, RIGHT, UNKNOWABLE, WRONG, HUNG)
+SECONDS, BYTES = 10.0, 2**30
+LONGEST_LINE = 300
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a case ended.
+
+    Parameters
+    ----------
+    kind, name : str
+        Of the fault.
+    outcome : str
+        One of OUTCOMES.
+    said : str
+        The line that was said, or what is wrong.
+    seconds : float
+    """
+
+    kind: str
+    name: str
+    outcome: str
+    said: str
+    seconds: float = 0.0
+
+
+def clear(message: str) -> str:
+    """Return what is wrong with a refusal as a person reads it; empty where nothing is."""
+    if not message.strip():
+        return "says nothing"
+    if "\n" in message.strip():
+        return f"has several lines: {message.strip()[:200]!r}"
+    if len(message) > LONGEST_LINE:
+        return f"has {len(message)} characters: {message[:200]!r}"
+    if "unexpected" in message.lower() or "Traceback" in message:
+        return f"is no explanation: {message!r}"
+    return ""
+
+
+def in_a_child(
+    kind: str, name: str, work: Callable[[], tuple[str, str]], seconds: float = SECONDS, memory: int = BYTES
+) -> Ended:
+    """Run a case in a forked process with limits of time and memory; `work` returns outcome and line.
+
+    A ValueError is a refusal, judged by its line; any other exception, a signal or too much memory is wrong.
+    """
+    reading, writing = os.pipe()
+    begin = time.monotonic()
+    child = os.fork()
+    if child == 0:
+        os.close(reading)
+        _answer(work, writing)
+    os.close(writing)
+    text = _read(reading, seconds)
+    if text is None:
+        os.kill(child, signal.SIGKILL)
+    _, status, usage = os.wait4(child, 0)
+    os.close(reading)
+    spent = time.monotonic() - begin
+    if text is None:
+        return Ended(kind, name, HUNG, f"not done after {seconds:g} s", spent)
+    outcome, _, said = text.partition("\n")
+    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    grown = (usage.ru_maxrss - own) * 1024
+    if status != 0 or not outcome:
+        return Ended(kind, name, WRONG, f"the process ended with status {status}", spent)
+    if grown > memory:
+        return Ended(kind, name, WRONG, f"it took {grown / 2**20:.0f} MB", spent)
+    return Ended(kind, name, outcome, said, spent)
+
+
+def _answer(work: Callable[[], tuple[str, str]], writing: int) -> None:
+    try:
+        sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115, the process ends soon
+        outcome, said = work()
+    except ValueError as error:
+        wrong = clear(str(error))
+        outcome, said = (WRONG, f"the refusal {wrong}") if wrong else (REFUSED, str(error))
+    except BaseException as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        outcome, said = WRONG, f"{type(error).__name__}: {error} ({place.filename}:{place.lineno})"
+    with os.fdopen(writing, "w", errors="replace") as pipe:
+        pipe.write(f"{outcome}\n{said}")
+    os._exit(0)
+
+
+def _read(pipe: int, seconds: float) -> str | None:
+    """Everything until the other end is closed, or None where that takes too long."""
+    parts: list[bytes] = []
+    limit = time.monotonic() + seconds
+    with selectors.DefaultSelector() as selector:
+        selector.register(pipe, selectors.EVENT_READ)
+        while True:
+            if not selector.select(max(limit - time.monotonic(), 0.0)):
+                return None
+            part = os.read(pipe, 65536)
+            if not part:
+                return b"".join(parts).decode(errors="replace")
+            parts.append(part)
