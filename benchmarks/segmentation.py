@@ -60,7 +60,8 @@ def lines(quick: bool) -> list[Line]:
     state = "settled" if settled else f"still changing after {count}, so its time is a lower bound"
     note = (
         f"{count} iterations an update, labels {state} (under {LABELS_SETTLED:g} of the area changes when they are "
-        "doubled, least count by bisection); 1 Gauss-Seidel sweep an iteration; of ours all is counted, of the rival its iterations"
+        "doubled, least count by bisection); 1 Gauss-Seidel sweep an iteration; of ours all is counted, of the rival "
+        "its iterations"
     )
     work = f"CCV with c-loop, {operator.vertex_count:,} V, both to the energy that the rival reaches"
     fair = certified.converged and excess.of(ours.values) <= reached

@@ -1,4 +1,4 @@
-"""Faults that have to turn a claim: each is planted in a copy of the code, and the experiment is run and judged again."""
+"""Faults that have to turn a claim: each is planted in a copy of the code, its experiment is run and judged again."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ LIMIT = 1800  # seconds for an experiment with a fault
 PAGE = ROOT / "docs" / "claim_faults.md"
 HEAD = """# Claims that faults turn
 
-Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault is planted in a
-copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another one,
-by a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that was run
-changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`, or else
-the first that turned it.
+Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault is planted in
+a copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another
+one, by a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that
+was run changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`,
+or else the first that turned it.
 
 **{summary}** {faults} faults were run, {missing} not.
 

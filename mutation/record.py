@@ -20,14 +20,15 @@ EXPLAINED = ROOT / "mutation" / "explained.yaml"
 PAGE = ROOT / "docs" / "mutation.md"
 HEAD = """# Random faults
 
-Made by `python -m mutation random --count {count} --seed {seed}`: {total} faults over the {files} modules of the numerics.
-The lines that can carry a fault are picked at equal steps, so that every file gets its share by size; on a line the kind
-of fault is drawn first, then the fault. Operators, comparisons, constants, indices, signs, the order of arguments, functions
-(min for max) are changed and statements dropped; docstrings, annotations, decorators, texts and the messages of errors are
-left alone. A fault is tried on the tests that are near by import and quick, until one fails or {budget:g} s of tests have
-passed, so what survives here may still fall to the rest of the suite. Tests that start programs or run whole plugins take
-no part. Killed is a fault that a test fails on, that takes a test five times as long and more, or that ends the process.
-A survivor that is explained changes nothing that could be wrong; why stands below, and it is not counted in the rate.
+Made by `python -m mutation random --count {count} --seed {seed}`: {total} faults over the {files} modules of the
+numerics. The lines that can carry a fault are picked at equal steps, so that every file gets its share by size; on a
+line the kind of fault is drawn first, then the fault. Operators, comparisons, constants, indices, signs, the order of
+arguments, functions (min for max) are changed and statements dropped; docstrings, annotations, decorators, texts and
+the messages of errors are left alone. A fault is tried on the tests that are near by import and quick, until one
+fails or {budget:g} s of tests have passed, so what survives here may still fall to the rest of the suite. Tests that
+start programs or run whole plugins take no part. Killed is a fault that a test fails on, that takes a test five times
+as long and more, or that ends the process. A survivor that is explained changes nothing that could be wrong; why
+stands below, and it is not counted in the rate.
 
 {summary}
 """

@@ -60,8 +60,8 @@ def in_a_child(
 ) -> Ended:
     """Run a case in a forked process with limits of time and memory; `work` returns outcome and line.
 
-    A ValueError is a refusal, judged by its line; any other exception or a signal is wrong. More memory than the limit is
-    refused by the system.
+    A ValueError is a refusal, judged by its line; any other exception or a signal is wrong. More memory than the limit
+    is refused by the system.
     """
     reading, writing = os.pipe()
     begin = time.monotonic()

@@ -17,8 +17,8 @@ def read_yaml(file: Path) -> dict[str, Any]:
     Raises
     ------
     UserError
-        If it is no UTF-8, no YAML or no mapping, has a key twice, or its aliases unfold to over 100,000 entries; with the
-        line where that is.
+        If it is no UTF-8, no YAML or no mapping, has a key twice, or its aliases unfold to over 100,000 entries; with
+        the line where that is.
     """
     import yaml
 
@@ -50,7 +50,7 @@ def _line(text: str) -> str:
 
 
 def _check(node: Any, file: Path, sizes: dict[int, int], above: tuple[int, ...]) -> int:
-    """Return how many entries a node has with its aliases written out; refuse what is inside itself and keys that repeat."""
+    """Return the entries of a node with its aliases written out; refuse what is inside itself and keys that repeat."""
     import yaml
 
     where = f"{file}, line {node.start_mark.line + 1}"

@@ -20,7 +20,7 @@ Numbers = tuple[float | None, float | None, float | None, float | None]
 
 
 def numbers_beside(one: Row, other: Row) -> dict[str, Numbers]:
-    """Return for each metric, and the seconds, both values, second less first, and second over first where that is a number."""
+    """Return both values of each metric and of the seconds, second less first, and second over first if a number."""
     found: dict[str, Numbers] = {}
     for name in dict.fromkeys([*one.metrics, *other.metrics, "seconds"]):
         first, second = (row.seconds if name == "seconds" else row.metrics.get(name) for row in (one, other))
