@@ -74,6 +74,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
 def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
     from surfexp.commands.execution import run, unfinished
+    from surfexp.commands.verdict_lines import print_verdicts
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.report.convergence import unconverged
     from surfexp.report.table import comparisons, rows_of
@@ -88,8 +89,10 @@ def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
         run(plan, arguments)
     except StageFailure as error:
         failure = error
-    groups = comparisons(rows_of(plan, results.resolve()))
+    rows = rows_of(plan, results.resolve())
+    groups = comparisons(rows)
     print_tables(groups, console, ROWS_PRINTED)
+    print_verdicts(plan, rows, console)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from surfexp.commands.verdict_lines import print_verdicts
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.tracking import tracking_uri
 from surfexp.report.words import word
@@ -63,14 +64,17 @@ def _tables(plan: Plan, results: Path, form: str) -> None:
     groups = comparisons(rows)
     if form == "text":
         print_tables(groups, wide_console())
+        print_verdicts(plan, rows, wide_console())
         return
     from surfexp.report.declared import declared_by
     from surfexp.report.latex import latex_table
+    from surfexp.report.origin import read_origin
 
     experiment = plan.settings.experiment
+    made_by = read_origin(results / experiment).get("command", f"surfexp run experiment={experiment}")
     for count, group in enumerate(groups, 1):
         group.metrics = declared_by(plan, group.rows)
-        print(latex_table(group, f"{experiment}-{count}", f"surfexp run experiment={experiment}"))
+        print(latex_table(group, f"{experiment}-{count}", made_by))
 
 
 def latest_plan(results: Path, experiment: str) -> Plan:

@@ -1,0 +1,38 @@
+"""The verdicts on an experiment's claims, in the terminal below its tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.markup import escape
+
+from surfexp.report.claim import read_claims
+from surfexp.report.table import Row
+from surfexp.report.verdict import Verdict, judge
+from surfexp.workflow.plan import Plan
+
+STYLES = {
+    "reproduced": "green",
+    "holds": "green",
+    "corrected": "yellow",
+    "not reproduced": "red",
+    "does not hold": "red",
+    "not computed": "yellow",
+}
+
+
+def print_verdicts(plan: Plan, rows: Sequence[Row], console: Console) -> None:
+    """Print each claim with its verdict, the number found and the interval asked, worst last."""
+    order = list(STYLES)
+    found = sorted(judge(read_claims(plan.settings.claims), rows), key=lambda item: order.index(item.verdict))
+    for item in found:
+        style = STYLES[item.verdict]
+        console.print(f"[{style}]{item.verdict}[/{style}]  {escape(_statement(item))}", soft_wrap=True)
+    if found:
+        console.print()
+
+
+def _statement(item: Verdict) -> str:
+    asked = f"{item.quantity} {item.number}, asked {item.interval}"
+    return f"{item.claim.claim}: {item.obstacle or asked}"

@@ -1,0 +1,47 @@
+"""The terminal ends with a line a claim: what was found, what was asked, the worst last."""
+
+from __future__ import annotations
+
+from io import StringIO
+from types import SimpleNamespace
+from typing import Any, cast
+
+from rich.console import Console
+
+from surfexp.commands.verdict_lines import STYLES, print_verdicts
+from surfexp.report.table import Row
+from surfexp.workflow.plan import Leaf, Plan
+
+CLAIM: dict[str, Any] = {"quantity": "all", "metric": "energy", "rows": {}, "because": "why not"}
+
+
+def printed(claims: list[dict[str, Any]], *energies: float | None) -> list[str]:
+    plan = cast(Plan, SimpleNamespace(settings=SimpleNamespace(claims=claims)))
+    rows = []
+    for number, energy in enumerate(energies):
+        leaf = Leaf(f"row{number}", f"row{number}", {"target": "solver"})
+        metrics = {} if energy is None else {"energy": energy}
+        rows.append(Row(leaf, {"solver.name": f"row{number}"}, metrics, 1.0, failure="" if metrics else "no mesh"))
+    stream = StringIO()
+    print_verdicts(plan, rows, Console(file=stream, width=40))
+    return stream.getvalue().splitlines()
+
+
+def test_each_claim_is_a_line_with_its_number_and_interval_the_worst_last() -> None:
+    below, above = ({"claim": word, "between": ends} for word, ends in (("[b]below", [None, 1]), ("above", [0, 5])))
+    lines = printed([CLAIM | below, CLAIM | above], 2.0, 3.0)
+    assert lines == [
+        "holds  above: all energy 2 to 3, asked 0 to 5",
+        "does not hold  [b]below: all energy 2 to 3, asked ≤ 1",
+        "",
+    ]
+
+
+def test_a_row_without_a_number_is_named() -> None:
+    (line, _) = printed([CLAIM | {"claim": "low", "between": [None, 1]}], 2.0, None)
+    assert line.startswith("not computed  low: ") and "failed: row1" in line
+
+
+def test_without_claims_nothing_is_printed_and_every_verdict_has_a_style() -> None:
+    assert printed([], 2.0) == []
+    assert {"holds", "does not hold", "reproduced", "corrected", "not reproduced", "not computed"} == set(STYLES)
