@@ -136,11 +136,11 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     """Reeb graph of a map, of the first eigenfunction if none is given, as .vtk, .ply or .graphml."""
     from surfexp.commands.certificate import write_certificate
     from surfexp.skeleton.export import write_skeleton
-    from surfexp.tasks.skeletons import reeb_graph
+    from surfexp.tasks.skeletons import first_eigenfunction, reeb_graph
     from surfexp.tasks.spectra import eigenpairs
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files) if map_name else eigenpairs(surface, 3).vectors[:, 1]
+    values = map_of(surface, map_name, files) if map_name else first_eigenfunction(eigenpairs(surface, 3))
     graph = reeb_graph(surface, values, count=count)
     write_skeleton(target, graph)
     facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}

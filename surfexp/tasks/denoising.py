@@ -67,7 +67,7 @@ def denoise(
 ) -> DenoisedMap:
     """Remove noise from a map by total variation (Rudin, Osher and Fatemi), which keeps its edges.
 
-    Minimises TV(u) + mu/2 |u - f|^2 with mu = weight / (noise * h), h the mean edge length, and proves how near the result
+    Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the mean edge length, and proves how near the result
     is to the minimiser. Values outside the mask neither enter nor leave: the condition at its boundary is natural.
 
     Parameters

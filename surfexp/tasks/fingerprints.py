@@ -117,7 +117,7 @@ def fingerprint(
     sources : path, or list of paths
         Surface files; FreeSurfer subjects or folders of them, of which surf/{lh,rh}.{white,pial} are taken, called
         lh-white-2d and so on as in BrainPrint, and the structures in mri/aseg.mgz as closed surfaces; other folders, of
-        which every surface file is taken, and the structures in *_desc-aseg_dseg.nii.gz of BIDS derivatives.
+        which every surface file is taken, and the structures in ``*_desc-aseg_dseg.nii.gz`` of BIDS derivatives.
     count : int
         How many eigenvalues, ev0 = 0 among them.
     repair : bool
@@ -172,7 +172,7 @@ def _closed(structure: LabelledStructure, volume_of: Callable[[Path], LabelVolum
 def _measure(table: Fingerprints, name: str, surface: Surface, count: int, tolerance: float) -> None:
     part = part_for(surface)
     system = surface_spectrum(Surface(part.mesh, name), fem(part.mesh), count, tolerance=tolerance)
-    volume = np.nan if part.mesh.boundary_loops else enclosed_volume(part.mesh)
+    volume = enclosed_volume(part.mesh) if part.mesh.is_closed else np.nan
     # rounding leaves the zero mode a little off
     values = np.where(np.abs(system.values) < 1e-9 * system.spacing, 0.0, system.values)
     table.columns[name] = np.concatenate([[part.mesh.area, volume], values])
@@ -214,7 +214,10 @@ def _structures_of(source: Path) -> dict[str, Source]:
     if subjects := sorted(filter(_is_subject, source.iterdir())):
         return {name: found for one in subjects for name, found in _subject(one, f"{one.name} ").items()}
     files = sorted({file for pattern in PATTERNS for file in source.rglob(pattern) if file.is_file()})
-    surfaces: dict[str, Source] = {str(file.relative_to(source).with_name(_stem(file))): file for file in files}
+    short = [str(file.relative_to(source).with_name(_stem(file))) for file in files]
+    whole = [str(file.relative_to(source)) for file in files]
+    names = [long if short.count(name) > 1 else name for name, long in zip(short, whole, strict=True)]
+    surfaces: dict[str, Source] = dict(zip(names, files, strict=True))
     for volume in sorted(source.rglob(DERIVATIVE)):
         prefix = str(volume.relative_to(source)).removesuffix(DERIVATIVE[1:])
         surfaces |= {f"{prefix} {name}": structure for name, structure in structures_in(volume).items()}

@@ -44,7 +44,7 @@ class ShapeDNA(SurfaceTransformer):
 
     def _row(self, given: SurfaceLike) -> Floats:
         part, system = _spectrum(given, self.n)
-        volume = enclosed_volume(part.mesh) if not part.mesh.boundary_loops else None
+        volume = enclosed_volume(part.mesh) if part.mesh.is_closed else None
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
 
 

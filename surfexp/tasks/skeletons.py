@@ -14,6 +14,8 @@ from surfexp.skeleton.level_selection import Choice, choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.nodal_signature import zero_modes
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 
 
@@ -98,11 +100,13 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
     """
     owner = as_surface(surface)
     part = part_for(owner)
-    wanted = np.atleast_1d(np.asarray(sources, dtype=np.int64))
+    given = np.atleast_1d(np.asarray(sources))
+    wanted = given.astype(np.int64)
     number = np.full(part.whole_count, -1, dtype=np.int64)
     number[part.vertices] = np.arange(len(part.vertices))
-    if wanted.min(initial=0) < 0 or wanted.max(initial=0) >= part.whole_count:
-        raise ValueError(f"sources name vertex {wanted.max()}, the vertices are 0..{part.whole_count - 1}")
+    unknown = given[(wanted != given) | (wanted < 0) | (wanted >= part.whole_count)]
+    if len(unknown):
+        raise ValueError(f"sources name vertex {unknown[0]}, the vertices are 0..{part.whole_count - 1}")
     if (number[wanted] < 0).any():
         outside = int(wanted[number[wanted] < 0][0])
         raise ValueError(f"source {outside} lies outside the mask of {len(part.vertices)} vertices")
@@ -141,3 +145,19 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     # the positions outside are known, so the curvature of the whole is the better one inside
     values = mesh_mean_curvature(owner.mesh)
     return values if part.is_whole else part.extend(values[part.vertices])
+
+
+def first_eigenfunction(system: EigenSystem) -> Floats:
+    """Return the first eigenfunction that is not constant.
+
+    Raises
+    ------
+    ValueError
+        If the surface has several pieces, so that the second function is constant on each as well.
+    """
+    pieces = zero_modes(system)
+    if pieces > 1:
+        raise ValueError(
+            f"the surface has {pieces} pieces or more, which share no eigenfunction: give a map or a mask of one"
+        )
+    return np.asarray(system.vectors[:, pieces])

@@ -158,12 +158,18 @@ class Spectrum:
 def _first(system: EigenSystem, count: int) -> EigenSystem:
     if count == len(system.values):
         return system
-    values = system.values[:count]
+    values, residuals = system.values[:count], system.residuals[:count]
+    metrics = {"largest_residual": float(residuals.max()), "last_value": float(values[-1])}
+    metrics["clusters"] = float(len(clusters(values)))
+    notes = [note for note in system.notes if "cuts a cluster" not in note]
+    ends = [stop for start, stop in system.clusters if start < count < stop]
+    notes += [f"k = {count} cuts a cluster of nearly equal eigenvalues: k = {stop} contains all of it" for stop in ends]
     return replace(
         system,
         values=values,
         vectors=system.vectors[:, :count],
-        residuals=system.residuals[:count],
+        residuals=residuals,
         clusters=clusters(values),
-        notes=tuple(note for note in system.notes if "cuts a cluster" not in note),
+        metrics=system.metrics | metrics,
+        notes=tuple(notes),
     )

@@ -62,3 +62,14 @@ def test_masking_equals_cutting() -> None:
 def test_bounds_that_cannot_be_are_refused(bounds: tuple[float, float], words: str) -> None:
     with pytest.raises(ValueError, match=words):
         SPECTRUM.between(*bounds)
+
+
+def test_fewer_pairs_have_the_facts_of_their_own_and_name_a_cluster_that_they_cut() -> None:
+    sphere = sx.shape("icosphere", levels=3)
+    spectrum = sx.Spectrum(sphere)
+    many, few, alone = spectrum.first(16), spectrum.first(6), sx.eigenpairs(sphere, 6)
+    assert few.metrics["last_value"] == few.values[-1] != many.metrics["last_value"]
+    assert few.metrics["largest_residual"] == few.residuals.max()
+    assert few.metrics["clusters"] == len(few.clusters) == len(alone.clusters)
+    assert few.notes == alone.notes and "k = 6 cuts a cluster" in few.notes[0]
+    assert spectrum.first(4).notes == ()
