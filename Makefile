@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction ui lock clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -56,6 +56,10 @@ reproduction: .venv/ready
 	mv $$results/reproduction.md docs/reproduction.md && \
 	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
 
+# Pages, API and examples with their pictures, read from disk: build/site/index.html.
+site: optional
+	PYTHONPATH=docs $(BIN)/python -m sphinx -b html --fail-on-warning --keep-going $(SITE) docs build/site
+
 ui: .venv/ready
 	$(BIN)/surfexp ui
 
@@ -70,7 +74,7 @@ lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
-		pyproject.toml --extra dev --extra open3d --extra conic --extra bench -c requirements.lock -o requirements-optional.lock
+		pyproject.toml --extra dev --extra open3d --extra conic --extra bench --extra site -c requirements.lock -o requirements-optional.lock
 
 clean:
 	rm -rf results/[!R]* .snakemake

@@ -2,7 +2,9 @@
 
 import surfexp as sx
 
-modes = sx.eigenpairs(sx.shape("icosphere", levels=4), 300)
+sphere = sx.shape("icosphere", levels=4)
+modes = sx.eigenpairs(sphere, 300)
 for shift, count in modes.inertia:
     print(f"{count} eigenvalues below {shift:.2f}, all found: {modes.complete}")
 print(f"worst residual {modes.residuals.max():.0e}, orthogonal to {modes.orthogonality:.0e}")
+picture = sx.plot(sphere, modes.vectors[:, 45], label="mode 45", width=800)

@@ -15,3 +15,4 @@ bodies = [sx.shape("ellipsoid", levels=2, semiaxes=tuple(random.normal(families[
 pipeline = make_pipeline(sx.ShapeDNA(n=10), StandardScaler(), KNeighborsClassifier(n_neighbors=3))
 scores = cross_val_score(pipeline, bodies, names, cv=5)
 print(f"{100 * scores.mean():.0f} % of {len(bodies)} bodies in the right family")
+pictures = [sx.plot(body, width=400) for body in bodies[::5]]

@@ -14,3 +14,4 @@ before, after = (np.sqrt(np.average((m - thickness)[known] ** 2, weights=areas[k
 print(f"{known.sum()} of {len(known)} vertices, noise estimated as {clean.certificate['noise']:.2f} mm")
 print(f"error {before:.2f} mm before, {after:.2f} mm after; relative gap {clean.certificate['relative_gap']:.0e}")
 sx.write("thickness.shape.gii", clean, brain)
+picture = sx.plot(brain, clean, views=("lateral", "medial"), label="thickness", unit="mm", width=800)

@@ -17,3 +17,4 @@ for label, (x, y) in zip(labels, points, strict=True):
     print(f"{label}: {x:6.2f} {y:6.2f}")
 stress = np.linalg.norm(pdist(spectra) - pdist(points)) / np.linalg.norm(pdist(spectra))
 print(f"stress {stress:.3f}")
+pictures = [sx.plot(body, width=400) for body in bodies[::2]]

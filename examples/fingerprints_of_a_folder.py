@@ -14,3 +14,4 @@ found = sx.fingerprint(folder, count=6)
 table = pandas.DataFrame(found.rows(), index=list(found.columns))
 print(table[["area", "volume", "ev1", "ev5", "complete"]].round(2))
 found.save("bodies.csv")
+pictures = [sx.plot(file, width=400) for file in sorted(folder.iterdir())]

@@ -12,3 +12,4 @@ for name, found in (("short boundary", parts.labels == 1), ("sign of curvature a
     print(f"{name}: {100 * share:.1f} % of the area agrees with the depth")
 print(f"boundary {parts.perimeter / 10:.0f} cm, gap {parts.gap:.0e}")
 sx.write("gyri.label.gii", parts, brain)
+picture = sx.plot(brain, parts.labels, views=("lateral", "medial"), label="gyri", width=800)

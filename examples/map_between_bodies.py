@@ -14,3 +14,5 @@ copy = 2.0 * body[order] @ turn.T, np.argsort(order)[mesh.faces]
 found = sx.distance((body, mesh.faces), copy, n=10)
 right = np.mean(found.correspondence == order)
 print(f"distance {found.value:.1e}, proved least: {found.optimal}, {100 * right:.0f} % of the vertices find their own")
+coloured = x, x[found.correspondence]
+pictures = [sx.plot(shape, field, width=500) for shape, field in zip(((body, mesh.faces), copy), coloured, strict=True)]

@@ -16,3 +16,4 @@ except ValueError as refused:
 mesh = (repaired := sx.read("fin.npz", repair=True)).mesh
 print("\n".join(repaired.notes))
 print(f"genus {mesh.genus}, {len(mesh.vertices)} vertices, area error {abs(mesh.area - sphere.area):.1e}")
+picture = sx.plot(repaired, width=800)

@@ -6,3 +6,6 @@ left, right = (sx.shape("fsaverage5", hemisphere=side, surface="white") for side
 found = sx.distance(left, right, n=20, weighting="global_point")
 print(f"distance {found.value:.4f}, no signs give less than {found.lower_bound:.4f}: {found.optimal}")
 print(f"proved with {found.evaluations} evaluations of {2**20}")
+places = left.mesh.vertices[:, 1], left.mesh.vertices[found.correspondence, 1]
+sides = (left, right)
+pictures = [sx.plot(side, field, views=("lateral",), width=500) for side, field in zip(sides, places, strict=True)]

@@ -16,3 +16,4 @@ print(
 print(f"farthest vertex at {np.nanmax(reached):.2f}")
 networkx.write_graphml(graph.graph(), "patch.graphml")
 sx.write("patch.vtk", {"distance": reached}, torus)
+picture = sx.plot(patch, reached, label="distance", width=800)

@@ -11,3 +11,4 @@ parts = sx.segment(sphere, noisy, smoothness=1.0)
 found = parts.labels == 1
 dice = 2.0 * areas[cap & found].sum() / (areas[cap].sum() + areas[found].sum())
 print(f"dice {dice:.3f}, boundary {parts.perimeter:.2f} (a circle has 5.76)")
+pictures = [sx.plot(sphere, image, colormap="gray", width=500) for image in (noisy, found)]

@@ -17,3 +17,4 @@ for name in families:
     print(f"{name}: {x:6.2f} {y:6.2f}")
 nearest = np.argmin(distances + 1e9 * np.eye(len(names)), axis=1)
 print(f"{np.sum(names[nearest] == names)} of {len(names)} are nearest to one of their own family")
+pictures = [sx.plot(body, width=400) for body in bodies[::10]]

@@ -24,7 +24,7 @@ FOUND_BY_NAME = {
     "hydra-optuna-sweeper": ("README.md", "hydra/sweeper=optuna"),
     "snakemake-executor-plugin-slurm": ("profiles/slurm/config.yaml", "executor: slurm"),
 }
-TOOLS = ("dev", "bench", "all")
+TOOLS = ("dev", "bench", "site", "all")
 
 
 def name_of(requirement: str) -> str:
