@@ -12,6 +12,7 @@ from pathlib import Path
 
 from surfexp import __version__
 from surfexp.commands import processes
+from surfexp.commands.error_line import error_line
 from surfexp.extras import MissingExtra, missing_line, missing_module
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
@@ -110,7 +111,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if os.environ.get("SURFEXP_DEBUG"):
             traceback.print_exc()
         for line in str(error).splitlines():
-            print(f"surfexp: {line}", file=sys.stderr)
+            print(f"surfexp: {error_line(line)}", file=sys.stderr)
         return 1 if isinstance(error, StageFailure) else 2
     except Exception as error:
         if isinstance(error, ImportError) and (missing := missing_module(error)):
@@ -120,7 +121,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         where = traceback.extract_tb(error.__traceback__)[-1]
         place = f"{Path(where.filename).name}:{where.lineno}"
-        print(f"surfexp: unexpected {type(error).__name__} in {place}: {error}; --debug shows more", file=sys.stderr)
+        what = error_line(f"unexpected {type(error).__name__} in {place}: {error}")
+        print(f"surfexp: {what}; --debug shows more", file=sys.stderr)
         return 1
 
 

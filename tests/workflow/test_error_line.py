@@ -1,0 +1,38 @@
+"""Errors fit a terminal whatever was typed: nothing is echoed at length, and what is left out is said."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from surfexp.commands.command_line import main
+from surfexp.commands.error_line import LONGEST_LINE, error_line
+from surfexp.workflow.errors import unknown
+
+
+def test_a_long_value_is_cut_and_a_path_is_not() -> None:
+    line = error_line(f"tolerance = {'9' * 400}: not a number")
+    assert line == f"tolerance = {'9' * 20}...{'9' * 10} (400 characters): not a number"
+    path = f"/home/{'folder/' * 20}mesh.ply is missing"
+    assert error_line(path) == path
+
+
+@given(st.lists(st.text("abcdefgh", min_size=1, max_size=30), min_size=1, max_size=400, unique=True))
+def test_a_list_of_choices_fits_and_says_how_many_more_there_are(names: list[str]) -> None:
+    whole = str(unknown("command", "zzzzzz", names))
+    line = error_line(whole)
+    assert len(line) <= LONGEST_LINE
+    if line != whole:
+        said, shown = line.rpartition(", ")[2], line.partition("choose from: ")[2].split(", ")[:-1]
+        assert (
+            len(whole) > LONGEST_LINE
+            and said == f"{len(names) - len(shown):,} more"
+            and shown == sorted(names)[: len(shown)]
+        )
+
+
+def test_the_command_line_prints_such_lines(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["frobnicate"]) == 2
+    line = capsys.readouterr().err.strip()
+    assert len(line) <= LONGEST_LINE + len("surfexp: ") and line.endswith(" more")
