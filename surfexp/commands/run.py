@@ -53,6 +53,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
 
+    from surfexp.report.combination import check_combinations
     from surfexp.report.declared import check_names
     from surfexp.workflow.launch import launch
 
@@ -60,6 +61,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
 
     def check_and_act(plan: Plan) -> None:
         check_names(plan)
+        check_combinations(plan)
         plans.append(plan)
         action(plan)
 
