@@ -67,8 +67,9 @@ def denoise(
 ) -> DenoisedMap:
     """Remove noise from a map by total variation (Rudin, Osher and Fatemi), which keeps its edges.
 
-    Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the mean edge length, and proves how near the result
-    is to the minimiser. Values outside the mask neither enter nor leave: the condition at its boundary is natural.
+    Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle
+    of mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor
+    leave: the condition at its boundary is natural.
 
     Parameters
     ----------

@@ -37,7 +37,8 @@ class Segmentation:
     c1, c2 : float
         The means of the brighter and of the darker region in the energy that is bounded, c1 > c2.
     energy : float
-        Length of the boundary plus the weighted squared distance to the means.
+        Length of the boundary plus the integral of mu r over the brighter region, r the difference of the squared
+        distances to the two means: 0 for a region that is empty, below it where two regions are better than one.
     lower_bound : float
         No two regions have less energy for these means.
     gap : float
