@@ -12,7 +12,7 @@ from surfexp.commands.command_line import main
 
 README = Path(__file__).resolve().parents[2] / "README.md"
 STARTS = ("surfexp run ", "surfexp plan ")
-# of a folder that `surfexp collect` wrote, of a plugin that the page shows, of a search and of a cluster: seen elsewhere
+# of a folder that `surfexp collect` wrote, of a plugin that the page shows, a search, a cluster: seen elsewhere
 ELSEWHERE = ("axes", "scaled", "hydra/sweeper", "profile=")
 LINES = [
     line.partition("  #")[0].strip()

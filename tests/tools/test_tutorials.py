@@ -37,14 +37,16 @@ def blocks(page: Path) -> list[Block]:
 def missing(expected: str, printed: str) -> list[str]:
     """Lines of an expected output that no printed line matches; an ellipsis stands for anything."""
     lines = printed.splitlines()
-    patterns = {line: ".*".join(map(re.escape, line.split("…"))) for line in expected.splitlines() if line.strip("… ")}
-    return [line for line, pattern in patterns.items() if not any(re.fullmatch(pattern, said) for said in lines)]
+    wanted = [line for line in expected.splitlines() if line.strip("… ")]
+    patterns = [".*".join(map(re.escape, line.split("…"))) for line in wanted]
+    found = [any(re.fullmatch(pattern, said) for said in lines) for pattern in patterns]
+    return [line for line, is_there in zip(wanted, found, strict=True) if not is_there]
 
 
 def commands(text: str) -> Iterator[tuple[str, str]]:
     """The commands of a console block, each with the lines that it should print."""
     for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
-        command, _, expected = part.partition("\n")
+        command, _, expected = part.replace("\\\n", " ").partition("\n")
         yield command, expected
 
 
@@ -95,4 +97,4 @@ def test_pages_have_blocks_and_their_files_are_told_from_commands() -> None:
 def test_what_is_not_printed_is_named() -> None:
     assert missing("a … c\nnine\n…\n", "a big c\nten") == ["nine"]
     assert missing("…shape_dna…", "| shape_dna | 1 |\n") == []
-    assert list(commands("$ one\nsaid\n$ two\n")) == [("one", "said\n"), ("two", "")]
+    assert list(commands("$ one \\\n  more\nsaid\n$ two\n")) == [("one    more", "said\n"), ("two", "")]
