@@ -18,7 +18,7 @@ def test_a_long_value_is_cut_and_a_path_is_not() -> None:
     assert error_line(path) == path
 
 
-@given(st.lists(st.text("abcdefgh", min_size=1, max_size=30), min_size=1, max_size=400, unique=True))
+@given(st.lists(st.text("abcdefgh", min_size=4, max_size=30), min_size=40, max_size=80, unique=True))
 def test_a_list_of_choices_fits_and_says_how_many_more_there_are(names: list[str]) -> None:
     whole = str(unknown("command", "zzzzzz", names))
     line = error_line(whole)
