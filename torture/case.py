@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import os
 import resource
 import selectors
@@ -93,6 +94,7 @@ def _limit_memory(more: int) -> None:
 
 
 def _answer(work: Callable[[], tuple[str, str]], writing: int) -> None:
+    faulthandler.disable()  # a crash on purpose is an outcome, told by the status
     try:
         sys.stdout = sys.stderr = Path(os.devnull).open("w")  # noqa: SIM115, the process ends soon
         outcome, said = work()

@@ -5,20 +5,23 @@ from __future__ import annotations
 import re
 
 LONGEST_WORD, LONGEST_LINE = 80, 300
-CHOICES = "choose from: "
+# the names alone: what a message says after them is its reason and stays
+CHOICES = re.compile(r"(?<=choose from: )[^\s,;:()]+(?:, [^\s,;:()]+)+")
 
 
 def error_line(text: str) -> str:
     """Return a line with the middle of long words and the end of a long list of choices left out."""
     line = re.sub(rf"[^\s:;,]{{{LONGEST_WORD + 1},}}", _shortened, text)
-    head, mark, choices = line.partition(CHOICES)
-    if len(line) <= LONGEST_LINE or not mark:
-        return line
+    over = len(line) - LONGEST_LINE
+    return CHOICES.sub(lambda found: _first_names(found.group(), over), line) if over > 0 else line
+
+
+def _first_names(choices: str, over: int) -> str:
     names = choices.split(", ")
     kept = len(names)
-    while kept > 1 and len(head) + len(CHOICES) + len(", ".join(names[:kept])) > LONGEST_LINE - len(", 1,000 more"):
+    while kept > 1 and len(", ".join(names[:kept])) > len(choices) - over - len(", 1,000 more"):
         kept -= 1
-    return f"{head}{CHOICES}{', '.join(names[:kept])}, {len(names) - kept:,} more"
+    return f"{', '.join(names[:kept])}, {len(names) - kept:,} more"
 
 
 def _shortened(found: re.Match[str]) -> str:

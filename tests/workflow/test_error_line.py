@@ -32,6 +32,17 @@ def test_a_list_of_choices_fits_and_says_how_many_more_there_are(names: list[str
         )
 
 
+@given(
+    st.lists(st.text("abcdefgh", min_size=4, max_size=30), min_size=40, max_size=80, unique=True),
+    st.sampled_from(
+        [" (crooked.py, line 2: invalid syntax)", "; or bring your own, as a file", ": nothing was computed"]
+    ),
+)
+def test_what_a_message_says_after_its_choices_stays(names: list[str], reason: str) -> None:
+    line = error_line(f"{unknown('solver', 'zzzzzz', names)}{reason}")
+    assert len(line) <= LONGEST_LINE and line.endswith(f" more{reason}")
+
+
 def test_the_command_line_prints_such_lines(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["frobnicate"]) == 2
     line = capsys.readouterr().err.strip()
