@@ -324,7 +324,14 @@ def test_declared_metrics_have_a_meaning(kind: str, name: str) -> None:
 
 
 # a population on a whole cortex, computed twice
-SULCAL = ("sulcal_population", "sulcal_table", "sulci_names", "sulcal_asymmetry", "template_distances")
+SULCAL = (
+    "sulcal_population",
+    "sulcal_false_positives",
+    "sulcal_table",
+    "sulci_names",
+    "sulcal_asymmetry",
+    "template_distances",
+)
 LONG = {("statistic", name) for name in SULCAL} | {("surface", "cortex")}
 STORED = [pytest.param(*key, marks=[pytest.mark.slow] * (key in LONG)) for key in PLUGINS if KINDS[key[0]].stored]
 

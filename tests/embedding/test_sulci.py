@@ -199,6 +199,7 @@ def test_a_ring_of_growth_and_shrinking_closes_a_gap_and_no_more() -> None:
     assert not closed_region(mesh, np.zeros(len(cap), bool)).any()
 
 
+@pytest.mark.slow
 def test_a_bare_file_gives_the_lengths_of_the_surface_in_memory(template, cortex, tmp_path) -> None:
     target = synthetic_subject(cortex, 2, "right", seed=3)
     write_mesh(tmp_path / "subject.off", target.mesh)
@@ -253,6 +254,7 @@ def test_the_table_of_lengths_is_read_back_from_blocks_in_any_order(lengths) -> 
         chosen(found, ["exact"])
 
 
+@pytest.mark.slow
 def test_exchanging_sides_changes_the_sign_of_every_asymmetry(lengths) -> None:
     rows, columns, metrics = asymmetry_study(lengths)
     swapped = {name: {"left": sides["right"], "right": sides["left"]} for name, sides in lengths.items()}

@@ -80,6 +80,7 @@ def test_gauss_bonnet(printed: list[str]) -> None:
     assert "fsaverage5 white, left" in line and "total curvature 4.000000 pi" in line
 
 
+@pytest.mark.slow
 def test_gyri_and_sulci(printed: list[str]) -> None:
     regions, sign, boundary, gap = numbers(printed)
     assert 100 > regions > sign > 50 and boundary > 0 and gap <= 1e-3

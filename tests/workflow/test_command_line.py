@@ -41,8 +41,7 @@ def surfexp(*arguments: str, code: int = 0, **environment: str) -> subprocess.Co
     return done
 
 
-@pytest.fixture
-def laboratory(working_folder: Path) -> Path:
+def furnished(working_folder: Path) -> Path:
     (working_folder / "plugins" / "pairing").mkdir(parents=True)
     shutil.copy(TOYS, working_folder / "plugins" / "pairing" / "toys.py")
     (working_folder / "conf" / "experiment").mkdir(parents=True)
@@ -51,6 +50,25 @@ def laboratory(working_folder: Path) -> Path:
     for name in ("numpy", "json", "mlflow", "snakemake", "surfexp"):
         (working_folder / f"{name}.py").write_text("raise ImportError('taken from the working folder')")
     return working_folder
+
+
+@pytest.fixture
+def laboratory(working_folder: Path) -> Path:
+    """A working folder with an experiment and plugins of its own."""
+    return furnished(working_folder)
+
+
+@pytest.fixture(scope="module")
+def untouched(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One laboratory for all questions that leave it as it is."""
+    return furnished(tmp_path_factory.mktemp("untouched"))
+
+
+@pytest.fixture
+def asked(untouched: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The untouched laboratory, worked in."""
+    monkeypatch.chdir(untouched)
+    return untouched
 
 
 def runs(folder: Path) -> dict[str, tuple[str, dict[str, str], dict[str, float]]]:
@@ -155,7 +173,7 @@ def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -
     "victim",
     [
         pytest.param("surfexp.commands.command_line", marks=pytest.mark.slow),
-        "surfexp.workers.snakemake",
+        pytest.param("surfexp.workers.snakemake", marks=pytest.mark.slow),
         pytest.param("surfexp.workers.stage_server", marks=pytest.mark.slow),
     ],
 )
@@ -213,7 +231,7 @@ def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
         (["run", "results=/proc/none"], "/proc/none: No such file or directory; choose another results folder"),
     ],
 )
-def test_mistakes_end_with_code_2_and_one_line(laboratory: Path, arguments: list[str], message: str) -> None:
+def test_mistakes_end_with_code_2_and_one_line(asked: Path, arguments: list[str], message: str) -> None:
     done = surfexp(*arguments, code=2)
     assert message in done.stderr, done.stderr
     assert len(done.stderr.strip().splitlines()) == 1, done.stderr
@@ -237,7 +255,7 @@ def test_two_plugins_of_one_name_are_refused_naming_both_files(laboratory: Path)
     assert "operator/fem is defined twice" in error and error.count("fem.py") == 2
 
 
-def test_help_and_catalogue(laboratory: Path) -> None:
+def test_help_and_catalogue(asked: Path) -> None:
     for name in ("list", "info", "table", "report", "ui", "clean", "verify", "new", "view", "mesh", "doctor"):
         assert "usage: surfexp" in surfexp(name, "--help").stdout
     assert "primal_dual" in surfexp("run", "--help").stdout and "toy_triangle" in surfexp("run", "--help").stdout

@@ -55,8 +55,17 @@ def test_a_second_process_finds_the_code_of_the_first(cache: Path, tmp_path: Pat
     assert oct((cache / "state").stat().st_mode)[-2:] == "00"
 
 
-@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
-@pytest.mark.parametrize("damage", ["flip", "cut", "empty"])
+@pytest.mark.parametrize(
+    ("damage", "suffix"),
+    [
+        ("flip", "nbc"),
+        ("cut", "nbi"),
+        pytest.param("flip", "nbi", marks=pytest.mark.slow),
+        pytest.param("cut", "nbc", marks=pytest.mark.slow),
+        pytest.param("empty", "nbi", marks=pytest.mark.slow),
+        pytest.param("empty", "nbc", marks=pytest.mark.slow),
+    ],
+)
 def test_damaged_code_is_compiled_again_and_named(cache: Path, tmp_path: Path, suffix: str, damage: str) -> None:
     call(tmp_path)
     (file,) = cache.rglob(f"*.{suffix}")
