@@ -12,7 +12,7 @@ from sphinx.application import Sphinx
 
 DOCS = Path(__file__).parent
 PROGRAMS = DOCS / "generated" / "programs"  # examples write files where they stand
-shutil.copytree(DOCS.parent / "examples", PROGRAMS, dirs_exist_ok=True)
+shutil.copytree(DOCS.parent / "examples", PROGRAMS, ignore=shutil.ignore_patterns("plugin_package"), dirs_exist_ok=True)
 
 project = "surfexp"
 author = copyright = "The surfexp developers"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import shutil
 import subprocess
 import sys
@@ -14,60 +15,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
-PLUGIN = '''"""A third party's surface."""
-
-import numpy as np
-from pydantic import Field
-
-from surfexp.mesh.surface import Surface
-from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow.registry import Options, register
-from thirdparty_surfaces.outer import scaled
-
-
-class Tetrahedron(Options):
-    size: float = Field(1.0, gt=0, description="edge length of the cube around it")
-
-
-@register("surface", "tetrahedron")
-def tetrahedron(options: Tetrahedron) -> Surface:
-    """A tetrahedron from a third party."""
-    vertices = options.size * np.array([[0.0, 0, 0], [1, 1, 0], [1, 0, 1], [0, 1, 1]])
-    mesh = TriangleMesh(vertices, np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]))
-    return Surface(mesh, "tetrahedron", metrics={"area": scaled(mesh.area)})
-'''
-INNER = """from numba import njit
-
-@njit(cache=True)
-def factor(x):
-    return 1.0 * x
-"""
-OUTER = """from numba import njit
-from thirdparty_surfaces.inner import factor
-
-@njit(cache=True)
-def scaled(x):
-    return factor(x)
-"""
-PROJECT = """[build-system]
-requires = ["setuptools"]
-build-backend = "setuptools.build_meta"
-[project]
-name = "thirdparty-surfaces"
-version = "1.0"
-[project.entry-points."surfexp.plugins"]
-tetrahedron = "thirdparty_surfaces.tetrahedron"
-[tool.setuptools]
-packages = ["thirdparty_surfaces", "thirdparty_surfaces.conf"]
-[tool.setuptools.package-data]
-"thirdparty_surfaces.conf" = ["**/*.yaml"]
-"""
-EXPERIMENT = """# @package _global_
-experiment: third
-title: A third party's experiment
-target: surface
-surface: tetrahedron
-"""
+PACKAGE = ROOT / "examples" / "plugin_package"
 
 
 def call(*command: str | Path, cwd: Path) -> str:
@@ -85,14 +33,7 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     shutil.copytree(ROOT, source, ignore=ignored)
     (source / "results").mkdir()
     third = tmp_path / "third"
-    (third / "thirdparty_surfaces" / "conf" / "experiment").mkdir(parents=True)
-    (third / "pyproject.toml").write_text(PROJECT)
-    (third / "thirdparty_surfaces" / "__init__.py").write_text("")
-    (third / "thirdparty_surfaces" / "conf" / "__init__.py").write_text("")
-    (third / "thirdparty_surfaces" / "conf" / "experiment" / "third.yaml").write_text(EXPERIMENT)
-    (third / "thirdparty_surfaces" / "tetrahedron.py").write_text(PLUGIN)
-    (third / "thirdparty_surfaces" / "inner.py").write_text(INNER)
-    (third / "thirdparty_surfaces" / "outer.py").write_text(OUTER)
+    shutil.copytree(PACKAGE, third, ignore=ignored)
     for folder in (source, third):
         call(
             sys.executable,
@@ -124,19 +65,43 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     where = call(python, "-c", "import surfexp; print(surfexp.__file__)", cwd=empty)
     assert str(tmp_path) in where and str(ROOT) not in where
     listed = call(surfexp, "list", "experiment", cwd=empty)
-    assert "quickstart" in listed and "third" in listed
-    assert "tetrahedron" in call(surfexp, "run", "--help", cwd=empty)
-    assert "surface size" in call(surfexp, "run", "experiment=third", "surface.size=1,2", cwd=empty)
-    # what ships is there and is found: the experiments plan, and a stage runs (solvers compile for a minute, so none)
+    assert "quickstart" in listed and "shape_distributions" in listed
+    assert "shape_distribution" in call(surfexp, "run", "--help", cwd=empty)
+    said = call(surfexp, "run", "experiment=sphere_distances", cwd=empty)
+    assert "surface levels" in said and "holds" in said
+    # what ships is there and is found: the experiments plan (solvers compile for a minute, so none runs)
     assert "configurations" in call(surfexp, "plan", "experiment=quickstart", cwd=empty)
-    call(surfexp, "run", "experiment=third", "surface=icosphere", "surface.levels=2", "results=other", cwd=empty)
-    assert (empty / "other" / "third" / "report.html").exists()
+    assert (empty / "results" / "sphere_distances" / "report.html").exists()
 
     # an edit in a compiled function that the plugin reaches through another module shows in the next run
-    before = (empty / "results" / "third" / "metrics.csv").read_text()
-    inner = site / "thirdparty_surfaces" / "inner.py"
-    inner.write_text(INNER.replace("1.0 * x", "3.0 * x"))
-    call(surfexp, "run", "experiment=third", "surface.size=1,2", cwd=empty)
-    after = (empty / "results" / "third" / "metrics.csv").read_text()
-    area = [[float(row["area"]) for row in csv.DictReader(io.StringIO(text))] for text in (before, after)]
-    assert area[1] == pytest.approx([3.0 * value for value in area[0]])
+    before = (empty / "results" / "sphere_distances" / "metrics.csv").read_text()
+    sampling = site / "surfexp_shape_distributions" / "sampling.py"
+    point = "(1.0 - root) * corners[0] + root * ((1.0 - t) * corners[1] + t * corners[2])"
+    source_text = sampling.read_text()
+    assert point in source_text
+    sampling.write_text(source_text.replace(point, f"3.0 * ({point})"))
+    call(surfexp, "run", "experiment=sphere_distances", cwd=empty)
+    after = (empty / "results" / "sphere_distances" / "metrics.csv").read_text()
+    median = [[float(row["median_distance"]) for row in csv.DictReader(io.StringIO(text))] for text in (before, after)]
+    assert median[1] == pytest.approx([3.0 * value for value in median[0]], rel=1e-9)
+
+
+def test_the_tests_of_the_package_pass(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(PACKAGE / "tests")]
+    done = subprocess.run(
+        command, capture_output=True, text=True, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(PACKAGE)}
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.slow
+def test_its_experiment_on_bodies_in_poses_ends_with_verdicts(tmp_path: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGE)}
+    (tmp_path / "plugins" / "signature").mkdir(parents=True)
+    shutil.copy(PACKAGE / "surfexp_shape_distributions" / "shape_distribution.py", tmp_path / "plugins" / "signature")
+    (tmp_path / "conf").mkdir()
+    shutil.copytree(PACKAGE / "surfexp_shape_distributions" / "conf" / "experiment", tmp_path / "conf" / "experiment")
+    command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", "experiment=shape_distributions"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=environment)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "The spectrum names every body in every pose" in done.stdout and "not computed" not in done.stdout
