@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.arrays import Floats
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
-from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, eigenvalue_blocks
+from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, Blocks, eigenvalue_blocks
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
@@ -161,7 +161,9 @@ def align(
     >>> sx.align(body, body, 5).basis.round(3).diagonal().tolist()
     [1.0, 1.0, 1.0, 1.0, 1.0]
     """
-    (first, _), (second, part) = embedded(source, count, weighting), embedded(target, count, weighting)
+    (longer, _), (other, part) = embedded(source, count + 1, weighting), embedded(target, count + 1, weighting)
+    notes = _cut_block(eigenvalue_blocks(longer.values, other.values, gap=relative_gap))
+    first, second = longer.truncated(count), other.truncated(count)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
     single = len(blocks) == count
     most = search_limit(first, second) if limit is None else limit
@@ -173,7 +175,18 @@ def align(
     lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))
     vectors = part.extend(second.points / lengths @ found.basis)
     numbered = tuple((start + 1, stop) for start, stop in blocks)
-    return ModeAlignment(found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes)
+    return ModeAlignment(
+        found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes + notes
+    )
+
+
+def _cut_block(blocks: Blocks) -> tuple[str, ...]:
+    """Say it where the last mode is no last one: blocks of one mode more than was asked for."""
+    start, stop = blocks[-1]
+    if stop - start == 1:
+        return ()
+    choice = f"; {start} modes end between two" if start else ""
+    return (f"Mode {stop} lies too near to mode {stop - 1} to be told from it: the last block is cut{choice}.",)
 
 
 def search_limit(first: SpectralEmbedding, second: SpectralEmbedding) -> int:

@@ -1,0 +1,51 @@
+"""Modes of one surface brought into correspondence with those of another: signs, rotations in blocks, what is cut."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+
+BODY = sx.shape("ellipsoid", levels=3)
+SPHERE = sx.shape("icosphere", levels=3)
+TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+
+
+def renumbered(surface: sx.Surface, scale: float) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+    """Vertices and faces of a copy turned, scaled and renumbered, and the old number of each of its vertices."""
+    order = np.random.default_rng(1).permutation(len(surface.mesh.vertices))
+    number = np.argsort(order)
+    turn = TURN * np.sign(np.linalg.det(TURN))
+    return (scale * surface.mesh.vertices[order] @ turn.T, number[surface.mesh.faces]), order
+
+
+def test_modes_of_a_copy_come_back_mode_by_mode() -> None:
+    copy, order = renumbered(BODY, 7.0)
+    found = sx.align(BODY, copy, 6)
+    assert found.optimal and found.value < 1e-6 and found.notes == ()
+    assert np.allclose(np.abs(found.basis), np.eye(6), atol=1e-6)
+    own = sx.eigenpairs(BODY, 7).vectors[:, 1:]
+    signs = np.sign((own[order] * found.vectors).sum(axis=0))
+    scale = np.linalg.norm(own) / np.linalg.norm(found.vectors)
+    assert abs(signs).all() and np.allclose(own[order], scale * found.vectors * signs, atol=1e-5 * np.abs(own).max())
+    # one sign for all modes is free where the body is its own mirror image; relative signs are those of the source
+    again = sx.align(BODY, BODY, 6)
+    assert np.allclose(again.basis, np.diag(np.diag(again.basis)), atol=1e-6)
+
+
+@pytest.mark.parametrize(("count", "cut"), [(3, False), (5, True), (8, False), (12, True)])
+def test_a_cut_block_is_said_with_the_way_out(count: int, cut: bool) -> None:
+    found = sx.align(SPHERE, SPHERE, count)  # modes 1 to 3, 4 to 8 and 9 to 15 have one eigenvalue each
+    said = [note for note in found.notes if "the last block is cut" in note]
+    assert len(said) == cut
+    if cut:
+        assert f"{3 if count < 8 else 8} modes end between two" in said[0]
+
+
+def test_blocks_are_rotated_as_a_whole() -> None:
+    copy, _ = renumbered(SPHERE, 2.0)
+    found = sx.align(SPHERE, copy, 8)
+    assert found.blocks == ((1, 3), (4, 8))
+    assert np.allclose(found.basis.T @ found.basis, np.eye(8), atol=1e-9)
+    assert np.abs(found.basis[:3, 3:]).max() == 0.0 and np.abs(found.basis[3:, :3]).max() == 0.0
