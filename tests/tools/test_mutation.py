@@ -165,3 +165,19 @@ def test_planted_faults_are_seen_by_tests_in_memory() -> None:
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
     assert run.stdout.count("killed") == 2
+
+
+def test_an_experiment_that_takes_too_long_says_nothing_of_its_claims(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def verdicts(experiment: str, fault: claims.ClaimFault | None) -> claims.Verdicts:
+        if fault is not None and fault.new == "slow":
+            raise subprocess.TimeoutExpired("surfexp", claims.LIMIT)
+        return {"steady": ["holds", "1", ""]}
+
+    faults = [claims.ClaimFault("drums", "surfexp/operators/fem.py", "sound", new) for new in ("slow", "other")]
+    monkeypatch.setattr(claims, "RESULTS", tmp_path)
+    monkeypatch.setattr(claims, "_verdicts", verdicts)
+    (trial,) = claims.try_all(faults, 1)
+    assert trial.fault.new == "other" and trial.outcome("steady") == "untouched"
+    assert "drums: surfexp/operators/fem.py: not run, for it took more than" in capsys.readouterr().out
