@@ -179,7 +179,9 @@ def run(experiment: str, results: str | Path = "results", **overrides: Any) -> E
     arguments = [f"experiment={experiment}", f"results={results}"]
     arguments += [f"{name}={_written(value)}" for name, value in overrides.items()]
     command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", *arguments]
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run(  # noqa: S603, this interpreter, this package, no shell
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+    )
     said = [line.removeprefix("surfexp: ") for line in done.stderr.splitlines() if line.startswith("surfexp: ")]
     for line in said if done.returncode == UNCONVERGED else ():
         warnings.warn(line.removeprefix("warning: "), stacklevel=2)

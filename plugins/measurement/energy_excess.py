@@ -41,6 +41,6 @@ def energy_excess_measurement(
     else:
         raise ValueError(f"energy_excess knows rof and convex_chan_vese, not {type(model).__name__}")
     bound = partial(primal_dual, tolerance=options.tolerance, progress=report_progress)(fidelity, operator).lower_bound
-    assert bound is not None
+    assert bound is not None  # noqa: S101, narrows a type
     excess = energy_excess(fidelity, operator, solver.values, bound)
     return Measurement(solver.solver, solver.metrics | {"energy_excess": excess}, solver.notes)

@@ -47,8 +47,10 @@ def contained_description(working_folder: Path) -> dict[str, Any]:
 def _ask(working_folder: Path, faults: dict[str, str]) -> tuple[dict[str, Any] | None, str, str]:
     """Return the description, or the file that was being loaded and what became of the process."""
     command = [sys.executable, "-P", "-m", "surfexp.catalogue.contained", str(working_folder), json.dumps(faults)]
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, start_new_session=True)
-    assert process.stdout is not None
+    process = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, start_new_session=True
+    )
+    assert process.stdout is not None  # noqa: S101, narrows a type
     file, waiting, deadline = "", b"", time.monotonic() + SECONDS
     try:
         while select.select([process.stdout], [], [], max(0.0, deadline - time.monotonic()))[0]:

@@ -11,7 +11,7 @@ from pathlib import Path
 def package_folder(name: str) -> Path:
     """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
     specification = importlib.util.find_spec(name)
-    assert specification is not None and specification.submodule_search_locations
+    assert specification is not None and specification.submodule_search_locations  # noqa: S101, narrows a type
     return Path(next(iter(specification.submodule_search_locations))).resolve()
 
 

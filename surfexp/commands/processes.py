@@ -42,7 +42,9 @@ def drive(
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as sink:
         _state["starting"] = True  # an exception inside Popen would leave a child that nobody knows
-        process = subprocess.Popen(command, stdout=sink, stderr=sink, start_new_session=True, **options)
+        process = subprocess.Popen(  # noqa: S603, Snakemake's command line as a list, no shell
+            command, stdout=sink, stderr=sink, start_new_session=True, **options
+        )
         _running.append(process)
         _state["starting"] = False
         try:

@@ -35,6 +35,6 @@ def libigl_operator(mesh: TriangleMesh) -> SurfaceOperator:
     rows = np.arange(count)[:, None] + count * np.arange(3)
     hats_in_space = np.stack([gradient[rows, faces[:, [k, k, k]]].toarray() for k in range(3)], axis=1)
     frames = fem(mesh).frames
-    assert frames is not None
+    assert frames is not None  # noqa: S101, narrows a type
     hat_gradients = np.einsum("fkx,fax->fka", hats_in_space, frames)
     return SurfaceOperator(faces, hat_gradients, areas, len(mesh.vertices), frames, name="libigl")

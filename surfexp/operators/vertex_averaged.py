@@ -37,7 +37,7 @@ def vertex_averaged(mesh: TriangleMesh, tangent: bool = False) -> SurfaceOperato
         As `fem`.
     """
     operator = fem(mesh)
-    assert operator.frames is not None
+    assert operator.frames is not None  # noqa: S101, narrows a type
     in_space = np.einsum("fka,fax->fkx", operator.hat_gradients, operator.frames)
     inverse_ring = diags_array(1.0 / (3.0 * operator.mass))
     weighted = operator.areas[:, None, None] * in_space

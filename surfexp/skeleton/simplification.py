@@ -69,7 +69,7 @@ def simplified(graph: ReebGraph, threshold: float) -> ReebGraph:
         if len(below) == 1 and len(above) == 1:
             kept, gone = below[0], above[0]
             kept_ends, gone_ends = ends[kept], ends[gone]
-            assert kept_ends is not None and gone_ends is not None
+            assert kept_ends is not None and gone_ends is not None  # noqa: S101, narrows a type
             kept_ends[1] = gone_ends[1]
             around[gone_ends[1]][0][around[gone_ends[1]][0].index(gone)] = kept
             around[fork], ends[gone], merged[gone] = [[], []], None, kept

@@ -104,7 +104,7 @@ def _predictor(matrix: DistanceMatrix, method: str, neighbours: int, seed: int) 
             return np.asarray(votes.argmax(axis=1))
 
         return near
-    assert points is not None
+    assert points is not None  # noqa: S101, narrows a type
 
     def fitted(train: Integers, labels: Integers, test: Integers) -> Integers:
         if len(np.unique(labels)) == 1:

@@ -160,8 +160,8 @@ def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tup
 
 def _labelled(solution: Solution, part: SurfacePart, notes: tuple[str, ...]) -> Segmentation:
     """The regions of a solution on a part, put back on the whole."""
-    assert solution.segmentation is not None and solution.lower_bound is not None
-    assert solution.relative_gap is not None
+    assert solution.segmentation is not None and solution.lower_bound is not None  # noqa: S101, narrows a type
+    assert solution.relative_gap is not None  # noqa: S101, narrows a type
     labels = np.full(part.whole_count, -1, dtype=np.int64)
     labels[part.vertices] = solution.segmentation.astype(np.int64)
     found = solution.metrics

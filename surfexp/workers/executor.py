@@ -37,7 +37,9 @@ class WarmProcess:
         self.lost = False
         self.turn = threading.Lock()
         command = [sys.executable, "-P", "-m", "surfexp.workers.stage_server", str(plan_path), state]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.process = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        )
         self.listener = threading.Thread(target=self._listen, daemon=True)
         self.listener.start()
 
@@ -49,7 +51,7 @@ class WarmProcess:
             self.jobs[key] = info
         request = json.dumps({"key": key, "log": str(info.job.log[0])})
         try:
-            assert self.process.stdin is not None
+            assert self.process.stdin is not None  # noqa: S101, narrows a type
             self.process.stdin.write(request.encode() + b"\n")
             self.process.stdin.flush()
         except BrokenPipeError:
@@ -57,7 +59,7 @@ class WarmProcess:
         return True
 
     def _listen(self) -> None:
-        assert self.process.stdout is not None
+        assert self.process.stdout is not None  # noqa: S101, narrows a type
         for line in self.process.stdout:
             reply = json.loads(line)
             self.executor.ended(self.jobs.pop(reply["key"]), reply)
@@ -73,7 +75,7 @@ class WarmProcess:
         """End the process, and with it the stages that it runs."""
         if kill:
             self.process.kill()
-        assert self.process.stdin is not None
+        assert self.process.stdin is not None  # noqa: S101, narrows a type
         self.process.stdin.close()
         self.process.wait()
 

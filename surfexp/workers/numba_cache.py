@@ -47,7 +47,7 @@ class CheckedFiles(caching.IndexDataCacheFile):
     def _load_index(self) -> Any:
         try:
             with Path(self._index_path).open("rb") as file:
-                pickle.load(file)  # the version of numba
+                pickle.load(file)  # noqa: S301, numba's version, in a folder that only the user can write
                 _check(file.read(), self._index_path)
             return super()._load_index()
         except FileNotFoundError:

@@ -146,7 +146,7 @@ def load_file(file: Path) -> None:
         return
     _loaded.add(str(file))
     specification = importlib.util.spec_from_file_location(module_name, file)
-    assert specification is not None and specification.loader is not None
+    assert specification is not None and specification.loader is not None  # noqa: S101, narrows a type
     module = sys.modules[module_name] = importlib.util.module_from_spec(specification)
     try:
         specification.loader.exec_module(module)

@@ -186,7 +186,7 @@ def test_bash_completes_at_a_terminal(working_folder: Path) -> None:
     child, descriptor = pty.fork()
     if child == 0:
         os.environ |= {"PATH": f"{program.parent}:{os.environ['PATH']}", "TERM": "dumb", "PS1": "ready> "}
-        os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])
+        os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])  # noqa: S606, a constant command in a child
     terminal = Terminal(descriptor)
     try:
         terminal.expect("ready> ")

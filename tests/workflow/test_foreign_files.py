@@ -91,7 +91,7 @@ def test_what_hydra_has_of_itself_and_a_search_are_let_through() -> None:
         refuse_code(folders | optuna)
 
 
-@pytest.mark.parametrize("name", ["../victim", "/tmp/x", "a/b", "", ".hidden", "a b", "$(x)", "-x", "x" * 101])
+@pytest.mark.parametrize("name", ["../victim", "/srv/x", "a/b", "", ".hidden", "a b", "$(x)", "-x", "x" * 101])
 def test_the_name_of_an_experiment_is_no_path(name: str) -> None:
     with pytest.raises(UserError, match="experiment"):
         settings_of({"experiment": name})

@@ -26,7 +26,7 @@ def write_sulci(plan: Plan, node: Node, results: Path, place: Place) -> None:
     from surfexp.studies.sulci.sulcal_template import make_template
 
     template, surfaces = node.inputs["template"], node.inputs["surfaces"]
-    assert isinstance(template, str) and isinstance(surfaces, dict)
+    assert isinstance(template, str) and isinstance(surfaces, dict)  # noqa: S101, narrows a type
     study = make_template(store.load(results, "surface", template), int(node.options["regions"]))
     for label, key in surfaces.items():
         surface = store.load(results, "surface", key)

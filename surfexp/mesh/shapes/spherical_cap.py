@@ -50,7 +50,7 @@ def capped_sphere(angle: float = 1.0, rings: int = 20, radius: float = 1.0) -> S
     The indicator of the cap on faces is then exact. Both caps have as many rings; `coordinates` are as above.
     """
     upper, lower = spherical_cap(angle, rings, radius), spherical_cap(np.pi - angle, rings, radius)
-    assert upper.coordinates is not None and lower.coordinates is not None
+    assert upper.coordinates is not None and lower.coordinates is not None  # noqa: S101, narrows a type
     count, inner = len(upper.mesh.vertices), len(upper.mesh.vertices) - 6 * rings
     number = np.concatenate([np.arange(inner) + count, np.arange(inner, count)])
     faces = number[lower.mesh.faces[:, ::-1]]

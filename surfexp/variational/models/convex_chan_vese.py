@@ -78,7 +78,7 @@ class ConvexChanVese:
             # as published, the region is {phi > 1/2} whatever energy it has
             region = labelling.region if self.divide_by_area else solution.values > 0.5
             means, notes = self.means(values, operator.mass, region, means)
-        assert solution is not None
+        assert solution is not None  # noqa: S101, narrows a type
         solution = replace(solution, iterations=iterations, notes=(*solution.notes, *notes))
         solution, labelling = self._no_worse(solution, fidelity, labelling, trivial, operator)
         return self._result(updates.judge(solution), labelling, trivial, solved, image, operator)

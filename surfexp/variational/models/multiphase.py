@@ -78,7 +78,7 @@ class MultiphaseSegmentation:
             labels = _least(operator, costs, solution.values.argmax(axis=1), nearest)
             solved = means
             means, notes = _means(channels, operator.mass, labels, means)
-        assert solution is not None
+        assert solution is not None  # noqa: S101, narrows a type
         solution = updates.judge(replace(solution, iterations=iterations, notes=(*solution.notes, *notes)))
         energies = {"trivial_energy": fidelity.trivial, "labelling_energy": _energy(labels, costs, operator)}
         return self._result(solution, labels, solved, energies, image, operator)

@@ -80,7 +80,7 @@ def audit(solution: Solution, fidelity: Fidelity, operator: SurfaceOperator) -> 
     consistent = replace(operator, averaged_gradient=None, consistent=True)
     iterates = chambolle_pock_iterates(fidelity, consistent, None, fidelity.step, AUDIT_LIMIT)
     reference = run_to_gap(iterates, fidelity, consistent, "audit", AUDIT_TOLERANCE)
-    assert reference.dual is not None
+    assert reference.dual is not None  # noqa: S101, narrows a type
     certificate = certify(fidelity, consistent, solution.values, adjoint_gradient(consistent, reference.dual))
     audited = replace(solution, dual=reference.dual, notes=(*solution.notes, NOTE))
     return with_certificate(audited, certificate)

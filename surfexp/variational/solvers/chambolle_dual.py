@@ -76,7 +76,7 @@ def _iterates(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | N
     for iteration in range(1, limit + 1):
         chambolle_step(*faces, steps, fidelity.strong_convexity, values.reshape(len(values), -1), *views)
         minimiser = fidelity.primal_from_dual(load)
-        assert minimiser is not None
+        assert minimiser is not None  # noqa: S101, narrows a type
         values = minimiser
         if iteration % CHECK_INTERVAL == 0 or iteration == limit:
             yield Iterate(iteration, values, dual, load)

@@ -75,7 +75,7 @@ def _iterates(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | N
     age = 1.0
     for iteration in range(1, limit + 1):
         minimiser = fidelity.primal_from_dual(load)
-        assert minimiser is not None
+        assert minimiser is not None  # noqa: S101, narrows a type
         older = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * age * age))
         momentum, age = (age - 1.0) / older, older
         channels = minimiser.reshape(len(values), -1)
@@ -84,5 +84,5 @@ def _iterates(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | N
         if iteration % CHECK_INTERVAL == 0 or iteration == limit:
             own = adjoint_gradient(operator, dual)
             minimiser = fidelity.primal_from_dual(own)
-            assert minimiser is not None
+            assert minimiser is not None  # noqa: S101, narrows a type
             yield Iterate(iteration, minimiser, dual, own)

@@ -109,7 +109,7 @@ def _iterates(
                 best = (move, slack_move, dual_move, *steps)
             if longest >= SHORT_STEP:
                 break
-        assert best is not None
+        assert best is not None  # noqa: S101, narrows a type
         move, slack_move, dual_move, primal_step, dual_step = best
         values = values + primal_step * move
         slack, grad = slack + primal_step * slack_move, gradient(operator, values)
