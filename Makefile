@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -22,6 +22,7 @@ optional: .venv/ready # open3d, cvxpy: their tests are skipped without
 	$(BIN)/python -m pip install --quiet --no-deps --no-compile --require-hashes -r requirements-optional.lock
 
 test-optional: optional
+	$(BIN)/python tests/check_licences.py requirements-optional.lock
 	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/io tests/mesh tests/variational tests/test_plugins.py
 
 lint: .venv/ready
@@ -31,6 +32,7 @@ lint: .venv/ready
 	$(BIN)/lint-imports
 	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
 	$(BIN)/python tests/check_docstrings.py
+	$(BIN)/python tests/check_licences.py
 	$(BIN)/python -m surfexp.report.stamp check
 
 bench: optional # the rivals come with it
@@ -75,6 +77,11 @@ lock: # needs uv; writes no index address
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev --extra open3d --extra conic --extra bench --extra site -c requirements.lock -o requirements-optional.lock
+
+# Every entry of the lock is looked up; what could not be looked up counts as a failure.
+audit:
+	@command -v pip-audit > /dev/null || { echo "make audit needs pip-audit on the path: pip install pip-audit"; exit 2; }
+	pip-audit --strict --disable-pip --require-hashes -r requirements.lock
 
 clean:
 	rm -rf results/[!R]* .snakemake
