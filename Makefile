@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -77,11 +77,16 @@ lock: # needs uv; writes no index address
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev --extra open3d --extra conic --extra bench --extra site -c requirements.lock -o requirements-optional.lock
+	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
+		--group release -o requirements-release.lock
 
 # Every entry of the lock is looked up; what could not be looked up counts as a failure.
 audit:
 	@command -v pip-audit > /dev/null || { echo "make audit needs pip-audit on the path: pip install pip-audit"; exit 2; }
 	pip-audit --strict --disable-pip --require-hashes -r requirements.lock
+
+dist: # needs git and the package index
+	PYTHON=$(PYTHON) .ci/dist
 
 clean:
 	rm -rf results/[!R]* .snakemake
