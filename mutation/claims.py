@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import json
 import os
@@ -85,8 +86,9 @@ class ClaimFault:
 
     @cached_property
     def identity(self) -> str:
-        """Digest of the replacement and of the file in which it is planted."""
-        parts = [self.experiment, *self.change, (ROOT / self.path).read_text(encoding="utf-8")]
+        """Digest of the replacement and of the code of the file in which it is planted, whatever its comments say."""
+        code = ast.dump(ast.parse((ROOT / self.path).read_text(encoding="utf-8")))
+        parts = [self.experiment, *self.change, code]
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:12]
 
 
