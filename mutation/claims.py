@@ -32,7 +32,8 @@ Made by `python -m mutation claims`. A claim that no fault in the code can turn 
 a copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another
 one, by a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that
 was run changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`,
-or else the first that turned it.
+or else the first that turned it. *Not run*: readings of a collection that has to be brought (TOSCA), and faults that have
+not been run yet.
 
 **{summary}** {faults} faults were run, {missing} not.
 
