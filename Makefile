@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction site ui lock dist audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction reproduction-changed site ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -54,9 +54,15 @@ reproduction: .venv/ready
 		echo "== $$name"; $(BIN)/surfexp run experiment=$$name results=$$results || \
 			case $$? in 3) ;; 1) failed="$$failed $$name" ;; *) exit 2 ;; esac; \
 	done && \
-	$(BIN)/surfexp report --claims --results $$results $(EXPERIMENTS) > $$results/reproduction.md && \
+	$(BIN)/surfexp report --claims $(BESIDE) --results $$results $(EXPERIMENTS) > $$results/reproduction.md && \
 	mv $$results/reproduction.md docs/reproduction.md && \
 	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
+
+# Only experiments of which a stage's key or a claim has changed; the other sections of the page are still true.
+reproduction-changed: .venv/ready
+	names=$$($(BIN)/python -m surfexp.report.stamp stale) && \
+	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs/reproduction.md"; \
+	else $(BIN)/python -m surfexp.report.stamp renew; fi
 
 # Pages, API and examples with their pictures, read from disk: build/site/index.html.
 site: optional

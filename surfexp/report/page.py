@@ -17,6 +17,7 @@ from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
 from surfexp.report.origin import read_origin
 from surfexp.report.overview import write_overview, write_summary
+from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.verdict import judge
@@ -32,6 +33,7 @@ ROWS_SHOWN, FIGURES_SHOWN, FAILURES_SHOWN = 500, 200, 20
 class Section:
     """A comparison as the page shows it: some or all of its rows, its notes by number, its figures.
 
+    `rankings` are of the methods over the problems that they share.
     `figure_of` leads from the place of a row to that of its first figure, `row_of` from a figure to its first row.
     """
 
@@ -39,6 +41,7 @@ class Section:
     rows: list[Row]
     notes: dict[str, int]
     figures: list[dict[str, Any]]
+    rankings: list[RankingShown]
     figure_of: dict[int, int]
     row_of: dict[int, int]
 
@@ -51,7 +54,7 @@ def write_report(plan: Plan, results: Path) -> Path:
     for group in groups:
         group.metrics = declared_by(plan, group.rows)
     figures = _write_figures(plan, results, folder / "figures")
-    sections = [_section(group, figures, _costs_of(group, folder / "figures", k)) for k, group in enumerate(groups)]
+    sections = [_section(group, figures, folder / "figures", k) for k, group in enumerate(groups)]
     verdicts = judge(read_claims(plan.settings.claims), rows)
     store.write_text(folder / "metrics.csv", to_csv(rows))
     page = render(
@@ -76,17 +79,19 @@ def write_report(plan: Plan, results: Path) -> Path:
     return folder
 
 
-def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], costs: list[dict[str, Any]]) -> Section:
+def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], folder: Path, number: int) -> Section:
     shown = group.excerpt(ROWS_SHOWN)
     keys = list(dict.fromkeys(key for row in group.rows for key in row.leaf.figures if key in drawn))
     places = {key: place for place, key in enumerate(keys[:FIGURES_SHOWN])}
     figure_of, row_of = dict[int, int](), dict[int, int]()
-    for number, row in enumerate(shown):
+    for place, row in enumerate(shown):
         for key in row.leaf.figures:
             if key in places:
-                figure_of.setdefault(number, places[key])
-                row_of.setdefault(places[key], number)
-    return Section(group, shown, number_notes(shown), [*(drawn[key] for key in keys), *costs], figure_of, row_of)
+                figure_of.setdefault(place, places[key])
+                row_of.setdefault(places[key], place)
+    pictures = [*(drawn[key] for key in keys), *_costs_of(group, folder, number)]
+    rankings = write_rankings(group, folder, number)
+    return Section(group, shown, number_notes(shown), pictures, rankings, figure_of, row_of)
 
 
 def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:

@@ -1,34 +1,68 @@
-"""The page of verdicts over all experiments: counts at its head, a table for each experiment."""
+"""The page of verdicts over all experiments: counts at its head, a section for each experiment with the state of its stages.
+
+A section stays true as long as the keys of its stages do: those of other experiments are taken over from an earlier page.
+"""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 
 from surfexp.report.claim import read_claims
-from surfexp.report.stamp import stamp
+from surfexp.report.stamp import commit_of_page, cost, state_line, state_of_plan
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import Verdict, judge
 from surfexp.workflow.plan import Plan
 
 HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found (least to largest)", "verdict", "cause")
+HEADING = "\n## "
+NAME = re.compile(r"`surfexp run experiment=([\w.-]+)`")
+VERDICT = re.compile(r"^\| .* \| \*\*([\w ]+)\*\* \| [^\n]*\|$", re.MULTILINE)
+RUNS = re.compile(r"^(?:Run|Then): .*$", re.MULTILINE)
 
 
-def reproduction(plans: Mapping[str, Plan], results: Path) -> str:
-    """Markdown of the verdicts of several experiments; those without claims are left out."""
-    verdicts = {name: judge(read_claims(plan.settings.claims), rows_of(plan, results)) for name, plan in plans.items()}
-    every = [verdict for group in verdicts.values() for verdict in group]
-    counts = Counter(verdict.verdict for verdict in every)
+def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "") -> str:
+    """Markdown of the verdicts of several experiments; those without claims are left out.
+
+    Parameters
+    ----------
+    plans : mapping of name to Plan
+        Experiments that were computed in `results`.
+    results : Path
+    earlier : str, optional
+        A page from which the sections of all other experiments are taken over as they are.
+    """
+    sections = sections_of(earlier)
+    taken_over = sections.keys() - plans.keys()
+    for name, plan in plans.items():
+        sections.pop(name, None)
+        if plan.settings.claims:
+            verdicts = judge(read_claims(plan.settings.claims), rows_of(plan, results))
+            sections[name] = section(name, plan.settings.title, verdicts, state_of_plan(plan))
+    ran = cost(plans, results)
+    runs = [*RUNS.findall(earlier), f"Then: {', '.join(sorted(plans))}. {ran}"] if taken_over else [f"Run: {ran}"]
+    text = "".join(sections[name] for name in sorted(sections))
+    counts = Counter(VERDICT.findall(text))
     told = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
-    sections = [section(name, plans[name].settings.title, group) for name, group in verdicts.items() if group]
-    head = f"# Published claims, checked\n\n{len(every)} claims: {told}.\n\n{stamp(plans.values(), results)}\n"
-    return "\n".join([head, *sections]).rstrip()
+    head = ["# Published claims, checked", f"{counts.total()} claims: {told}.", state_line(), *runs]
+    return ("\n\n".join(head) + "\n" + text).rstrip()
 
 
-def section(experiment: str, title: str, verdicts: Sequence[Verdict]) -> str:
+def sections_of(page: str) -> dict[str, str]:
+    """The sections of a page by the names of their experiments."""
+    parts = [HEADING + part for part in page.split(HEADING)[1:]]
+    return {found[1]: part.rstrip("\n") + "\n" for part in parts if (found := NAME.search(part))}
+
+
+def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str) -> str:
     """The verdicts of one experiment."""
-    lines = [f"## {title or experiment}", "", f"`surfexp run experiment={experiment}`", ""]
+    made = (
+        f"`surfexp run experiment={experiment}`; state {state}, {datetime.now(UTC):%Y-%m-%d}, commit {commit_of_page()}"
+    )
+    lines = [f"{HEADING}{title or experiment}", "", made, ""]
     lines += [_line(HEADER), "|" + "---|" * len(HEADER)]
     for item in verdicts:
         moved = f" (before the result: {item.claim.moved})" if item.claim.moved else ""

@@ -61,7 +61,46 @@ def test_another_state_makes_the_page_stale(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
     assert stamp.staleness(page) == "" and "does not say" in stamp.staleness("# Published claims")
     monkeypatch.setattr(stamp, "state_of_code", lambda: (STATE[0], "c" * 20))
-    assert stamp.staleness(page) == f"experiments were {'b' * 20}, are {'c' * 20}"
+    monkeypatch.setattr(stamp, "stale_experiments", lambda page: ["one", "two"])
+    assert stamp.staleness(page) == "2 experiments have changed (one, two)"
+    with pytest.raises(ValueError, match="2 experiments have changed"):
+        stamp.renew(page)
+    monkeypatch.setattr(stamp, "stale_experiments", lambda page: [])
+    assert stamp.staleness(page).endswith("no stage changed")
+    renewed = stamp.renew(page)
+    assert stamp.staleness(renewed) == "" and renewed.startswith("State: ")
+
+
+def test_other_sections_are_taken_over_as_they_are(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
+    first = page_of({"ball": plan, "other": plan}, tmp_path)
+    assert [name for name, _ in stamp.SECTION.findall(first)] == ["ball", "other"] and "4 claims: 2 not" in first
+    edited = first.replace("state " + stamp.state_of_plan(plan), "state " + "d" * 20).replace("a polyhedron", "a solid")
+    assert edited.count("a solid") == 4
+    second = page_of({"ball": plan}, tmp_path, edited)
+    assert stamp.SECTION.findall(second) == [("ball", stamp.state_of_plan(plan)), ("other", "d" * 20)]
+    assert second.count("a solid") == 2 and "4 claims: 2 not reproduced, 2 reproduced." in second
+    assert second.count("\nRun: ") == 1 and "\nThen: ball. " in second
+    assert page_of({"ball": plan, "other": plan}, tmp_path, second).count("\nThen: ") == 0
+
+
+def test_an_experiment_is_stale_by_its_keys_or_its_claims(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of all experiments one is planned: the others are the same code."""
+    own = [file for file in stamp._experiment_files() if file.stem in ("isospectral_drums", "config")]
+    monkeypatch.setattr(stamp, "_experiment_files", lambda: own)
+    assert stamp.stale_experiments("") == ["isospectral_drums"]
+    page = f"`surfexp run experiment=isospectral_drums`; state {'e' * 20}"
+    assert stamp.stale_experiments(page) == ["isospectral_drums"]
+    monkeypatch.setattr(stamp, "state_of_plan", lambda plan: "e" * 20)
+    assert stamp.stale_experiments(page) == []
+
+
+def test_the_state_of_a_plan_follows_stages_and_claims(plan: Plan) -> None:
+    before = stamp.state_of_plan(plan)
+    plan.settings.claims[0]["between"] = [12.0, 12.6]
+    moved = stamp.state_of_plan(plan)
+    plan.nodes["other"] = next(iter(plan.nodes.values()))
+    assert len({before, moved, stamp.state_of_plan(plan)}) == 3
 
 
 def test_lint_warns_of_a_stale_page_and_does_not_fail(

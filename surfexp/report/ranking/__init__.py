@@ -1,0 +1,1 @@
+"""Which of several methods is better on the problems that they share: ranks, tests, differences and profiles."""

@@ -1,0 +1,76 @@
+"""What a report page shows of the rankings of a table, and their pictures as files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from surfexp.report.ranking.trials import trials_of
+from surfexp.report.table import Comparison, format_number
+from surfexp.workflow import store
+
+if TYPE_CHECKING:
+    from surfexp.report.ranking.ranking import Ranking
+
+RANKINGS_SHOWN = 3
+
+
+@dataclass(frozen=True)
+class RankingLine:
+    """One method in the table of a ranking; texts as shown."""
+
+    method: str
+    rank: str
+    mean: str
+    difference: str
+    p: str
+    solved: int
+
+
+@dataclass(frozen=True)
+class RankingShown:
+    """A ranking as the page shows it; `file` is its picture below `figures/`."""
+
+    metric: str
+    unit: str
+    file: str
+    problems: int
+    lines: list[RankingLine]
+    friedman: str
+    left_out: tuple[str, ...]
+
+
+def write_rankings(group: Comparison, folder: Path, number: int) -> list[RankingShown]:
+    """Draw the rankings of a table, of its first metrics, into a folder; pictures of an earlier state are removed."""
+    found = trials_of(group)[:RANKINGS_SHOWN]
+    for file in folder.glob(f"ranking-{number}-*.svg"):
+        file.unlink()
+    if not found:
+        return []
+    # the tests and the plots are imported where a table has something to rank
+    from surfexp.report.ranking.drawing import draw
+    from surfexp.report.ranking.ranking import rank
+
+    shown = []
+    for place, trials in enumerate(found):
+        ranking, name = rank(trials), f"ranking-{number}-{place}.svg"
+        store.write_text(folder / name, draw(ranking))
+        friedman = "" if ranking.p_friedman != ranking.p_friedman else format_number(ranking.p_friedman)
+        metric = trials.metric.replace("_", " ")
+        count = len(trials.values)
+        shown.append(RankingShown(metric, trials.unit, name, count, _lines(ranking), friedman, trials.left_out))
+    return shown
+
+
+def _lines(ranking: Ranking) -> list[RankingLine]:
+    count, lines = len(ranking.trials.values), []
+    for k, (method, failed) in enumerate(zip(ranking.methods, ranking.failed, strict=True)):
+        mean, deviation = format_number(float(ranking.mean[k])), format_number(float(ranking.deviation[k]))
+        low, high = (format_number(float(end[k])) for end in (ranking.low, ranking.high))
+        difference = f"{format_number(float(ranking.difference[k]))} ({low} to {high})" if k else "–"
+        p = format_number(float(ranking.p[0, k])) if k else "–"
+        lines.append(
+            RankingLine(method, f"{ranking.ranks[k]:.2f}", f"{mean} ± {deviation}", difference, p, count - failed)
+        )
+    return lines

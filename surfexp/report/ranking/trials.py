@@ -1,0 +1,141 @@
+"""Rows of a table as trials: methods on problems that they share.
+
+A problem is the data and the tolerance that was asked for; all else that differs between rows is the method.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.metric import Metric
+from surfexp.report.table import ANSWERS, OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
+from surfexp.report.words import word
+
+# of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %
+FEWEST_PROBLEMS, MOST_METHODS = 6, 12
+
+# the data, and the values of the options that belong to the task
+Problem = tuple[frozenset[str], tuple[str, ...]]
+
+
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """One metric of several methods on the same problems.
+
+    Parameters
+    ----------
+    metric : str
+    better : "lower" or "higher"
+    unit : str
+    methods : tuple of str
+        At least two, in the order of the table.
+    values : (n, m) float64
+        A row a problem, a column a method; NaN where it failed or did not converge.
+    left_out : tuple of str
+        Methods with rows on other problems only, or on fewer than half of them.
+    """
+
+    metric: str
+    better: str
+    unit: str
+    methods: tuple[str, ...]
+    values: Floats
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def failed(self) -> tuple[int, ...]:
+        """How many problems each method did not solve."""
+        return tuple(int(count) for count in np.isnan(self.values).sum(axis=0))
+
+
+def trials_of(group: Comparison) -> list[Trials]:
+    """The trials of each metric with a good direction; none where fewer than two methods share six problems.
+
+    Numbers that tell where a method stopped, such as its gap, are no merit and have none, nor have energies of several models.
+    """
+    rows = [row for row in group.rows if row.leaf.settings["target"] in ANSWERS]
+    if not rows:
+        return []
+    of_problem = [name for name in group.varying if _belongs_to_problem(name, rows)]
+    names = _telling(rows, [name for name in group.varying if name not in of_problem])
+    of_problem = [name for name in of_problem if _is_task(name)]
+    methods = [", ".join(_said(row, name) for name in names) for row in rows]
+    problems = [(row.data, tuple(str(row.parameters.get(name)) for name in of_problem)) for row in rows]
+    places = dict[tuple[str, Problem], Row]()
+    for method, problem, row in zip(methods, problems, rows, strict=True):
+        if (method, problem) in places:
+            return []  # two rows of one method on one problem: something else differs than a method
+        places[method, problem] = row
+    kept, shared = _complete(places)
+    if not 2 <= len(kept) <= MOST_METHODS or len(shared) < FEWEST_PROBLEMS:
+        return []
+    left_out = tuple(method for method in dict.fromkeys(methods) if method not in kept)
+    no_merit = {*OF_ONE_PROBLEM, *(["energy"] if any("model." in name for name in names) else [])}
+    by_clock = ["seconds"] if all(_timed(row) for row in places.values()) else []
+    found = []
+    for metric in [*group.metric_names, *by_clock]:
+        meaning = group.meaning(metric) if metric != "seconds" else Metric("", "s", "lower")
+        values = np.array([[_value(places[method, problem], metric) for method in kept] for problem in shared])
+        if meaning.better and metric not in no_merit and len(set(values[~np.isnan(values)].tolist())) > 1:
+            found.append(Trials(metric, meaning.better, meaning.unit, tuple(kept), values, left_out))
+    return found
+
+
+def _is_task(name: str) -> bool:
+    return name.endswith(".tolerance")
+
+
+def _belongs_to_problem(name: str, rows: Sequence[Row]) -> bool:
+    """Whether a column is a part of the task, or says nothing beyond the data."""
+    if _is_task(name):
+        return True
+    by_data: dict[frozenset[str], str] = {}
+    return all(
+        by_data.setdefault(row.data, value) == value for row in rows for value in [str(row.parameters.get(name))]
+    )
+
+
+def _telling(rows: Sequence[Row], names: Sequence[str]) -> list[str]:
+    """The columns that tell methods apart, without those that follow from columns before them."""
+    kept: list[str] = []
+    for name in names:
+        seen: dict[tuple[str, ...], str] = {}
+        for row in rows:
+            before = tuple(str(row.parameters.get(other)) for other in kept)
+            if seen.setdefault(before, str(row.parameters.get(name))) != str(row.parameters.get(name)):
+                kept.append(name)
+                break
+    return kept
+
+
+def _said(row: Row, name: str) -> str:
+    value = row.parameters.get(name, "–")
+    if name.endswith(".name"):
+        return str(value).replace("_", " ")
+    said = format_number(value) if isinstance(value, float) else word(value)
+    return f"{short_name(name)} {said}"
+
+
+def _complete(places: Mapping[tuple[str, Problem], Row]) -> tuple[list[str], list[Problem]]:
+    """Methods with rows on more than half of the problems, and the problems on which all of them have one."""
+    counts = Counter(method for method, _ in places)
+    problems = dict.fromkeys(problem for _, problem in places)
+    kept = [method for method, count in counts.items() if 2 * count > len(problems)]
+    return kept, [problem for problem in problems if all((method, problem) in places for method in kept)]
+
+
+def _timed(row: Row) -> bool:
+    return bool(row.leaf.settings.get("timing")) and row.seconds is not None
+
+
+def _value(row: Row, metric: str) -> float:
+    if row.failure or row.limited:
+        return math.nan
+    value = row.seconds if metric == "seconds" else row.metrics.get(metric, math.nan)
+    return math.nan if value is None else float(value)

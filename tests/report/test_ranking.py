@@ -1,0 +1,221 @@
+"""Rankings: ranks against a hand count, tests against permutations, groups and profiles by their definitions, the page."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from benchmarks.synthetic_results import fill, plan_of
+from surfexp.metric import Metric
+from surfexp.report.page import write_report
+from surfexp.report.ranking.drawing import draw
+from surfexp.report.ranking.profile import has_profile, profiles
+from surfexp.report.ranking.ranking import _interval, rank
+from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, trials_of
+from surfexp.report.table import Comparison, Row
+from surfexp.workflow.plan import Leaf
+
+METRICS = {"rmse": Metric("error", "mm", "lower"), "dice": Metric("overlap", "", "higher"), "area": Metric("area")}
+
+
+def trials(values: np.ndarray, better: str = "lower") -> Trials:
+    return Trials("rmse", better, "mm", tuple(f"m{k}" for k in range(values.shape[1])), values)
+
+
+def row(method: str, problem: int, rmse: float, *, target: str = "solver", **more: object) -> Row:
+    parameters = {
+        "image.seed": problem,
+        "solver.name": method,
+        **{f"solver.{key}": value for key, value in more.items()},
+    }
+    metrics = {"rmse": rmse, "dice": -rmse, "area": 1.0 + problem, "converged": 1.0}
+    leaf = Leaf(f"{method}{problem}", "", {"target": target, "timing": False})
+    return Row(leaf, parameters, metrics, 1.0, data=frozenset([f"image {problem}"]))
+
+
+def group(rows: list[Row]) -> Comparison:
+    return Comparison("", "", rows, [], METRICS)
+
+
+values = arrays(np.float64, st.tuples(st.integers(6, 9), st.integers(2, 4)), elements=st.integers(1, 6).map(float))
+
+
+@settings(max_examples=6, deadline=None)
+@given(values)
+def test_ranks_are_counted_and_higher_is_lower_of_the_negative(table: np.ndarray) -> None:
+    found = rank(trials(table))
+    # a rank is one more than the number of better ones, plus half the other equal ones
+    smaller = (table[:, :, None] > table[:, None, :]).sum(axis=2)
+    equal = (table[:, :, None] == table[:, None, :]).sum(axis=2) - 1
+    assert np.allclose(found.ranks, (1 + smaller + equal / 2).mean(axis=0)[found.order])
+    assert (np.diff(found.ranks) >= 0).all()
+    mirrored = rank(trials(-table, "higher"))
+    assert np.array_equal(mirrored.order, found.order) and mirrored.groups == found.groups
+    assert np.allclose(mirrored.difference, -found.difference, equal_nan=True)
+    assert np.allclose(mirrored.p, found.p) and np.allclose(mirrored.low, -found.high, equal_nan=True)
+
+
+@settings(max_examples=6, deadline=None)
+@given(values)
+def test_groups_are_the_longest_runs_that_no_test_tells_apart(table: np.ndarray) -> None:
+    found = rank(trials(table))
+    m = table.shape[1]
+    same = {
+        (i, j)
+        for i, j in itertools.combinations(range(m), 2)
+        if (found.p[i : j + 1, i : j + 1] > 0.05).all()  # diagonal: 1
+    }
+    longest = {(i, j) for i, j in same if not any(a <= i and j <= b and (a, b) != (i, j) for a, b in same)}
+    assert set(found.groups) == longest
+
+
+def test_a_pair_has_the_p_value_of_all_signs() -> None:
+    differences = np.array([0.3, -0.1, 0.8, 1.1, 0.6, 0.45, 0.9])
+    table = np.column_stack([np.ones(7), 1.0 + differences])
+    sizes = np.argsort(np.argsort(np.abs(differences))) + 1.0
+    statistic = abs((sizes * np.sign(differences)).sum())
+    every = [abs(sizes @ signs) for signs in itertools.product([-1.0, 1.0], repeat=7)]
+    assert rank(trials(table)).p[0, 1] == pytest.approx(np.mean(np.array(every) >= statistic - 1e-9))
+
+
+def test_friedman_and_holm_by_their_formulas() -> None:
+    table = np.random.default_rng(3).normal([0.0, 0.2, 1.5, 3.0], 1.0, (9, 4))
+    found = rank(trials(table))
+    n, m = table.shape
+    from scipy.stats import chi2, wilcoxon
+
+    statistic = 12 * n / (m * (m + 1)) * ((found.ranks - (m + 1) / 2) ** 2).sum()
+    assert found.p_friedman == pytest.approx(chi2.sf(statistic, m - 1))
+    ordered = table[:, found.order]
+    raw = sorted((wilcoxon(ordered[:, i] - ordered[:, j]).pvalue, i, j) for i, j in itertools.combinations(range(m), 2))
+    running = 0.0
+    for place, (value, i, j) in enumerate(raw):
+        running = max(running, min(1.0, (len(raw) - place) * value))
+        assert found.p[i, j] == pytest.approx(running)
+
+
+def test_an_interval_covers_the_true_difference_as_often_as_it_says() -> None:
+    random = np.random.default_rng(0)
+    ends = [_interval(5.0 + random.normal(0.0, 1.0, 8)) for _ in range(2000)]
+    hits = np.mean([low <= 5.0 <= high for _, low, high in ends])
+    assert 0.935 <= hits <= 0.965  # 95 %, give or take three standard deviations
+    table = np.column_stack([np.zeros(8), 5.0 + random.normal(0.0, 1.0, 8)])
+    found = rank(trials(table))
+    assert (found.difference[1], found.low[1], found.high[1]) == pytest.approx(_interval(table[:, 1]))
+
+
+def test_what_failed_ranks_last_and_has_no_number() -> None:
+    table = np.column_stack([np.full(7, 2.0), np.full(7, 1.0)])
+    table[:5, 1] = np.nan
+    found = rank(trials(table))
+    assert found.methods == ("m0", "m1") and found.failed == (0, 5)
+    assert found.mean.tolist() == [2.0, 1.0]
+    assert found.difference[1] == -1.0  # over the two that both solved
+    assert found.p[0, 1] == 1.0  # two pairs are no test
+
+
+@settings(max_examples=60, deadline=None)
+@given(values, st.integers(0, 10**6))
+def test_profiles_count_problems_within_a_factor(table: np.ndarray, seed: int) -> None:
+    random = np.random.default_rng(seed)
+    table = np.where(random.uniform(size=table.shape) < 0.2, np.nan, table)
+    factors, shares = profiles(trials(table))
+    assert factors[0] == 1.0 and (np.diff(factors) > 0).all() and (np.diff(shares, axis=0) >= 0).all()
+    for factor, share in zip(factors, shares, strict=True):
+        for k in range(table.shape[1]):
+            best = [np.nanmin(line) if not np.isnan(line).all() else np.nan for line in table]
+            within = [line[k] <= factor * least * (1 + 1e-12) for line, least in zip(table, best, strict=True)]
+            assert share[k] == pytest.approx(np.mean(within))
+    assert shares[-1].tolist() == pytest.approx((~np.isnan(table)).mean(axis=0).tolist())
+
+
+def test_no_profile_of_what_may_be_negative_or_is_good_when_high() -> None:
+    assert not has_profile(trials(np.array([[1.0, -1.0]] * 6)))
+    with pytest.raises(ValueError, match="has no profile"):
+        profiles(trials(np.ones((6, 2)), "higher"))
+
+
+def test_methods_and_problems_are_found_in_a_table() -> None:
+    rows = [row(name, k, 1.0 + k + offset) for k in range(7) for name, offset in (("rof", 0.5), ("tv_l1", 0.0))]
+    found = {item.metric: item for item in trials_of(group(rows))}
+    assert set(found) == {"rmse", "dice"}  # area has no good direction, converged and seconds are no merit here
+    assert found["rmse"].methods == ("rof", "tv l1")
+    assert np.array_equal(found["rmse"].values, np.add.outer(np.arange(7.0), [1.5, 1.0]))
+    assert rank(found["rmse"]).methods[0] == "tv l1" and rank(found["dice"]).methods[0] == "tv l1"
+
+
+def test_a_tolerance_is_a_part_of_the_problem() -> None:
+    rows = [
+        row(name, k, 1.0 + k + tolerance, tolerance=tolerance)
+        for k in range(3)
+        for tolerance in (0.1, 0.2)
+        for name in ("rof", "tv_l1")
+    ]
+    rows[0].metrics["rmse"] = 0.5
+    (found, _) = trials_of(group(rows))
+    assert found.methods == ("rof", "tv l1") and found.values.shape == (6, 2)
+
+
+def test_what_is_not_a_comparison_of_methods_has_no_ranking() -> None:
+    rows = [row(name, k, 1.0 + k + len(name)) for k in range(7) for name in ("rof", "tv_l1")]
+    assert trials_of(group(rows))
+    assert not trials_of(group(rows[: 2 * (FEWEST_PROBLEMS - 1)]))
+    assert not trials_of(group([item for item in rows if item.parameters["solver.name"] == "rof"]))
+    assert not trials_of(group([*rows, row("rof", 0, 3.0)]))  # the same method twice on a problem
+    statistic = [
+        dataclasses.replace(item, leaf=Leaf("", "", {"target": "statistic", "timing": False})) for item in rows
+    ]
+    assert not trials_of(group(statistic))
+    constant = [row(name, k, 1.0) for k in range(7) for name in ("rof", "tv_l1")]
+    assert not trials_of(group(constant))
+
+
+def test_a_method_tried_on_few_problems_is_left_out_and_named() -> None:
+    rows = [row(name, k, 1.0 + k + len(name)) for k in range(8) for name in ("rof", "tv_l1")]
+    rows += [row("newton", k, 0.1) for k in range(3)]
+    (found, _) = trials_of(group(rows))
+    assert found.methods == ("rof", "tv l1") and found.left_out == ("newton",) and len(found.values) == 8
+
+
+def test_rows_that_failed_or_did_not_converge_are_not_solved() -> None:
+    rows = [row(name, k, 1.0 + k + len(name)) for k in range(8) for name in ("rof", "tv_l1")]
+    rows[0].failure = "MemoryError"
+    rows[3].metrics["converged"] = 0.0
+    (found, _) = trials_of(group(rows))
+    assert found.failed == (1, 1) and np.isnan(found.values[0, 0]) and np.isnan(found.values[1, 1])
+
+
+def test_a_picture_is_the_same_twice_and_holds_names_as_text() -> None:
+    table = np.random.default_rng(0).lognormal(size=(8, 3)) * [1.0, 2.0, 9.0]
+    named = dataclasses.replace(trials(table), methods=("a <script>", "b", "c"))
+    picture = draw(rank(named))
+    assert picture == draw(rank(named))
+    assert "a &lt;script&gt;" in picture and "<script" not in picture
+    assert "times the best" in picture and "times the best" not in draw(rank(trials(-table)))
+
+
+def test_the_page_shows_the_ranking_and_drops_an_old_picture(tmp_path: Path) -> None:
+    race = {
+        "experiment": "race",
+        "columns": ["rmse"],
+        "surface": "cup",
+        "image": {"name": "picture", "noise": 40.0},
+        "operator": "fem",
+        "model": "rof",
+        "grid": {"image.seed": list(range(6)), "solver": ["primal_dual", "fista_dual", "newton"]},
+    }
+    plan = plan_of(race, tmp_path)
+    fill(plan, tmp_path)
+    stale = tmp_path / "race" / "figures" / "ranking-0-7.svg"
+    stale.parent.mkdir(parents=True)
+    stale.write_text("")
+    page = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "Ranked by rmse" in page and "On the 6 problems" in page and "primal dual" in page
+    assert not stale.exists() and "</svg>" in (stale.parent / "ranking-0-0.svg").read_text()
