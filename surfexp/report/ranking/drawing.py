@@ -13,6 +13,8 @@ from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import Ranking
 
 WIDTH, LINE, PLOT_HEIGHT = 1000, 30, 470
+# where no method is farther from the best, the steps of a profile are one line
+LEAST_FACTOR = 1.2
 
 
 def draw(ranking: Ranking) -> str:
@@ -24,11 +26,12 @@ def draw(ranking: Ranking) -> str:
 
     rows = len(ranking.methods) + len(ranking.groups)
     top = LINE * (rows + 4)
-    height = top + (PLOT_HEIGHT if has_profile(ranking.trials) else 0)
+    profile = has_profile(ranking.trials) and profiles(ranking.trials)[0][-1] >= LEAST_FACTOR
+    height = top + (PLOT_HEIGHT if profile else 0)
     sink = StringIO()
     with canvas(WIDTH, height) as figure, mpl.rc_context({"svg.hashsalt": "surfexp", "svg.fonttype": "none"}):
         _draw_ranks(figure, ranking, 1.0 - top / height, top / height)
-        if has_profile(ranking.trials):
+        if profile:
             _draw_profile(figure, ranking, PLOT_HEIGHT / height)
         figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None})
     return sink.getvalue()

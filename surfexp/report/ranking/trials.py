@@ -57,13 +57,16 @@ class Trials:
 def trials_of(group: Comparison) -> list[Trials]:
     """The trials of each metric with a good direction; none where fewer than two methods share six problems.
 
-    Numbers that tell where a method stopped, such as its gap, are no merit and have none, nor have energies of several models.
+    Numbers that tell where a method stopped, such as its gap, are no merit and have none, nor have energies of several
+    models. Solvers that are certified to minimise the same energy are ranked by seconds alone: what else differs between
+    their minimisers is where they stopped.
     """
     rows = [row for row in group.rows if row.leaf.settings["target"] in ANSWERS]
     if not rows:
         return []
     of_problem = [name for name in group.varying if _belongs_to_problem(name, rows)]
-    names = _telling(rows, [name for name in group.varying if name not in of_problem])
+    of_method = [name for name in group.varying if name not in of_problem]
+    names = _telling(rows, of_method)
     of_problem = [name for name in of_problem if _is_task(name)]
     methods = [", ".join(_said(row, name) for name in names) for row in rows]
     problems = [(row.data, tuple(str(row.parameters.get(name)) for name in of_problem)) for row in rows]
@@ -76,7 +79,9 @@ def trials_of(group: Comparison) -> list[Trials]:
     if not 2 <= len(kept) <= MOST_METHODS or len(shared) < FEWEST_PROBLEMS:
         return []
     left_out = tuple(method for method in dict.fromkeys(methods) if method not in kept)
-    no_merit = {*OF_ONE_PROBLEM, *(["energy"] if any("model." in name for name in names) else [])}
+    no_merit = {*OF_ONE_PROBLEM, *(["energy"] if any("model." in name for name in of_method) else [])}
+    if _only_stop_elsewhere(of_method, rows):
+        no_merit.update(group.metric_names)
     by_clock = ["seconds"] if all(_timed(row) for row in places.values()) else []
     found = []
     for metric in [*group.metric_names, *by_clock]:
@@ -89,6 +94,11 @@ def trials_of(group: Comparison) -> list[Trials]:
 
 def _is_task(name: str) -> bool:
     return name.endswith(".tolerance")
+
+
+def _only_stop_elsewhere(names: Sequence[str], rows: Sequence[Row]) -> bool:
+    of_solvers = all(name.rpartition(".")[0].split(".")[-1] == "solver" for name in names)
+    return of_solvers and all("relative_gap" in row.metrics for row in rows if not row.failure)
 
 
 def _belongs_to_problem(name: str, rows: Sequence[Row]) -> bool:
