@@ -6,7 +6,7 @@ import surfexp as sx
 
 mesh = sx.shape("ellipsoid", levels=3).mesh
 x, y, z = mesh.vertices.T
-body = np.stack([x + 0.4 * y**2, y + 0.3 * z**2, z * (1.0 + 0.3 * x)], axis=1)  # without symmetry
+body = np.stack([x + 0.4 * y**2 + 0.3 * y * z, y + 0.3 * z**2, z * (1.0 + 0.3 * x)], axis=1)  # without symmetry
 random = np.random.default_rng(0)
 order, turn = random.permutation(len(body)), np.linalg.qr(random.normal(size=(3, 3)))[0]
 turn *= np.linalg.det(turn)

@@ -16,8 +16,7 @@ import numpy as np
 
 import surfexp as sx
 from surfexp.arrays import Floats, Integers
-from surfexp.io.label_files import read_label_map
-from surfexp.io.map_files import read_mask, read_scalars
+from surfexp.io.map_files import read_mask, read_named_labels, read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from torture.case import MENDED, REFUSED, RIGHT, UNKNOWABLE, WRONG, Ended, clear, in_a_child
@@ -164,7 +163,7 @@ def _read(file: Path, kind: str) -> tuple[str, str]:
     elif name == LABELS[2]:
         found, true = read_mask(file, len(known.values)).astype(float), (known.labels == 2).astype(float)
     elif name in LABELS:
-        found, true = read_label_map(file, "left").keys.astype(float), known.labels.astype(float)
+        found, true = read_named_labels(file, "left").keys.astype(float), known.labels.astype(float)
     else:
         mesh = sx.read(file).mesh
         return _judged(mesh.vertices[mesh.faces], known.vertices[known.faces], kind, name)

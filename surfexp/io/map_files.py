@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from surfexp.arrays import Floats
 from surfexp.io import freesurfer
 from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
+from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
 from surfexp.io.text_tables import read_table, write_table
+from surfexp.mesh.label_map import LabelMap
 
 TEXT = (".csv", ".txt", ".dat")
 VOLUMES = (".mgh", ".mgz")
@@ -43,6 +45,7 @@ def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
             raise ValueError(f"no such file in {path.parent.absolute()}")
         if not 0 < path.stat().st_size <= LARGEST_BYTES:
             raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
+        check_declared_sizes(path)
         maps = _read(path, hemisphere)
     except (ValueError, OSError, EOFError, OverflowError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
@@ -92,6 +95,23 @@ def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
     return np.ascontiguousarray(columns[:, 0]) if columns.shape[1] == 1 else columns
 
 
+def read_named_labels(path: Path | str, hemisphere: str = "") -> LabelMap:
+    """Return the labels of a .label.gii, .annot or .dlabel.nii (its first map) that anybody may have sent.
+
+    Raises
+    ------
+    ValueError
+        As `read_label_map`, or if sizes that the file declares cannot be true.
+    """
+    path = Path(path)
+    if path.is_file():
+        try:
+            check_declared_sizes(path)
+        except ValueError as error:
+            raise ValueError(f"{path} is not a readable file of labels: {error}") from None
+    return read_label_map(path, hemisphere)
+
+
 def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.bool_]:
     """Return a mask of `count` vertices from a file.
 
@@ -109,7 +129,7 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     if file.suffix == ".label":
         inside = _listed(file, count)
     elif file.suffix == ".annot" or file.name.endswith((".label.gii", ".label.gii.gz", ".dlabel.nii")):
-        labels = read_label_map(file, hemisphere)
+        labels = read_named_labels(file, hemisphere)
         wanted = [name.strip() for name in names.split(",") if name.strip()]
         kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
         if not labels.names and not wanted:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
+from surfexp.io.foreign import parsing
 from surfexp.io.numbers import checked_geometry, real_array
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -22,16 +22,14 @@ def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
     ValueError
         If the file is broken or holds objects.
     """
-    try:
+    with parsing("array file"):
         loaded = np.load(path, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return {"map": loaded}
-        if path.suffix == ".npy":
-            raise ValueError("it is an archive of several arrays: name it .npz")
-        with loaded:
-            return {name: loaded[name] for name in loaded.files}
-    except (BadZipFile, EOFError, KeyError, OSError, MemoryError, UnicodeDecodeError) as error:
-        raise ValueError(f"it is not a readable array file: {error}") from error
+    if isinstance(loaded, np.ndarray):
+        return {"map": loaded}
+    if path.suffix == ".npy":
+        raise ValueError("it is an archive of several arrays: name it .npz")
+    with parsing("array file"), loaded:
+        return {name: loaded[name] for name in loaded.files}
 
 
 def read_npz_mesh(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:

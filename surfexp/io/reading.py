@@ -6,6 +6,7 @@ from pathlib import Path
 
 from surfexp.arrays import Floats, Integers
 from surfexp.io import freesurfer
+from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.gifti import is_gifti, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.npz import read_npz_mesh
@@ -57,7 +58,10 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
 def hemisphere_of_file(path: Path | str) -> str:
     """Return "left" or "right" where a GIFTI file or a name in FreeSurfer's manner says so, else nothing."""
     path = Path(path)
-    inside = read_gifti_surface(path)[2] if is_gifti(path) else ""
+    inside = ""
+    if is_gifti(path):
+        check_declared_sizes(path)
+        inside = read_gifti_surface(path)[2]
     return inside or freesurfer.hemisphere_of(path)
 
 
@@ -73,6 +77,7 @@ def _read(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     if suffix in WITH_MAPS:
         return WITH_MAPS[suffix](path)
     if is_gifti(path):
+        check_declared_sizes(path)
         points, triangles, _ = read_gifti_surface(path)
         return points, triangles, {}
     if suffix in MESH_SUFFIXES:

@@ -21,6 +21,8 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 Severity = Literal["refuse", "repairable", "note"]
 ZERO_AREA = 1e-9
 SLIVER_DEGREES = 5.0
+# kinds of defects that a refusal names: it is one line
+SHOWN_KINDS = 3
 
 
 @dataclass(frozen=True)
@@ -110,15 +112,21 @@ def require_valid(
     report = validate(mesh.vertices, mesh.faces)
     fatal = [defect for defect in report.defects if defect.severity == "refuse"]
     if fatal:
-        raise ValueError(f"mesh {name} has {'; '.join(map(str, fatal))}; no repair is possible")
+        raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible")
     found = [defect for defect in report.defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
-        raise ValueError(f"mesh {name} has {'; '.join(map(str, found))}; none allowed: surfexp mesh repair {name}")
+        raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: surfexp mesh repair {name}")
     if one_component and mesh.component_count > 1:
         raise ValueError(
             f"mesh {name} has {mesh.component_count} components, 1 is allowed here: "
             f"surfexp mesh repair --largest-component {name}"
         )
+
+
+def _listed(defects: list[Defect]) -> str:
+    """The first three kinds of defects, and how many more there are; `surfexp check` has them all."""
+    shown = "; ".join(map(str, defects[:SHOWN_KINDS]))
+    return shown if len(defects) <= SHOWN_KINDS else f"{shown}; {len(defects) - SHOWN_KINDS} more kinds of defects"
 
 
 def zero_area_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:

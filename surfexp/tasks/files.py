@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from surfexp.arrays import Floats
-from surfexp.io.label_files import read_label_map, write_labels
-from surfexp.io.map_files import read_maps, read_mask, write_maps
+from surfexp.io.label_files import write_labels
+from surfexp.io.map_files import read_maps, read_mask, read_named_labels, write_maps
 from surfexp.io.reading import hemisphere_of_file, read_mesh
 from surfexp.io.writing import WITH_MAPS, write_mesh
 from surfexp.mesh.repair import repair as repair_mesh
@@ -73,7 +73,7 @@ def read(
     side = hemisphere or hemisphere_of_file(path)
     for name, file in (maps or {}).items():
         scalars |= _named(name, read_maps(file, side), count, file)
-    tables = {name: read_label_map(file, side) for name, file in (labels or {}).items()}
+    tables = {name: read_named_labels(file, side) for name, file in (labels or {}).items()}
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")

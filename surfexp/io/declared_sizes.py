@@ -1,0 +1,112 @@
+"""Sizes that a GIFTI or CIFTI file declares, checked before a parser believes them.
+
+nibabel counts to a declared number of dimensions, walks extensions by their declared lengths and makes room for declared
+vertices: with numbers that lie it is busy for hours, or asks for more memory than there is.
+"""
+
+from __future__ import annotations
+
+import gzip
+import re
+import struct
+from collections.abc import Mapping
+from pathlib import Path
+from xml.parsers import expat
+
+from surfexp.io.cifti import is_cifti
+from surfexp.io.gifti import is_gifti
+from surfexp.io.numbers import LARGEST_BYTES
+
+# of the GIFTI standard
+MOST_DIMENSIONS = 6
+LARGEST_COUNT = 1 << 28
+PIECE = 1 << 20
+# NIfTI-2: bytes of the header, and of the flag of extensions behind it
+HEADER, FLAG = 540, 4
+COUNTS = re.compile(rb"""(SurfaceNumberOfVertices|IndexCount|NumberOfSeriesPoints)\s*=\s*["'](\d+)["']""")
+
+
+def check_declared_sizes(path: Path) -> None:
+    """Refuse a GIFTI or CIFTI file whose declared sizes cannot be true; others, and what is no such file, pass.
+
+    Raises
+    ------
+    ValueError
+        With the declared number and its bound.
+    """
+    if is_gifti(path):
+        _check_gifti(path)
+    elif is_cifti(path):
+        _check_cifti(path)
+
+
+def _check_gifti(path: Path) -> None:
+    refused: list[str] = []
+
+    def begin(name: str, attributes: Mapping[str, str]) -> None:
+        if name == "DataArray" and not refused:
+            refused.extend(_unfit(attributes))
+
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = begin
+    opened = gzip.open if path.name.lower().endswith(".gz") else open
+    read = 0
+    try:
+        with opened(path, "rb") as stream:
+            while not refused and (piece := stream.read(PIECE)):
+                parser.Parse(piece)
+                if (read := read + len(piece)) > LARGEST_BYTES:
+                    raise ValueError(f"unpacked it has over {LARGEST_BYTES} bytes, the most that is read")
+    except (expat.ExpatError, OSError, EOFError, LookupError):
+        return  # not XML, or cut off: the reader of the format says so
+    if refused:
+        raise ValueError(refused[0])
+
+
+def _unfit(attributes: Mapping[str, str]) -> list[str]:
+    """What is wrong with the dimensions of a data array."""
+    said = attributes.get("Dimensionality", "1")
+    if not said.isdecimal() or not 1 <= int(said) <= MOST_DIMENSIONS:
+        return [f"a data array has Dimensionality {said[:20]!r}, 1 to {MOST_DIMENSIONS} are possible"]
+    for name in (f"Dim{k}" for k in range(int(said))):
+        count = attributes.get(name, "1")
+        if not count.isdecimal() or int(count) > LARGEST_COUNT:
+            return [f"a data array has {name} {count[:20]!r}, at most {LARGEST_COUNT} are read"]
+    return []
+
+
+def _check_cifti(path: Path) -> None:
+    size = path.stat().st_size
+    with path.open("rb") as stream:
+        head = stream.read(HEADER + FLAG)
+        order = next((order for order in "<>" if head[:4] == struct.pack(f"{order}i", HEADER)), "")
+        if len(head) < HEADER + FLAG or not order:
+            return  # no NIfTI-2 header: the reader of the format says so
+        bits = struct.unpack_from(f"{order}h", head, 14)[0]
+        dimensions, begin = struct.unpack_from(f"{order}8q", head, 16), struct.unpack_from(f"{order}q", head, 168)[0]
+        _check_extent(dimensions, bits, begin, size)
+        end = HEADER + FLAG
+        while head[HEADER] and end + 8 <= begin:
+            stream.seek(end)
+            length = struct.unpack(f"{order}i", stream.read(8)[:4])[0]
+            if not 16 <= length <= begin - end:
+                raise ValueError(f"an extension of its header has {length} bytes, 16 to {begin - end} have room")
+            for name, count in COUNTS.findall(stream.read(length - 8)):
+                if len(count) > 12 or int(count) > LARGEST_COUNT:
+                    shown = count[:20].decode()
+                    raise ValueError(f"its {name.decode()} is {shown}, at most {LARGEST_COUNT} are read")
+            end += length
+
+
+def _check_extent(dimensions: tuple[int, ...], bits: int, begin: int, size: int) -> None:
+    """The array must fit into the file behind its header."""
+    used, rest = dimensions[0], size - begin
+    if not 1 <= used <= 7 or min(dimensions[1 : used + 1]) < 0:
+        raise ValueError(
+            f"its header has the dimensions {', '.join(map(str, dimensions[:3]))}, ...: none below 0, 1 to 7"
+        )
+    bytes_of_array = max(bits, 0) // 8
+    for extent in dimensions[1 : used + 1]:
+        bytes_of_array *= extent
+    if not HEADER + FLAG <= begin <= size or bytes_of_array > rest:
+        raise ValueError(f"its header says {bytes_of_array} bytes of data from byte {begin} on, the file has {size}")
