@@ -29,8 +29,8 @@ def names() -> Iterator[Ended]:
 
 
 def _quoted(name: str) -> str:
-    """As Hydra wants to have any text."""
-    return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'" if name != "plain" else name
+    """As Hydra wants to have any text; a backslash means itself but before a quote."""
+    return "'" + name.replace("'", "\\'") + "'" if name != "plain" else name
 
 
 def _judged(name: str, folder: Path, code: int | None, error: str, stray: list[str]) -> Ended:

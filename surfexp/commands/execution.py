@@ -24,6 +24,8 @@ from surfexp.workflow.plan import Node, Plan, read_plan
 HELD = "SURFEXP_HOLDS_RESULTS"
 SECONDS_TO_CANCEL = 15.0
 LINES_OF_DAMAGE = 10
+PATTERN, ADDRESS = "which Snakemake reads as a pattern", "behind which the address of the runs' database ends"
+UNFIT_MARKS = {"{": PATTERN, "}": PATTERN, "?": ADDRESS}
 _locks: list[int] = []
 
 
@@ -34,10 +36,9 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
     """
     _profile(plan.settings.profile or "default")
     results = Path(plan.settings.results).resolve()
-    if {*"{}"} & {*str(results)}:
-        raise UserError(
-            f"results folder {str(results)!r} has braces, which Snakemake reads as a pattern: choose another name"
-        )
+    for mark in str(results):
+        if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):
+            raise UserError(f"results folder {str(results)!r} has a {mark!r}, {why}: choose another name")
     hold_results(results, wait=True)
     path = plan.write(results)
     tried = set[str]()

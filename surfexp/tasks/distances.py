@@ -10,6 +10,8 @@ from surfexp.arrays import Floats
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, Blocks, eigenvalue_blocks
+from surfexp.embedding.mean_hausdorff import HausdorffObjective
+from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
@@ -22,6 +24,8 @@ from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 # pairs of points that a search compares at most where no limit is given: about a minute
 LARGEST_SEARCH, FEWEST, MOST = 2e10, 100, 2000
+# distances that differ by less, of themselves or of the mean length of a point, are the same up to rounding
+SAME_DISTANCE, OF_A_POINT = 1e-5, 1e-6
 
 
 def distance(
@@ -55,7 +59,8 @@ def distance(
     -------
     Distance
         `value`, `lower_bound`, `optimal`, the signs on the diagonal of `basis`, and `correspondence`: for each vertex of the
-        target one of the source, -1 outside the mask.
+        target one of the source, -1 outside the mask. A note says where other signs give the same distance, as on a body with
+        a mirror symmetry: which of the maps is right is then nothing that lengths on the surface can tell.
 
     Raises
     ------
@@ -72,12 +77,26 @@ def distance(
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
     most = search_limit(first, second) if limit is None else limit
     found = spectral_distance(first, second, limit=most, progress=progress)
+    found = replace(found, notes=found.notes + _mirror_images(first, second, found))
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
     correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
     moved = second_part.extend(found.target_points)
     return replace(
         found, source_points=first_part.extend(found.source_points), target_points=moved, correspondence=correspondence
     )
+
+
+def _mirror_images(first: SpectralEmbedding, second: SpectralEmbedding, found: Distance) -> tuple[str, ...]:
+    """Say how many other choices of signs, of those that a beam search on samples finds, give the same distance."""
+    scale = float(np.average(np.linalg.norm(first.points, axis=1), weights=first.weights))
+    same = (1.0 + SAME_DISTANCE) * found.value + OF_A_POINT * scale
+    signs, objective = np.diag(found.basis), HausdorffObjective(first, second)
+    others = [other for other in competing_signs(first, second) if (other != signs).any()]
+    count = sum(objective(other, same) <= same for other in others)
+    if not count:
+        return ()
+    choices = "Another choice of signs gives" if count == 1 else f"At least {count} other choices of signs give"
+    return (f"{choices} the same distance: a surface has a symmetry, and nothing intrinsic tells which map is right.",)
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +194,7 @@ def align(
     lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))
     vectors = part.extend(second.points / lengths @ found.basis)
     numbered = tuple((start + 1, stop) for start, stop in blocks)
+    notes += _mirror_images(first, second, found) if single else ()
     return ModeAlignment(
         found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes + notes
     )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 BODY = sx.shape("ellipsoid", levels=3)
 SPHERE = sx.shape("icosphere", levels=3)
@@ -23,7 +24,11 @@ def renumbered(surface: sx.Surface, scale: float) -> tuple[tuple[np.ndarray, np.
 def test_modes_of_a_copy_come_back_mode_by_mode() -> None:
     copy, order = renumbered(BODY, 7.0)
     found = sx.align(BODY, copy, 6)
-    assert found.optimal and found.value < 1e-6 and found.notes == ()
+    assert found.optimal and found.value < 1e-6
+    assert found.notes == (
+        "At least 7 other choices of signs give the same distance: a surface has a symmetry, "
+        "and nothing intrinsic tells which map is right.",
+    )  # an ellipsoid has eight symmetries
     assert np.allclose(np.abs(found.basis), np.eye(6), atol=1e-6)
     own = sx.eigenpairs(BODY, 7).vectors[:, 1:]
     signs = np.sign((own[order] * found.vectors).sum(axis=0))
@@ -32,6 +37,39 @@ def test_modes_of_a_copy_come_back_mode_by_mode() -> None:
     # one sign for all modes is free where the body is its own mirror image; relative signs are those of the source
     again = sx.align(BODY, BODY, 6)
     assert np.allclose(again.basis, np.diag(np.diag(again.basis)), atol=1e-6)
+
+
+def bent(mirror: bool) -> sx.Surface:
+    """A body that is its own mirror image in z, or in nothing."""
+    x, y, z = BODY.mesh.vertices.T
+    vertices = np.stack(
+        [x + 0.4 * y**2 + (0.0 if mirror else 0.3 * y * z), y + 0.3 * z**2, z * (1.0 + 0.3 * x)], axis=1
+    )
+    return sx.Surface(TriangleMesh(vertices, BODY.mesh.faces), "bent")
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_a_mirror_image_is_said_and_only_that(scale: float) -> None:
+    for mirror in (True, False):
+        body = bent(mirror)
+        copy, order = renumbered(body, scale)
+        found = sx.distance(body, copy, n=8)
+        assert found.optimal and found.value < 1e-6
+        if mirror:
+            assert found.notes[0].startswith("Another choice of signs gives the same distance")
+        else:
+            assert found.notes == () and (found.correspondence == order).all()
+
+
+def test_unlike_bodies_without_symmetry_have_no_such_note() -> None:
+    body = bent(mirror=False)
+    x, y, z = body.mesh.vertices.T
+    other = sx.Surface(
+        TriangleMesh(np.stack([x, y * (1.2 + 0.2 * x), z + 0.1 * x * y], axis=1), body.mesh.faces), "other"
+    )
+    found = sx.distance(body, other, n=8)
+    assert found.value > 1e-3 and found.notes == ()
+    assert sx.distance(body, BODY, n=8).notes  # three mirrors of one of the two
 
 
 @pytest.mark.parametrize(("count", "cut"), [(3, False), (5, True), (8, False), (12, True)])

@@ -18,7 +18,7 @@ from surfexp.report.convergence import reason, unconverged
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
 from surfexp.workflow import registry, stage, store
-from surfexp.workflow.errors import StageFailure
+from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Plan
 from surfexp.workflow.resolution import make_plan
@@ -257,3 +257,14 @@ def test_many_warnings_are_cut(capsys: pytest.CaptureFixture[str]) -> None:
     run_command.warn([f"row {k}" for k in range(15)])
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 11 and lines[-1] == "surfexp: warning: and 5 more"
+
+
+@pytest.mark.parametrize("name", ["what?", "a{b}", "}", "a\nb", "a\tb", "\u202egnp"])
+def test_a_results_folder_whose_name_nobody_can_carry_is_refused_before_anything_is_written(
+    plan: Plan, tmp_path: Path, name: str
+) -> None:
+    plan.settings.results = str(tmp_path / name)
+    before = sorted(tmp_path.iterdir())
+    with pytest.raises(UserError, match="choose another name"):
+        execution.run(plan)
+    assert sorted(tmp_path.iterdir()) == before
