@@ -1,7 +1,8 @@
-"""Every run and plan that the README shows can be planned as pasted."""
+"""Every run and plan that README and guide show can be planned as pasted; every link leads somewhere."""
 
 from __future__ import annotations
 
+import re
 import shlex
 from pathlib import Path
 
@@ -10,13 +11,15 @@ import pytest
 import surfexp as sx
 from surfexp.commands.command_line import main
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = (ROOT / "README.md", ROOT / "docs" / "guide.md")
 STARTS = ("surfexp run ", "surfexp plan ")
 # of a folder that `surfexp collect` wrote, of a plugin that the page shows, a search, a cluster: seen elsewhere
 ELSEWHERE = ("axes", "scaled", "hydra/sweeper", "profile=")
 LINES = [
     line.partition("  #")[0].strip()
-    for line in README.read_text(encoding="utf-8").splitlines()
+    for page in PAGES
+    for line in page.read_text(encoding="utf-8").splitlines()
     if line.startswith(STARTS) and not any(word in line for word in ELSEWHERE)
 ]
 
@@ -38,3 +41,14 @@ def files(working_folder: Path) -> None:
 def test_it_can_be_planned(line: str, files: None, capsys: pytest.CaptureFixture[str]) -> None:
     _, _, *arguments = shlex.split(line)
     assert main(["plan", *arguments]) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_to_files(page: Path) -> None:
+    """Generated pages, which only the site has, aside."""
+    links = re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8"))
+    assert links and not [link for link in links if "generated/" not in link and not (page.parent / link).exists()]
+
+
+def test_the_readme_is_read_to_its_end() -> None:
+    assert len(PAGES[0].read_text(encoding="utf-8").split()) <= 420

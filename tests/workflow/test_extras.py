@@ -21,7 +21,7 @@ MODULES = {"cholespy": "cholespy", "libigl": "igl", "scikit-learn": "sklearn"} |
 }
 # loaded by Hydra and by Snakemake, which find them by the name that stands in these files
 FOUND_BY_NAME = {
-    "hydra-optuna-sweeper": ("README.md", "hydra/sweeper=optuna"),
+    "hydra-optuna-sweeper": ("docs/guide.md", "hydra/sweeper=optuna"),
     "snakemake-executor-plugin-slurm": ("profiles/slurm/config.yaml", "executor: slurm"),
 }
 TOOLS = ("dev", "bench", "site", "all")
