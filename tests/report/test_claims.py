@@ -159,7 +159,7 @@ def test_an_option_that_is_a_list_is_matched_as_a_whole_or_as_one_of_several() -
 )
 def test_the_interval_its_reason_and_where_it_was_before_are_shown(between: list[float | None], text: str) -> None:
     verdict = judged(CLAIM | {"between": between, "moved": "≤ 9"}, row("a", energy=1.0))
-    page = section("x", "", [verdict])
+    page = section("x", "", [verdict], "a" * 20)
     assert verdict.interval == text and f"| {text} (before the result: ≤ 9) | a twentieth either way | 1 | 1 |" in page
 
 
