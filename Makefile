@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction reproduction-changed site ui lock dist audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction reproduction-changed site viewer ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -67,6 +67,10 @@ reproduction-changed: .venv/ready
 # Pages, API and examples with their pictures, read from disk: build/site/index.html.
 site: optional
 	PYTHONPATH=docs $(BIN)/python -m sphinx -b html --fail-on-warning --keep-going $(SITE) docs build/site
+
+# The library of pages whose surfaces turn, which the package holds; needs npm, and is the same to the byte.
+viewer: .venv/ready
+	$(BIN)/python viewer/build.py
 
 ui: .venv/ready
 	$(BIN)/surfexp ui
