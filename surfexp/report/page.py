@@ -20,6 +20,7 @@ from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
+from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
 from surfexp.workflow import store
 from surfexp.workflow.errors import DamagedResult
@@ -55,6 +56,9 @@ def write_report(plan: Plan, results: Path) -> Path:
         group.metrics = declared_by(plan, group.rows)
     figures = _write_figures(plan, results, folder / "figures")
     sections = [_section(group, figures, folder / "figures", k) for k, group in enumerate(groups)]
+    turning = Turning(results)
+    for item in (item for section in sections for item in section.figures[:FIGURES_SHOWN] if "key" in item):
+        item |= turning.of(plan.nodes, item["key"])
     verdicts = judge(read_claims(plan.settings.claims), rows)
     store.write_text(folder / "metrics.csv", to_csv(rows))
     page = render(
@@ -68,6 +72,8 @@ def write_report(plan: Plan, results: Path) -> Path:
         stages=len(plan.stored),
         requested=plan.requested,
         made=read_origin(folder),
+        arrays=turning.payload.arrays,
+        scripts=turning.scripts,
     )
     store.write_text(folder / "report.html", page)
     pictures = [item["file"] for section in sections for item in section.figures]
@@ -110,7 +116,7 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
             name = f"{plan.nodes[key].plugin}-{key[:8]}.png"
             if not (folder / name).exists():
                 _write(figure, folder / name)
-            wanted[key] = _shown(name, figure)
+            wanted[key] = {"key": key, **_shown(name, figure)}
     names = {item["file"] for item in wanted.values()}
     for file in folder.glob("*.png"):
         if file.name not in names:

@@ -1,10 +1,11 @@
-"""Pages from templates: every text as written, one script and one style inside, nothing from elsewhere."""
+"""Pages from templates: every text as written, scripts and one style inside, nothing from elsewhere."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from jinja2 import Environment, PackageLoader
@@ -14,26 +15,35 @@ from surfexp.report.table import format_number, short_name
 from surfexp.report.words import duration, word
 
 
-def render(template: str, **content: Any) -> str:
-    """Return a page; a browser runs no script in it but our own, whatever titles, labels and names hold."""
+def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
+    """Return a page; a browser runs no script in it but our own, whatever titles, labels and names hold.
+
+    Parameters
+    ----------
+    template : str
+    scripts : sequence of str
+        Names of further scripts beside that of the tables.
+    **content
+        What the template shows.
+    """
     loader = PackageLoader("surfexp.report", "templates")
     environment = Environment(loader=loader, autoescape=True)
     environment.filters.update(
         number=format_number, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
     )
-    style, script = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js"))
+    style, *texts = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js", *scripts))
     policy = "; ".join(
         (
             "default-src 'none'",
             "img-src 'self' data:",
             f"style-src {_hash(style)}",
-            f"script-src {_hash(script)}",
+            f"script-src {' '.join(map(_hash, texts))}",
             "base-uri 'none'",
             "form-action 'none'",
         )
     )
     page = environment.get_template(template)
-    own = {"style": Markup(style), "script": Markup(script)}  # noqa: S704, the package's own files
+    own = {"style": Markup(style), "scripts": [*map(Markup, texts)]}  # noqa: S704, the package's own files
     return page.render(**own, policy=policy, **content)
 
 

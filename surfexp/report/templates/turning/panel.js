@@ -1,0 +1,147 @@
+"use strict";
+// A panel: one surface on a canvas of its own, what it is coloured by, and the value under the pointer.
+// One renderer draws for all: browsers allow few.
+let renderer = null;
+const density = Math.min(devicePixelRatio || 1, 2);
+
+function element(name, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...children);
+  return made;
+}
+
+const digits = (value, count) =>
+  value.toLocaleString("en", { maximumSignificantDigits: count, useGrouping: false }).replace("-", "−");
+
+class Panel {
+  constructor(figure, surface, described, field) {
+    Object.assign(this, { figure, surface, described, scene: new THREE.Scene(), lines: [], turn: 0 });
+    this.camera = new THREE.OrthographicCamera();
+    this.mesh = surfaceMesh(surface);
+    this.scene.add(this.mesh);
+    this.canvas = element("canvas", { tabIndex: 0 });
+    this.canvas.setAttribute("role", "img");
+    this.bar = element("canvas", { height: 1 });
+    this.ticks = element("span", { className: "ticks" });
+    this.label = element("span", { className: "label" });
+    this.told = element("output", { className: "told", textContent: " " });
+    this.slider = element("input", { type: "range", min: 0, value: 0 });
+    this.step = element("output");
+    this.fields = element("select", {}, ...described.fields.map(({ name }, k) => new Option(name, k)));
+    this.fields.setAttribute("aria-label", `what ${described.name} shows`);
+    this.fields.value = field;
+    this.sliding = element("label", { className: "step" }, this.slider, this.step);
+    const colours = element("div", { className: "colours" }, this.bar, this.ticks, this.label);
+    const head = element("div", { className: "head" }, this.fields, this.sliding);
+    if (figure.scene.surfaces.length > 1) head.prepend(element("b", { textContent: described.name }));
+    this.element = element("div", { className: "panel" }, head, this.canvas, this.told, colours);
+    this.fields.addEventListener("change", () => this.show(0));
+    this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
+  }
+
+  get field() {
+    return this.described.fields[Number(this.fields.value)];
+  }
+
+  get coarse() {
+    return (this.surface.coarse ??= coarseFaces(this.surface.geometry, this.surface.radius));
+  }
+
+  // Colour the surface; of several requests the last one counts.
+  async show(at) {
+    const field = this.field, step = field.steps[at], turn = ++this.turn;
+    const lines = await Promise.all((step?.lines ?? []).map((one) => lineMesh(one, this.surface.middle)));
+    const { values, pixels } = await colour(this.mesh, field, step);
+    if (turn !== this.turn) return lines.forEach(release);
+    this.values = values;
+    this.lines.forEach((old) => this.scene.remove(release(old)));
+    this.lines = lines;
+    lines.forEach((one) => this.scene.add(one));
+    this.sliding.hidden = field.steps.length < 2;
+    this.fields.hidden = this.described.fields.length < 2;
+    this.slider.max = Math.max(field.steps.length - 1, 0);
+    this.slider.value = at;
+    this.slider.setAttribute("aria-label", field.name);
+    this.step.textContent = step?.name ?? "";
+    this.canvas.setAttribute("aria-label", `${this.described.name}: ${step?.name || field.name}, turns with the arrow keys`);
+    this.legend(field, pixels);
+    redraw([this.figure]);
+  }
+
+  legend(field, pixels) {
+    this.bar.parentElement.hidden = !field.limits;
+    if (!field.limits) return;
+    const [low, high] = field.limits, width = pixels.length / 4 - 1;
+    this.bar.width = width;
+    this.bar.getContext("2d").putImageData(new ImageData(pixels.slice(0, 4 * width), width, 1), 0, 0);
+    const marks = [low, 0.5 * (low + high), high].map((value) => element("span", { textContent: digits(value, 3) }));
+    this.ticks.replaceChildren(...marks);
+    this.label.textContent = field.label;
+  }
+
+  // An orthographic eye at the azimuth and elevation of the still pictures.
+  look() {
+    const { azimuth, elevation, zoom, x, y } = this.figure.view, { clientWidth: width, clientHeight: height } = this.canvas;
+    const [a, e] = [azimuth, elevation].map((angle) => (angle * Math.PI) / 180), size = this.figure.radius;
+    const unit = (1.04 * size) / (zoom * Math.min(width, height) || 1), { camera } = this;
+    camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(3 * size);
+    camera.up.set(-Math.sin(e) * Math.cos(a), -Math.sin(e) * Math.sin(a), Math.cos(e));
+    camera.lookAt(0, 0, 0);
+    Object.assign(camera, { left: -(width + 2 * x) * unit, right: (width - 2 * x) * unit });
+    Object.assign(camera, { top: (height + 2 * y) * unit, bottom: (2 * y - height) * unit, near: size, far: 5 * size });
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+  }
+
+  // Four samples a pixel at rest, one while it moves, and then fewer faces where drawing all was too slow.
+  draw(atRest) {
+    const { clientWidth, clientHeight } = this.canvas, samples = atRest ? 2 : 1;
+    const width = Math.round(samples * clientWidth), height = Math.round(samples * clientHeight);
+    if (!width || !height) return;
+    const wide = Math.round(density * clientWidth), high = Math.round(density * clientHeight);
+    this.mesh.geometry.setIndex(this.figure.slow && !atRest ? this.coarse : this.surface.geometry.index);
+    this.lines.forEach(({ material, width: line }) => (material.linewidth = samples * line));
+    const whole = renderer.getSize(new THREE.Vector2());
+    if (whole.x < width || whole.y < height) renderer.setSize(Math.max(whole.x, width), Math.max(whole.y, height), false);
+    if (this.canvas.width !== wide || this.canvas.height !== high) Object.assign(this.canvas, { width: wide, height: high });
+    this.look();
+    renderer.setViewport(0, 0, width, height);
+    renderer.setScissor(0, 0, width, height);
+    renderer.setScissorTest(true);
+    renderer.render(this.scene, this.camera);
+    const paper = this.canvas.getContext("2d"), from = renderer.domElement;
+    paper.clearRect(0, 0, wide, high);
+    paper.imageSmoothingQuality = "high";
+    paper.drawImage(from, 0, from.height - height, width, height, 0, 0, wide, high);
+  }
+
+  // The vertex nearest to where the line of sight meets the surface; -1 where it meets none.
+  under({ clientX, clientY }) {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect(), ray = new THREE.Raycaster();
+    this.look();
+    this.mesh.geometry.setIndex(this.surface.geometry.index);
+    ray.setFromCamera(new THREE.Vector2((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height), this.camera);
+    const [hit] = ray.intersectObject(this.mesh, false), { position } = this.mesh.geometry.attributes;
+    if (!hit) return -1;
+    const apart = (vertex) => new THREE.Vector3().fromBufferAttribute(position, vertex).distanceTo(hit.point);
+    return [hit.face.a, hit.face.b, hit.face.c].reduce((one, other) => (apart(other) < apart(one) ? other : one));
+  }
+
+  tell(vertex) {
+    const value = this.values?.(vertex), { unit } = this.field;
+    const text = value === undefined ? "" : Number.isNaN(value) ? ": no value" : `: ${digits(value, 5)} ${unit}`;
+    this.told.textContent = vertex < 0 ? " " : `vertex ${vertex}${text}`.trim();
+    Object.assign(this.told.dataset, { vertex, value: vertex < 0 ? "" : String(value ?? "") });
+  }
+
+  end() {
+    [this.mesh, ...this.lines].forEach(release);
+    this.mesh.material.uniforms.table.value?.dispose();
+  }
+}
+
+function release(drawn) {
+  drawn.geometry.dispose();
+  drawn.material.dispose();
+  return drawn;
+}

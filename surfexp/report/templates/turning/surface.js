@@ -1,0 +1,124 @@
+"use strict";
+// Surfaces and lines as three.js draws them, in the light of the still pictures.
+const VERTEX = `
+  attribute vec2 shade;
+  varying vec2 shaded;
+  varying vec3 turned;
+  void main() {
+    shaded = shade;
+    turned = normalMatrix * normal;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  }`;
+// x of `shaded` is the place between the limits, y is 0 where all corners have a value
+const FRAGMENT = `
+  uniform highp sampler2D table;
+  uniform float shading;
+  varying vec2 shaded;
+  varying vec3 turned;
+  const vec3 KEY = vec3(-0.450, 0.620, 0.643), FILL = vec3(0.750, -0.050, 0.660), BACK_TINT = vec3(0.26, 0.34, 0.48);
+  const float KEY_STRENGTH = 0.66, FILL_STRENGTH = 0.20, SKY = 0.34, GROUND = 0.22, WRAP = 0.25, RIM_DARKENING = 0.35;
+  const float BACK_SHARE = 0.45;
+  float illumination(vec3 n) {
+    float light = 0.5 * (SKY + GROUND) + 0.5 * (SKY - GROUND) * n.y;
+    light += (KEY_STRENGTH * max(dot(KEY, n) + WRAP, 0.0) + FILL_STRENGTH * max(dot(FILL, n) + WRAP, 0.0)) / (1.0 + WRAP);
+    float rim = 1.0 - clamp(n.z, 0.0, 1.0);
+    return light * (1.0 - RIM_DARKENING * rim * rim * rim);
+  }
+  void main() {
+    int missing = textureSize(table, 0).x - 1;
+    int entry = shaded.y > 0.0 ? missing : clamp(int(floor(shaded.x * float(missing))), 0, missing - 1);
+    vec3 color = texelFetch(table, ivec2(entry, 0), 0).rgb;
+    float received = 1.0 + shading * (illumination(normalize(turned) * (gl_FrontFacing ? 1.0 : -1.0)) - 1.0);
+    color = received * mix(color, BACK_TINT, gl_FrontFacing ? 0.0 : BACK_SHARE);
+    gl_FragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+  }`;
+
+// What panels share of a surface: positions about the middle of its box, normals, faces.
+async function readSurface({ positions, faces, outside }) {
+  const [at, corners] = await Promise.all([numbersOf(positions), codesOf(faces)]);
+  const middle = positions.low.map((low, k) => low + 0.5 * positions.step[k] * (GAP - positions.gaps));
+  const geometry = new THREE.BufferGeometry(), places = new Float32Array(3 * at.rows);
+  let radius = 0;
+  for (let row = 0; row < at.rows; row++) {
+    let squared = 0;
+    for (let k = 0; k < 3; k++) squared += (places[3 * row + k] = at(row, k) - middle[k]) ** 2;
+    radius = Math.max(radius, Math.sqrt(squared) || 0);
+  }
+  geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+  geometry.setIndex(new THREE.BufferAttribute(corners, 1));
+  geometry.computeVertexNormals();
+  const side = outside ? THREE.FrontSide : THREE.DoubleSide;
+  return { geometry, middle, radius, side };
+}
+
+// Faces between representatives of the cells of a grid, some tenth of them: what turns where drawing all is too slow.
+function coarseFaces({ index, attributes: { position } }, radius) {
+  const cell = (8 * radius) / Math.sqrt(position.count), first = new Map(), kept = [];
+  const places = position.array, steps = Math.ceil((2 * radius) / cell) + 2;
+  const step = (vertex, k) => Math.floor((places[3 * vertex + k] + radius) / cell);
+  const nearest = Array.from({ length: position.count }, (_, vertex) => {
+    const key = (step(vertex, 0) * steps + step(vertex, 1)) * steps + step(vertex, 2);
+    if (!first.has(key)) first.set(key, vertex);
+    return first.get(key);
+  });
+  for (let i = 0; i < index.count; i += 3) {
+    const [a, b, c] = [nearest[index.array[i]], nearest[index.array[i + 1]], nearest[index.array[i + 2]]];
+    if (a !== b && b !== c && c !== a) kept.push(a, b, c);
+  }
+  return new THREE.BufferAttribute(new index.array.constructor(kept), 1);
+}
+
+function surfaceMesh({ geometry, radius, side }) {
+  const own = new THREE.BufferGeometry(), count = geometry.attributes.position.count;
+  own.setIndex(geometry.index);
+  for (const name of ["position", "normal"]) own.setAttribute(name, geometry.attributes[name]);
+  own.setAttribute("shade", new THREE.BufferAttribute(new Float32Array(2 * count), 2));
+  own.boundingSphere = new THREE.Sphere(new THREE.Vector3(), radius);
+  const material = new THREE.ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    uniforms: { table: { value: null }, shading: { value: 1 } },
+    side,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  return new THREE.Mesh(own, material);
+}
+
+// Colours from the lower limit to the upper, then that of no value.
+async function readTable(described) {
+  const codes = await codesOf(described), count = codes.length / 3, pixels = new Uint8ClampedArray(4 * count).fill(255);
+  for (let k = 0; k < count; k++) pixels.set(codes.subarray(3 * k, 3 * k + 3), 4 * k);
+  return pixels;
+}
+
+async function colour(mesh, field, step) {
+  const shade = mesh.geometry.attributes.shade, { uniforms } = mesh.material;
+  const pixels = await readTable(field.table), values = step && (await numbersOf(step.values));
+  const [low, high] = field.limits ?? [0, 1];
+  for (let row = 0; row < shade.count; row++) {
+    const value = values ? values(row) : low, missing = Number.isNaN(value);
+    shade.setXY(row, missing ? 0 : (value - low) / (high - low), missing ? 1 : 0);
+  }
+  shade.needsUpdate = true;
+  uniforms.table.value?.dispose();
+  const linear = Float32Array.from(pixels, (channel) => (channel / 255) ** 2.2);
+  uniforms.table.value = new THREE.DataTexture(linear, pixels.length / 4, 1, THREE.RGBAFormat, THREE.FloatType);
+  uniforms.table.value.needsUpdate = true;
+  uniforms.shading.value = field.shading;
+  return { values, pixels };
+}
+
+async function lineMesh(described, middle) {
+  const [at, segments] = await Promise.all([numbersOf(described.points), codesOf(described.segments)]);
+  const ends = new Float32Array(3 * segments.length);
+  segments.forEach((point, i) => middle.forEach((centre, k) => (ends[3 * i + k] = at(point, k) - centre)));
+  const geometry = new THREE.LineSegmentsGeometry().setPositions(ends);
+  const { color, width, through } = described;
+  const material = new THREE.LineMaterial({ color, linewidth: width, depthTest: !through });
+  const lines = new THREE.LineSegments2(geometry, material);
+  Object.assign(lines, { width, frustumCulled: false });
+  lines.renderOrder = through ? 2 : 1;
+  return lines;
+}

@@ -1,0 +1,181 @@
+"use strict";
+// Under each still picture of surfaces a button turns it: its panels, and those of its comparison, turn together.
+const KEYS = { f: "front", b: "back", l: "left", r: "right", t: "top" };
+const ARROWS = { ArrowLeft: [15, 0], ArrowRight: [-15, 0], ArrowUp: [0, -15], ArrowDown: [0, 15] };
+// milliseconds: without a change for so long a surface rests; a frame of the comparison that takes longer is too slow
+const REST = 150, SLOW = 33;
+const waiting = new Set(), moving = new Set();
+let resting = 0;
+
+function redraw(figures) {
+  if (!waiting.size) requestAnimationFrame(drawWaiting);
+  figures.forEach((figure) => waiting.add(figure));
+}
+
+function drawWaiting() {
+  const panels = [...waiting].flatMap((figure) => figure.panels);
+  waiting.clear();
+  for (const panel of panels) {
+    moving.add(panel);
+    panel.draw(false);
+  }
+  clearTimeout(resting);
+  resting = setTimeout(drawResting, REST);
+}
+
+// One after the other, so that whoever turns on does not wait for all.
+function drawResting() {
+  const [panel] = moving;
+  if (!panel) return;
+  moving.delete(panel);
+  if (panel.element.isConnected) panel.draw(true);
+  resting = setTimeout(drawResting);
+}
+
+class TurningFigure {
+  constructor(element_, linked) {
+    Object.assign(this, { element: element_, linked, panels: [], cost: 0 });
+    this.scene = JSON.parse(element_.querySelector("script.scene").textContent);
+    this.button = element("button", { type: "button", textContent: "Turn" });
+    this.note = element("span", { className: "note" });
+    this.note.setAttribute("role", "status");
+    this.views = element("span", { className: "views", hidden: true });
+    for (const name of ["reset", ...Object.values(KEYS)]) {
+      const button = element("button", { type: "button", textContent: name });
+      button.addEventListener("click", () => this.face(name));
+      this.views.append(button);
+    }
+    this.tools = element("div", { className: "tools" }, this.button, this.views, this.note);
+    this.place = element("div", { className: "panels" });
+    this.place.dataset.count = this.scene.panels.length;
+    element_.querySelector("a").after(this.place, this.tools);
+    this.button.addEventListener("click", () => (this.panels.length ? this.still() : this.turn()));
+    this.watcher = new ResizeObserver(() => redraw([this]));
+  }
+
+  start() {
+    const [azimuth, elevation] = this.scene.view;
+    this.view = { azimuth, elevation, zoom: 1, x: 0, y: 0 };
+  }
+
+  async turn() {
+    this.button.disabled = true;
+    try {
+      startRenderer();
+      const surfaces = await Promise.all(this.scene.surfaces.map(readSurface));
+      this.radius = Math.max(...surfaces.map(({ radius }) => radius)) || 1;
+      this.start();
+      for (const [which, field] of this.scene.panels) {
+        this.panels.push(new Panel(this, surfaces[which], this.scene.surfaces[which], field));
+      }
+      this.place.append(...this.panels.map((panel) => panel.element));
+      this.element.classList.add("turns");
+      this.panels.forEach((panel) => this.listen(panel));
+      await Promise.all(this.panels.map((panel) => panel.show(Math.min(1, panel.field.steps.length - 1))));
+      this.watcher.observe(this.place);
+      this.cost = [0, 1].map(() => this.frame())[1]; // the first frame also compiles
+      this.linked.add(this);
+      this.views.hidden = false;
+      this.button.textContent = "Still";
+      this.note.textContent = "Drag or arrow keys turn, + and − zoom, shift and drag moves.";
+    } catch (error) {
+      this.still();
+      this.note.textContent = `Stays still: ${error.message}.`;
+    }
+    this.button.disabled = false;
+  }
+
+  // Milliseconds that a frame with all faces takes here.
+  frame() {
+    const start = performance.now();
+    this.panels.forEach((panel) => panel.draw(false));
+    renderer.getContext().readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now() - start;
+  }
+
+  get slow() {
+    return [...this.linked].reduce((sum, { cost }) => sum + cost, 0) > SLOW;
+  }
+
+  still() {
+    this.watcher.disconnect();
+    this.panels.forEach((panel) => panel.end());
+    this.panels = [];
+    this.place.replaceChildren();
+    this.linked.delete(this);
+    this.views.hidden = true;
+    this.element.classList.remove("turns");
+    this.button.textContent = "Turn";
+    this.note.textContent = "";
+  }
+
+  // Every figure of the comparison moves by the same; each keeps where it started from.
+  move({ azimuth = 0, elevation = 0, zoom = 1, x = 0, y = 0 }) {
+    for (const { view } of this.linked) {
+      view.azimuth += azimuth;
+      view.elevation = Math.max(-90, Math.min(90, view.elevation + elevation));
+      view.zoom = Math.max(0.2, Math.min(50, view.zoom * zoom));
+      view.x += x;
+      view.y += y;
+    }
+    redraw(this.linked);
+  }
+
+  face(name) {
+    for (const figure of this.linked) {
+      figure.start();
+      if (name in figure.scene.views) [figure.view.azimuth, figure.view.elevation] = figure.scene.views[name];
+    }
+    redraw(this.linked);
+  }
+
+  listen(panel) {
+    const { canvas } = panel, across = () => this.panels.filter(({ surface }) => surface === panel.surface);
+    let asked = 0;
+    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", (event) => {
+      const { movementX, movementY, buttons, shiftKey } = event;
+      if (buttons && shiftKey) this.move({ x: movementX, y: movementY });
+      else if (buttons) this.move({ azimuth: -0.5 * movementX, elevation: 0.5 * movementY });
+      cancelAnimationFrame(asked);
+      if (!buttons) asked = requestAnimationFrame(() => across().forEach((one) => one.tell(panel.under(event))));
+    });
+    canvas.addEventListener("pointerleave", () => across().forEach((one) => one.tell(-1)));
+    // a wheel alone scrolls the page
+    canvas.addEventListener("wheel", (event) => {
+      if (!event.ctrlKey && document.activeElement !== canvas) return;
+      event.preventDefault();
+      this.move({ zoom: Math.exp(-0.002 * event.deltaY) });
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const { key } = event;
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (key in ARROWS) this.move({ azimuth: ARROWS[key][0], elevation: ARROWS[key][1] });
+      else if (key === "+" || key === "=") this.move({ zoom: 1.2 });
+      else if (key === "-") this.move({ zoom: 1 / 1.2 });
+      else if (key === "0" || key === "Home") this.face("reset");
+      else if (key in KEYS) this.face(KEYS[key]);
+      else return;
+      event.preventDefault();
+    });
+  }
+}
+
+function startRenderer() {
+  if (typeof DecompressionStream === "undefined") throw new Error("this browser unpacks no deflated data");
+  if (renderer) return;
+  if (!document.createElement("canvas").getContext("webgl2")) throw new Error("this browser has no WebGL 2");
+  renderer = new THREE.WebGLRenderer({ alpha: true });
+  renderer.domElement.addEventListener("webglcontextlost", () => {
+    renderer = null;
+    for (const figure of turning.filter(({ panels }) => panels.length)) {
+      figure.still();
+      figure.note.textContent = "Stays still: the browser took the graphics away; turn it again.";
+    }
+  });
+}
+
+const turning = [...document.querySelectorAll("section")].flatMap((section) => {
+  const linked = new Set();
+  return [...section.querySelectorAll("figure:has(> script.scene)")].map((figure) => new TurningFigure(figure, linked));
+});

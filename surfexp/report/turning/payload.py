@@ -1,0 +1,112 @@
+"""The bytes of a page's surfaces: each array once, whatever number of scenes shows it, within a budget."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from surfexp.figures.camera import VIEWS
+from surfexp.figures.colormap import MISSING
+from surfexp.figures.render import CLAY, CLAY_SHADING, VALUE_SHADING
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.report.turning.fields import Field, Lines
+from surfexp.report.turning.quantised import Codes, packed, quantised
+from surfexp.report.turning.scene import Drawn, Scene
+
+# a page is to be 12 MB at most: this, the library (0.6 MB), and tables
+BUDGET = 9_000_000
+
+
+@dataclass
+class Payload:
+    """The arrays of a page by their digests, as text, and what they may take together."""
+
+    budget: int = BUDGET
+    arrays: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def size(self) -> int:
+        """Bytes that the arrays take."""
+        return sum(map(len, self.arrays.values()))
+
+    def add(self, scene: Scene) -> dict[str, Any]:
+        """Take the arrays of a scene; return its description, which refers to them.
+
+        Raises
+        ------
+        ValueError
+            If they do not fit any more; then none is taken.
+        """
+        taken = Payload(self.budget, dict(self.arrays))
+        surfaces = [taken._surface(drawn) for drawn in scene.surfaces]
+        if taken.size > self.budget:
+            raise ValueError(
+                f"{(taken.size - self.size) / 1e6:.1f} MB more would pass the {self.budget / 1e6:g} MB "
+                "that surfaces may take of a page"
+            )
+        self.arrays = taken.arrays
+        return {"surfaces": surfaces, "panels": [*map(list, scene.panels)], "view": list(scene.view), "views": VIEWS}
+
+    def _surface(self, drawn: Drawn) -> dict[str, Any]:
+        small = np.uint16 if len(drawn.mesh.vertices) <= 1 << 16 else np.uint32
+        return {
+            "name": drawn.name,
+            "outside": _shows_its_outside(drawn.mesh),
+            "positions": self._numbers(drawn.mesh.vertices),
+            "faces": self._codes(drawn.mesh.faces.astype(small)),
+            "fields": [self._field(one) for one in drawn.fields],
+        }
+
+    def _field(self, one: Field) -> dict[str, Any]:
+        if not one.steps:
+            return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": []}
+        scale = one.scale.fitted(np.concatenate([step.values for step in one.steps]))
+        steps = [
+            {
+                "name": step.name,
+                "values": self._numbers(step.values),
+                "lines": [self._lines(line) for line in step.lines],
+            }
+            for step in one.steps
+        ]
+        return {
+            "name": one.name,
+            "label": scale.title,
+            "unit": scale.unit,
+            "limits": list(scale.limits or ()),
+            "table": self._table(scale.table()),
+            "shading": VALUE_SHADING,
+            "steps": steps,
+        }
+
+    def _lines(self, line: Lines) -> dict[str, Any]:
+        return {
+            "points": self._numbers(line.points),
+            "segments": self._codes(line.segments.astype(np.uint32)),
+            "color": line.color,
+            "width": line.width,
+            "through": line.through,
+        }
+
+    def _table(self, colors: Any) -> dict[str, Any]:
+        """Colours from the lower limit to the upper, then that of NaN."""
+        return self._codes(np.rint(255.0 * np.concatenate([colors, [MISSING]])).astype(np.uint8))
+
+    def _numbers(self, values: Any) -> dict[str, Any]:
+        found = quantised(values)
+        return {**self._codes(found.codes), "low": list(found.low), "step": list(found.step), "gaps": found.gaps}
+
+    def _codes(self, codes: Codes) -> dict[str, Any]:
+        text = packed(codes)
+        name = hashlib.sha256(text.encode()).hexdigest()[:20]
+        self.arrays[name] = text
+        return {"array": name, "type": codes.dtype.name, "columns": codes.shape[1]}
+
+
+def _shows_its_outside(mesh: TriangleMesh) -> bool:
+    """Whether no eye outside sees the inner side of a face: the mesh is closed, and its faces turn outward."""
+    corners = mesh.vertices[mesh.faces[:, 0]]
+    return mesh.is_closed and float((corners * mesh.face_cross_products).sum()) > 0.0

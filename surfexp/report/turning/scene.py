@@ -1,0 +1,161 @@
+"""The surfaces of a figure as a page turns them: found among the inputs of the figure's stage, with what belongs to each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from surfexp.figures.camera import VIEWS, View, viewing_direction
+from surfexp.figures.colormap import ColorScale
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.report.turning.fields import Field, Step, feature_field, image_fields, mode_field
+from surfexp.workflow.plan import Node
+
+Load = Callable[[str, str], Any]
+
+# beyond these a browser has too much to draw at once
+SURFACES, PANELS = 6, 4
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A surface of a scene and what it can be coloured by, at least one field; NaN is drawn grey."""
+
+    name: str
+    mesh: TriangleMesh
+    fields: list[Field]
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What a figure becomes when it is turned.
+
+    Parameters
+    ----------
+    surfaces : list of Drawn
+    panels : list of (int, int)
+        Side by side: the surface of each, and the field that it shows at first.
+    view : (float, float)
+        Azimuth and elevation of the eye in degrees.
+    """
+
+    surfaces: list[Drawn]
+    panels: list[tuple[int, int]]
+    view: tuple[float, float] = field(default=VIEWS["oblique"])
+
+
+def scene_of(nodes: Mapping[str, Node], key: str, load: Load) -> Scene | None:
+    """The scene of a figure's stage; None where it takes no surface.
+
+    Parameters
+    ----------
+    nodes : dict of str to Node
+        The stages of a plan.
+    key : str
+        That of the figure.
+    load : callable
+        Gives the stored result of a kind and a key.
+
+    Raises
+    ------
+    ValueError
+        If it takes more surfaces than a page can turn at once.
+    """
+    inputs = dict(_labelled(nodes[key]))
+    found = {label: one for label, one in inputs.items() if nodes[one].kind == "surface"}
+    if not found:
+        return None
+    if len(found) > SURFACES:
+        raise ValueError(f"{len(found)} surfaces are more than the {SURFACES} that a page turns at once")
+    belonging: dict[str, dict[str, str]] = {label: {} for label in found}
+    for label, one in inputs.items():
+        owner = next((k for k, surface in found.items() if surface == _nearest(nodes, one, set(found.values()))), None)
+        if owner is not None and label not in found:
+            belonging[owner][label] = one
+    options = nodes[key].options
+    surfaces = [
+        drawn
+        for label, one in found.items()
+        for drawn in _drawn(label, load("surface", one), belonging[label], nodes, load, options)
+    ]
+    return Scene(surfaces, _panels(surfaces), _view(options, surfaces[0].mesh))
+
+
+def _labelled(node: Node) -> Iterator[tuple[str, str]]:
+    """Each input of a stage with what it is called: its role, or its label in a collection."""
+    for role, value in node.inputs.items():
+        if isinstance(value, str):
+            yield role, value
+            continue
+        members = value.items() if isinstance(value, Mapping) else enumerate(value, 1)
+        yield from ((f"{role} {label}", one) for label, one in members)
+
+
+def _nearest(nodes: Mapping[str, Node], key: str, wanted: set[str]) -> str:
+    """The stage among those wanted that a stage is made from in the fewest steps; empty where there is none."""
+    seen, front = {key}, [key]
+    while front:
+        if reached := [one for one in front if one in wanted]:
+            return reached[0]
+        front = [child for one in front for child in nodes[one].children if child not in seen]
+        seen.update(front)
+    return ""
+
+
+def _drawn(
+    label: str,
+    surface: Surface,
+    keys: Mapping[str, str],
+    nodes: Mapping[str, Node],
+    load: Load,
+    options: Mapping[str, Any],
+) -> list[Drawn]:
+    """A surface with its fields; where a result is the surface moved, that too."""
+    mesh, fields, moved = surface.mesh, list[Field](), list[Drawn]()
+    kinds = {kind: {name: one for name, one in keys.items() if nodes[one].kind == kind} for kind in _KINDS}
+    results = {kind: {name: load(kind, one) for name, one in kinds[kind].items()} for kind in _KINDS}
+    solution = next(iter(results["solver"].values()), None)
+    for image in results["image"].values():
+        fields += image_fields(mesh, image, solution, str(options.get("colormap", "viridis")))
+    if solution is not None and not results["image"] and solution.values.shape == mesh.vertices.shape:
+        moved.append(Drawn("result", TriangleMesh(solution.values, mesh.faces), [Field("surface")]))
+    fields += [mode_field(mesh, system) for system in results["eigensolver"].values()]
+    for name, feature in results["feature"].items():
+        made = [k for k, one in kinds["skeleton"].items() if kinds["feature"][name] in nodes[one].children]
+        fields.append(feature_field(mesh, feature, results["skeleton"][made[0]] if made else None))
+    if not fields:
+        fields = [Field(name, (Step(values),), ColorScale(name)) for name, values in surface.scalars.items()]
+    fields = [_masked(one, surface) for one in fields] or [Field("surface")]
+    return [Drawn(label, mesh, fields), *moved]
+
+
+_KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
+
+
+def _masked(one: Field, surface: Surface) -> Field:
+    """The field without values outside the mask, where methods do not work."""
+    if surface.mask is None:
+        return one
+    inside = surface.mask
+    return replace(one, steps=tuple(replace(s, values=np.where(inside, s.values, np.nan)) for s in one.steps))
+
+
+def _panels(surfaces: list[Drawn]) -> list[tuple[int, int]]:
+    """The fields of one surface side by side, or the first field of each of several."""
+    if len(surfaces) > 1:
+        return [(k, 0) for k in range(len(surfaces))]
+    return [(0, k) for k in range(min(len(surfaces[0].fields), PANELS))]
+
+
+def _view(options: Mapping[str, Any], mesh: TriangleMesh) -> tuple[float, float]:
+    """The first direction from which the figure shows its surfaces."""
+    view: View = "oblique"
+    if "azimuth" in options and "elevation" in options:
+        view = (options["azimuth"], options["elevation"])
+    elif named := options.get("view") or next(iter(options.get("views") or ()), None):
+        view = named if isinstance(named, str) else (named[0], named[1])
+    return viewing_direction(view, mesh)
