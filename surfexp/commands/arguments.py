@@ -44,7 +44,8 @@ def check_arguments(arguments: list[str]) -> None:
             _check_option(known, head, option)
         elif head in known.kinds or head == "experiment":
             names = list(experiments()) if head == "experiment" else [*known.names(head), *_presets(head)]
-            for name in (re.fullmatch(r"[\w,-]+", value) and value.split(",")) or ():
+            # what Hydra's grammar does not take apart is a name, or several
+            for name in map(str.strip, (re.fullmatch(r"[^][(){}'\"$*?]*", value) and value.split(",")) or ()):
                 if name not in names and name != "null":
                     broken = next((f" ({text})" for file, text in known.broken.items() if Path(file).stem == name), "")
                     raise UserError(f"{unknown(head, name, names)}{broken}")

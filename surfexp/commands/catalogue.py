@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from pathlib import Path
 
@@ -11,13 +10,14 @@ from rich.table import Table
 
 from surfexp.catalogue.folders import experiments
 from surfexp.catalogue.plugins import Catalogue, catalogue
+from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.kinds import KINDS
 
 
 def command(name: str, arguments: list[str]) -> int:
     """Print plugins or experiments, the options of one plugin, or what is known of one experiment."""
-    parser = argparse.ArgumentParser(f"surfexp {name}")
+    parser = Parser(f"surfexp {name}")
     if name == "list":
         parser.add_argument("kind", nargs="?", help=f"one of: {', '.join(KINDS)}, experiment; default: a count of each")
     else:

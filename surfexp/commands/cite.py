@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 from contextlib import suppress
 from pathlib import Path
 
 from surfexp import __version__
 from surfexp.catalogue.experiment_files import methods_named, read_experiment
 from surfexp.catalogue.plugins import catalogue
+from surfexp.commands.parser import Parser
 from surfexp.commands.views import latest_plan
 from surfexp.report.citation import bibliography
 from surfexp.workflow.errors import UserError
@@ -16,7 +16,7 @@ from surfexp.workflow.errors import UserError
 
 def command(name: str, arguments: list[str]) -> int:
     """Print the bibliography of experiments: of their last plans, or of what their files name."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description="What to cite for an experiment, as BibTeX.")
+    parser = Parser(f"surfexp {name}", description="What to cite for an experiment, as BibTeX.")
     parser.add_argument("experiment", nargs="+")
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
     given = parser.parse_args(arguments)

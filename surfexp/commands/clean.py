@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import sys
 from pathlib import Path
 
 from surfexp.commands.execution import hold_results
+from surfexp.commands.parser import Parser
 from surfexp.report.overview import is_ours
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import read_plan
@@ -19,7 +19,7 @@ MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifac
 
 def command(name: str, arguments: list[str]) -> int:
     """Remove stored results of older code and options, or everything; ask first."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
+    parser = Parser(f"surfexp {name}", description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
     parser.add_argument("--all", action="store_true", help="remove every result, plan, log and the dashboard's runs")
     parser.add_argument("--yes", action="store_true", help="do not ask")

@@ -22,7 +22,7 @@ def run_click(command: click.Command, arguments: list[str]) -> int:
     except click.Abort:
         raise KeyboardInterrupt from None
     except click.ClickException as error:
-        raise UserError(error.format_message()) from error
+        raise UserError(" ".join(error.format_message().split())) from error
     except ValueError as error:
         raise UserError(str(error)) from error
     return code if isinstance(code, int) else 0

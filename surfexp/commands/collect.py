@@ -12,6 +12,7 @@ import yaml
 from rich.console import Console
 from rich.progress import track
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow import registry
 from surfexp.workflow.errors import UserError
 
@@ -29,7 +30,7 @@ owner, on which they never train when they judge it. Without an owner in the reg
 
 def command(name: str, arguments: list[str]) -> int:
     """Read every surface below a folder and write those that can be read as an axis; list the others with the reason."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         f"surfexp {name}",
         description=command.__doc__,
         epilog=EXAMPLES,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import importlib
 import os
 import platform
@@ -12,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.util import find_spec
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.extras import EXTRAS
 
 SYSTEM = {"open3d": " and the system package libusb-1.0-0"}
@@ -19,7 +19,7 @@ SYSTEM = {"open3d": " and the system package libusb-1.0-0"}
 
 def command(name: str, arguments: list[str]) -> int:
     """Print versions, extras and free disk; exit with 1 if something needed is missing."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
+    parser = Parser(f"surfexp {name}", description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder to examine")
     given = parser.parse_args(arguments)
     print(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-LONGEST_WORD, LONGEST_LINE = 80, 300
+# with "surfexp: " before it a line has at most 300
+LONGEST_WORD, LONGEST_LINE = 80, 290
 # the names alone: what a message says after them is its reason and stays
 CHOICES = re.compile(r"(?<=choose from: )[^\s,;:()]+(?:, [^\s,;:()]+)+")
 

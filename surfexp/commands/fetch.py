@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from surfexp.commands.parser import Parser
 from surfexp.extras import require_installed
 from surfexp.workflow.errors import UserError
 
@@ -19,7 +19,7 @@ def command(name: str, arguments: list[str]) -> int:
 
     The publishers name no checksum: the first download is trusted unless --sha256 is given.
     """
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=command.__doc__)
+    parser = Parser(f"surfexp {name}", description=command.__doc__)
     parser.add_argument("collection", choices=sorted(COLLECTIONS))
     parser.add_argument("--to", type=Path, help="folder; default: the collection's name in the working folder")
     parser.add_argument("--url", help="another place that has the archive")

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import UserError
 
 
 def command(name: str, arguments: list[str]) -> int:
     """Report every defect of a mesh file, or mend it and say what was changed."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
+    parser = Parser(f"surfexp {name}", description=__doc__)
     parser.add_argument("action", choices=["check", "repair"])
     parser.add_argument("file", type=Path)
     parser.add_argument(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
 import keyword
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow import registry
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
@@ -18,7 +18,7 @@ ROLES = {"solver": "solution"}
 
 def command(name: str, arguments: list[str]) -> int:
     """Write `plugins/KIND/NAME.py` and `tests/test_KIND_NAME.py` in the working folder; a kind is one plugin file too."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         f"surfexp {name}",
         description=__doc__,
         epilog="examples: surfexp new solver my_method, surfexp new kind thickness",

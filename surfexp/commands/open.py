@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
 import webbrowser
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import UserError, unknown
 
 
 def command(name: str, arguments: list[str]) -> int:
     """Open a page that is there and print its place; without a browser the place alone."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description="The page of an experiment in the browser.")
+    parser = Parser(f"surfexp {name}", description="The page of an experiment in the browser.")
     parser.add_argument("experiment", nargs="?", help="default: the overview of all")
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
     given = parser.parse_args(arguments)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import StageFailure, UserError
 from surfexp.workflow.store import faults
 
 
 def command(name: str, arguments: list[str]) -> int:
     """Read the whole store, whatever was verified before; exit with 1 if a result is not what was written."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
+    parser = Parser(f"surfexp {name}", description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
     given = parser.parse_args(arguments)
     if not (given.results / "store").is_dir():

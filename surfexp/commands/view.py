@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
+from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import UserError
 
 
 def command(name: str, arguments: list[str]) -> int:
     """Open a mesh file in open3d's viewer."""
-    parser = argparse.ArgumentParser(f"surfexp {name}", description=__doc__)
+    parser = Parser(f"surfexp {name}", description=__doc__)
     parser.add_argument("file", type=Path)
     given = parser.parse_args(arguments)
     from surfexp.io.reading import read_mesh

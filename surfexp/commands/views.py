@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from surfexp.commands.parser import Parser
 from surfexp.commands.verdict_lines import print_verdicts
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.tracking import tracking_uri
@@ -27,7 +28,7 @@ FORMATS = ("text", "latex", "csv")
 
 def command(name: str, arguments: list[str]) -> int:
     """Print tables, write the report again, or start the dashboard."""
-    parser = argparse.ArgumentParser(f"surfexp {name}")
+    parser = Parser(f"surfexp {name}")
     parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
     if name == "ui":
         parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")

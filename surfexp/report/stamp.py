@@ -58,7 +58,7 @@ def cost(plans: Mapping[str, Plan], results: Path) -> str:
     span = (max(moments) - min(moments)) / 3600.0
     return (
         f"{datetime.now(UTC):%Y-%m-%d}, {_machine()}; {len(nodes)} stages, {failed} without result, "
-        f"{hours:.1f} processor hours in methods, {span:.1f} hours from the end of the first to that of the last, "
+        f"{hours:.2f} processor hours in methods, {span:.1f} hours from the end of the first to that of the last, "
         f"peak memory of a stage {memory:.1f} GB."
     )
 

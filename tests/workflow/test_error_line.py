@@ -47,3 +47,23 @@ def test_the_command_line_prints_such_lines(capsys: pytest.CaptureFixture[str]) 
     assert main(["frobnicate"]) == 2
     line = capsys.readouterr().err.strip()
     assert len(line) <= LONGEST_LINE + len("surfexp: ") and line.endswith(" more")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["collect", "--nothing"], "the following arguments are required: folder"),
+        (["report", "x", "--to", "y"], "unrecognized arguments: --to y; surfexp report --help"),
+        (["completion"], "Missing argument '{bash|zsh|fish}'. Choose from: bash, zsh, fish"),
+        (["noteleks"], "unknown command 'noteleks'; choose from: align, "),
+        (["run", "experiment=a b"], "unknown experiment 'a b'; choose from: "),
+        (["plan", "experiment="], "unknown experiment ''; choose from: "),
+        (["plan", "experiment=quickstart,isospectral drums"], "did you mean 'isospectral_drums'?"),
+    ],
+)
+def test_a_mistake_is_one_line_whatever_parses_it(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(arguments) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1 and len(told) <= 300
