@@ -7,14 +7,14 @@ import re
 # with "surfexp: " before it a line has at most 300
 LONGEST_WORD, LONGEST_LINE = 80, 290
 # the names alone: what a message says after them is its reason and stays
-CHOICES = re.compile(r"(?<=choose from: )[^\s,;:()]+(?:, [^\s,;:()]+)+")
+CHOICES = re.compile(r"((?:choose from|one of): )([^\s,;:()]+(?:, [^\s,;:()]+)+)")
 
 
 def error_line(text: str) -> str:
     """Return a line with the middle of long words and the end of a long list of choices left out."""
     line = re.sub(rf"[^\s:;,]{{{LONGEST_WORD + 1},}}", _shortened, text)
     over = len(line) - LONGEST_LINE
-    return CHOICES.sub(lambda found: _first_names(found.group(), over), line) if over > 0 else line
+    return CHOICES.sub(lambda found: found[1] + _first_names(found[2], over), line) if over > 0 else line
 
 
 def _first_names(choices: str, over: int) -> str:

@@ -49,6 +49,12 @@ def test_the_command_line_prints_such_lines(capsys: pytest.CaptureFixture[str]) 
     assert len(line) <= LONGEST_LINE + len("surfexp: ") and line.endswith(" more")
 
 
+@pytest.mark.parametrize("way", ["choose from", "choose surface= one of"])
+def test_long_lists_are_cut_whatever_introduces_them(way: str) -> None:
+    line = error_line(f"no surface; {way}: {', '.join(f'surface{k}' for k in range(50))}")
+    assert len(line) <= LONGEST_LINE and f"{way}: surface0, surface1, " in line and line.endswith(" more")
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
