@@ -7,12 +7,16 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from docs_turning import write_picture
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 
 DOCS = Path(__file__).parent
 PROGRAMS = DOCS / "generated" / "programs"  # examples write files where they stand
 shutil.copytree(DOCS.parent / "examples", PROGRAMS, ignore=shutil.ignore_patterns("plugin_package"), dirs_exist_ok=True)
+
+PICTURE = DOCS / "generated" / "turning" / "picture.html"
+write_picture(PICTURE)
 
 project = "surfexp"
 author = copyright = "The surfexp developers"
@@ -30,6 +34,7 @@ html_theme = "furo"
 html_title = "surfexp"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_extra_path = ["generated/turning"]
 html_copy_source = False
 html_math_renderer = "mathml"
 templates_path: list[str] = []

@@ -1,7 +1,7 @@
-// What a page takes of three.js to turn surfaces: one surface and lines of a width, drawn once a change.
+// What a page takes of three.js to turn surfaces: a surface, and lines of a width in pixels.
 export {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, FrontSide, Mesh, OrthographicCamera, RGBAFormat, Raycaster,
-  Scene, ShaderMaterial, Sphere, Vector2, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, FrontSide, Mesh, OrthographicCamera, RGBAFormat,
+  Raycaster, Scene, ShaderMaterial, Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
 export { LineMaterial } from "three/addons/lines/LineMaterial.js";
 export { LineSegments2 } from "three/addons/lines/LineSegments2.js";

@@ -29,6 +29,8 @@ from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.workflow import store
+from surfexp.workflow.launch import launch
+from surfexp.workflow.plan import Plan
 
 TEMPLATES = Path(scene_module.__file__).parents[1] / "templates"
 VIEWER = Path(__file__).resolve().parents[2] / "viewer"
@@ -134,6 +136,32 @@ def test_results_that_cannot_be_read_leave_the_still_picture(tmp_path: Path) -> 
     made = results_of(MESH)
     page = turning_page(tmp_path, {"figure": made["figure"]}).read_text()  # all else is hollow
     assert page.count("its surfaces could not be read") == 2 and "<img" in page
+
+
+def planned(experiment: str, plugin: str, made: dict[str, Any]) -> Scene:
+    """The scene of the first figure of a plugin in an experiment, each stage of a kind with the same result."""
+    plans: list[Plan] = []
+    launch([f"experiment={experiment}"], plans.append)
+    keys = [key for leaf in plans[0].leaves for key in leaf.figures if plans[0].nodes[key].plugin == plugin]
+    scene = scene_of(plans[0].nodes, keys[0], lambda kind, one: made[kind])
+    assert scene is not None
+    return scene
+
+
+def test_results_go_to_the_surface_that_they_were_made_on(working_folder: Path) -> None:
+    moved = Solution(1.1 * MESH.vertices, 0.0)
+    scene = planned("geometry_denoising", "geometry", {**results_of(MESH), "solver": moved})
+    assert [(one.name, [field.name for field in one.fields]) for one in scene.surfaces] == [
+        ("clean", ["surface"]),
+        ("noisy", ["surface"]),
+        ("result", ["surface"]),
+    ]
+    assert (scene.surfaces[2].mesh.vertices == moved.values).all() and scene.panels == [(0, 0), (1, 0), (2, 0)]
+    feature = Feature(MESH.vertices[:, 0], "height")
+    made = {**results_of(MESH), "feature": feature, "skeleton": reeb_graph(MESH, feature.values, np.zeros(1))}
+    (surface,) = planned("flux_weights", "level_sets", made).surfaces
+    lines = {one.name: len(one.steps[0].lines) for one in surface.fields}
+    assert len(lines) == 8 and all((count > 0) == name.startswith("features ") for name, count in lines.items())
 
 
 def test_more_surfaces_than_a_page_can_turn_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

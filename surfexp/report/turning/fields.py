@@ -22,7 +22,7 @@ from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 
 # modes that a page holds of each surface, and levels of each feature that it draws
-MODES, LEVELS_DRAWN = 20, 60
+MODES, LEVELS_DRAWN = 21, 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Functions of one name and one scale, with a slider where there are several; the bare surface where there is none."""
+    """Functions of one name and scale, with a slider where there are several; the bare surface where there is none."""
 
     name: str
     steps: tuple[Step, ...] = ()
@@ -67,7 +67,7 @@ class Field:
 
 
 def image_fields(mesh: TriangleMesh, image: Image, solution: Solution | None, colormap: str) -> list[Field]:
-    """Clean and observed image, then result and residual, or the regions with their boundary, in the figures' scales."""
+    """Clean and observed image, then result and residual, or the regions, in the scales of the figures."""
     observed = np.array(image.values, dtype=np.float64)
     if image.known is not None:
         observed[~image.known] = np.nan
@@ -88,7 +88,7 @@ def image_fields(mesh: TriangleMesh, image: Image, solution: Solution | None, co
 
 
 def mode_field(mesh: TriangleMesh, system: EigenSystem) -> Field:
-    """The first eigenfunctions in units of their root mean square, with nodal lines; they are counted from the constant one."""
+    """The first eigenfunctions in units of their root mean square, with nodal lines, counted from the constant one."""
     steps = []
     for k in range(min(len(system.values), MODES)):
         values = system.area**0.5 * system.vectors[: len(mesh.vertices), k]

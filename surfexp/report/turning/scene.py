@@ -1,4 +1,4 @@
-"""The surfaces of a figure as a page turns them: found among the inputs of the figure's stage, with what belongs to each."""
+"""The surfaces of a figure as a page turns them: those among the inputs of its stage, with what belongs to each."""
 
 from __future__ import annotations
 
@@ -106,6 +106,9 @@ def _nearest(nodes: Mapping[str, Node], key: str, wanted: set[str]) -> str:
     return ""
 
 
+_KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
+
+
 def _drawn(
     label: str,
     surface: Surface,
@@ -125,15 +128,13 @@ def _drawn(
         moved.append(Drawn("result", TriangleMesh(solution.values, mesh.faces), [Field("surface")]))
     fields += [mode_field(mesh, system) for system in results["eigensolver"].values()]
     for name, feature in results["feature"].items():
-        made = [k for k, one in kinds["skeleton"].items() if kinds["feature"][name] in nodes[one].children]
-        fields.append(feature_field(mesh, feature, results["skeleton"][made[0]] if made else None))
+        made = [k for k, key in kinds["skeleton"].items() if kinds["feature"][name] in nodes[key].children]
+        one = feature_field(mesh, feature, results["skeleton"][made[0]] if made else None)
+        fields.append(one if len(results["feature"]) == 1 else replace(one, name=name))
     if not fields:
         fields = [Field(name, (Step(values),), ColorScale(name)) for name, values in surface.scalars.items()]
     fields = [_masked(one, surface) for one in fields] or [Field("surface")]
     return [Drawn(label, mesh, fields), *moved]
-
-
-_KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
 
 
 def _masked(one: Field, surface: Surface) -> Field:

@@ -37,7 +37,7 @@ class Turning:
         return SCRIPTS if self.payload.arrays else ()
 
     def of(self, nodes: Mapping[str, Node], key: str) -> dict[str, Any]:
-        """`scene`, by which a page turns a figure, or `still`, why it cannot; neither where a figure takes no surface."""
+        """`scene`, by which a page turns a figure, or `still`, why it cannot; neither where it takes no surface."""
         if key not in self._found:
             self._found[key] = self._read(nodes, key)
         return self._found[key]

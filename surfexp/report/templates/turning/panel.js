@@ -50,7 +50,7 @@ class Panel {
   // Colour the surface; of several requests the last one counts.
   async show(at) {
     const field = this.field, step = field.steps[at], turn = ++this.turn;
-    const lines = await Promise.all((step?.lines ?? []).map((one) => lineMesh(one, this.surface.middle)));
+    const lines = await Promise.all((step?.lines ?? []).map((one, k) => lineMesh(one, this.surface.middle, k)));
     const { values, pixels } = await colour(this.mesh, field, step);
     if (turn !== this.turn) return lines.forEach(release);
     this.values = values;
@@ -63,7 +63,8 @@ class Panel {
     this.slider.value = at;
     this.slider.setAttribute("aria-label", field.name);
     this.step.textContent = step?.name ?? "";
-    this.canvas.setAttribute("aria-label", `${this.described.name}: ${step?.name || field.name}, turns with the arrow keys`);
+    const shown = `${this.described.name}: ${step?.name || field.name}, turns with the arrow keys`;
+    this.canvas.setAttribute("aria-label", shown);
     this.legend(field, pixels);
     redraw([this.figure]);
   }
@@ -81,7 +82,8 @@ class Panel {
 
   // An orthographic eye at the azimuth and elevation of the still pictures.
   look() {
-    const { azimuth, elevation, zoom, x, y } = this.figure.view, { clientWidth: width, clientHeight: height } = this.canvas;
+    const { azimuth, elevation, zoom, x, y } = this.figure.view;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     const [a, e] = [azimuth, elevation].map((angle) => (angle * Math.PI) / 180), size = this.figure.radius;
     const unit = (1.04 * size) / (zoom * Math.min(width, height) || 1), { camera } = this;
     camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(3 * size);
@@ -102,8 +104,12 @@ class Panel {
     this.mesh.geometry.setIndex(this.figure.slow && !atRest ? this.coarse : this.surface.geometry.index);
     this.lines.forEach(({ material, width: line }) => (material.linewidth = samples * line));
     const whole = renderer.getSize(new THREE.Vector2());
-    if (whole.x < width || whole.y < height) renderer.setSize(Math.max(whole.x, width), Math.max(whole.y, height), false);
-    if (this.canvas.width !== wide || this.canvas.height !== high) Object.assign(this.canvas, { width: wide, height: high });
+    if (whole.x < width || whole.y < height) {
+      renderer.setSize(Math.max(whole.x, width), Math.max(whole.y, height), false);
+    }
+    if (this.canvas.width !== wide || this.canvas.height !== high) {
+      Object.assign(this.canvas, { width: wide, height: high });
+    }
     this.look();
     renderer.setViewport(0, 0, width, height);
     renderer.setScissor(0, 0, width, height);
@@ -118,9 +124,10 @@ class Panel {
   // The vertex nearest to where the line of sight meets the surface; -1 where it meets none.
   under({ clientX, clientY }) {
     const { left, top, width, height } = this.canvas.getBoundingClientRect(), ray = new THREE.Raycaster();
+    const place = new THREE.Vector2((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
     this.look();
     this.mesh.geometry.setIndex(this.surface.geometry.index);
-    ray.setFromCamera(new THREE.Vector2((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height), this.camera);
+    ray.setFromCamera(place, this.camera);
     const [hit] = ray.intersectObject(this.mesh, false), { position } = this.mesh.geometry.attributes;
     if (!hit) return -1;
     const apart = (vertex) => new THREE.Vector3().fromBufferAttribute(position, vertex).distanceTo(hit.point);

@@ -51,9 +51,9 @@ async function readSurface({ positions, faces, outside }) {
   return { geometry, middle, radius, side };
 }
 
-// Faces between representatives of the cells of a grid, some tenth of them: what turns where drawing all is too slow.
+// Faces between representatives of the cells of a grid, some ten thousand: what turns where drawing all is too slow.
 function coarseFaces({ index, attributes: { position } }, radius) {
-  const cell = (8 * radius) / Math.sqrt(position.count), first = new Map(), kept = [];
+  const cell = 0.03 * radius, first = new Map(), kept = [];
   const places = position.array, steps = Math.ceil((2 * radius) / cell) + 2;
   const step = (vertex, k) => Math.floor((places[3 * vertex + k] + radius) / cell);
   const nearest = Array.from({ length: position.count }, (_, vertex) => {
@@ -110,7 +110,7 @@ async function colour(mesh, field, step) {
   return { values, pixels };
 }
 
-async function lineMesh(described, middle) {
+async function lineMesh(described, middle, order) {
   const [at, segments] = await Promise.all([numbersOf(described.points), codesOf(described.segments)]);
   const ends = new Float32Array(3 * segments.length);
   segments.forEach((point, i) => middle.forEach((centre, k) => (ends[3 * i + k] = at(point, k) - centre)));
@@ -118,7 +118,7 @@ async function lineMesh(described, middle) {
   const { color, width, through } = described;
   const material = new THREE.LineMaterial({ color, linewidth: width, depthTest: !through });
   const lines = new THREE.LineSegments2(geometry, material);
-  Object.assign(lines, { width, frustumCulled: false });
-  lines.renderOrder = through ? 2 : 1;
+  // lines seen through the surface come last, each over the one before it
+  Object.assign(lines, { width, frustumCulled: false, renderOrder: through ? 1 + order : 1 });
   return lines;
 }
