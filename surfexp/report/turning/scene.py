@@ -13,9 +13,13 @@ from surfexp.figures.colormap import ColorScale
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.report.turning.fields import Field, Step, feature_field, image_fields, mode_field
+from surfexp.variational.solution import Solution
 from surfexp.workflow.plan import Node
 
 Load = Callable[[str, str], Any]
+# results that belong to a surface, with their stages, by kind and label
+Given = Mapping[str, Mapping[str, tuple[Any, Node]]]
+KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
 
 # beyond these a browser has too much to draw at once
 SURFACES, PANELS = 6, 4
@@ -71,17 +75,15 @@ def scene_of(nodes: Mapping[str, Node], key: str, load: Load) -> Scene | None:
         return None
     if len(found) > SURFACES:
         raise ValueError(f"{len(found)} surfaces are more than the {SURFACES} that a page turns at once")
-    belonging: dict[str, dict[str, str]] = {label: {} for label in found}
-    for label, one in inputs.items():
-        owner = next((k for k, surface in found.items() if surface == _nearest(nodes, one, set(found.values()))), None)
-        if owner is not None and label not in found:
-            belonging[owner][label] = one
-    options = nodes[key].options
-    surfaces = [
-        drawn
-        for label, one in found.items()
-        for drawn in _drawn(label, load("surface", one), belonging[label], nodes, load, options)
-    ]
+    owners = {label: _nearest(nodes, one, set(found.values())) for label, one in inputs.items() if label not in found}
+    options, surfaces = nodes[key].options, list[Drawn]()
+    for label, surface in found.items():
+        own = {name: nodes[inputs[name]] for name, owner in owners.items() if owner == surface}
+        given = {
+            kind: {name: (load(kind, node.key), node) for name, node in own.items() if node.kind == kind}
+            for kind in KINDS
+        }
+        surfaces += _drawn(label, load("surface", surface), given, options)
     return Scene(surfaces, _panels(surfaces), _view(options, surfaces[0].mesh))
 
 
@@ -106,31 +108,19 @@ def _nearest(nodes: Mapping[str, Node], key: str, wanted: set[str]) -> str:
     return ""
 
 
-_KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
-
-
-def _drawn(
-    label: str,
-    surface: Surface,
-    keys: Mapping[str, str],
-    nodes: Mapping[str, Node],
-    load: Load,
-    options: Mapping[str, Any],
-) -> list[Drawn]:
+def _drawn(label: str, surface: Surface, given: Given, options: Mapping[str, Any]) -> list[Drawn]:
     """A surface with its fields; where a result is the surface moved, that too."""
     mesh, fields, moved = surface.mesh, list[Field](), list[Drawn]()
-    kinds = {kind: {name: one for name, one in keys.items() if nodes[one].kind == kind} for kind in _KINDS}
-    results = {kind: {name: load(kind, one) for name, one in kinds[kind].items()} for kind in _KINDS}
-    solution = next(iter(results["solver"].values()), None)
-    for image in results["image"].values():
+    solution: Solution | None = next((one for one, _ in given["solver"].values()), None)
+    for image, _ in given["image"].values():
         fields += image_fields(mesh, image, solution, str(options.get("colormap", "viridis")))
-    if solution is not None and not results["image"] and solution.values.shape == mesh.vertices.shape:
+    if solution is not None and not given["image"] and solution.values.shape == mesh.vertices.shape:
         moved.append(Drawn("result", TriangleMesh(solution.values, mesh.faces), [Field("surface")]))
-    fields += [mode_field(mesh, system) for system in results["eigensolver"].values()]
-    for name, feature in results["feature"].items():
-        made = [k for k, key in kinds["skeleton"].items() if kinds["feature"][name] in nodes[key].children]
-        one = feature_field(mesh, feature, results["skeleton"][made[0]] if made else None)
-        fields.append(one if len(results["feature"]) == 1 else replace(one, name=name))
+    fields += [mode_field(mesh, system) for system, _ in given["eigensolver"].values()]
+    for name, (feature, node) in given["feature"].items():
+        skeleton = next((one for one, made in given["skeleton"].values() if node.key in made.children), None)
+        one = feature_field(mesh, feature, skeleton)
+        fields.append(one if len(given["feature"]) == 1 else replace(one, name=name))
     if not fields:
         fields = [Field(name, (Step(values),), ColorScale(name)) for name, values in surface.scalars.items()]
     fields = [_masked(one, surface) for one in fields] or [Field("surface")]

@@ -95,13 +95,14 @@ class Panel {
     camera.updateMatrixWorld();
   }
 
-  // Four samples a pixel at rest, one while it moves, and then fewer faces where drawing all was too slow.
+  // Four samples a pixel at rest, one while it moves; fewer faces, and fewer samples, where drawing all is too slow.
   draw(atRest) {
-    const { clientWidth, clientHeight } = this.canvas, samples = atRest ? 2 : 1;
+    const { clientWidth, clientHeight } = this.canvas, strain = atRest ? 0 : this.figure.strain;
+    const samples = atRest ? 2 : strain > 3 ? 0.5 : 1;
     const width = Math.round(samples * clientWidth), height = Math.round(samples * clientHeight);
     if (!width || !height) return;
     const wide = Math.round(density * clientWidth), high = Math.round(density * clientHeight);
-    this.mesh.geometry.setIndex(this.figure.slow && !atRest ? this.coarse : this.surface.geometry.index);
+    this.mesh.geometry.setIndex(strain > 1 ? this.coarse : this.surface.geometry.index);
     this.lines.forEach(({ material, width: line }) => (material.linewidth = samples * line));
     const whole = renderer.getSize(new THREE.Vector2());
     if (whole.x < width || whole.y < height) {
@@ -117,7 +118,7 @@ class Panel {
     renderer.render(this.scene, this.camera);
     const paper = this.canvas.getContext("2d"), from = renderer.domElement;
     paper.clearRect(0, 0, wide, high);
-    paper.imageSmoothingQuality = "high";
+    paper.imageSmoothingQuality = atRest ? "high" : "low";
     paper.drawImage(from, 0, from.height - height, width, height, 0, 0, wide, high);
   }
 
