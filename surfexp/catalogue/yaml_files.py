@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,28 @@ def read_yaml(file: Path) -> dict[str, Any]:
             f"{file} holds {type(found).__name__}, a mapping of options is needed: NAME: VALUE in each line"
         )
     return found
+
+
+def check_variants(configuration: Mapping[str, Any]) -> None:
+    """Refuse `variants` that are no list of mappings, and a `grid` that is no mapping of lists; UserError with the place."""
+    variants = configuration.get("variants") or []
+    if not isinstance(variants, list):
+        raise UserError(f"variants is {_shown(variants)}, a list of partial configurations is needed")
+    for number, variant in enumerate(variants, 1):
+        if not isinstance(variant, Mapping):
+            raise UserError(f"variant {number} is {_shown(variant)}, a partial configuration is needed: OPTION: VALUE")
+    for number, given in enumerate([configuration, *variants]):
+        where = f"grid of variant {number}" if number else "grid"
+        grid = given.get("grid") or {}
+        if not isinstance(grid, Mapping):
+            raise UserError(f"{where} is {_shown(grid)}, options with lists of values are needed: OPTION: [VALUE, ...]")
+        for option, values in grid.items():
+            if not isinstance(values, list):
+                raise UserError(f"{where}: {option} is {_shown(values)}, a list of values is needed")
+
+
+def _shown(value: Any) -> str:
+    return _line(repr(value))[:60]
 
 
 def _line(text: str) -> str:

@@ -102,8 +102,6 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
     base = {key: value for key, value in configuration.items() if key not in ("variants", "grid")}
     leaves = []
     for variant in configuration.get("variants") or [{}]:
-        if not isinstance(variant, Mapping):
-            raise UserError(f"variants: {variant!r} is not a partial configuration")
         partial = {key: value for key, value in variant.items() if key != "grid"}
         grid = {**(configuration.get("grid") or {}), **(variant.get("grid") or {})}
         for values in itertools.product(*grid.values()):

@@ -20,6 +20,7 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.catalogue.planned import place, remembered
+from surfexp.catalogue.yaml_files import check_variants
 from surfexp.hydra_guard import refuse_code
 from surfexp.own_data import with_collections, without_foreign_words
 from surfexp.workflow import registry
@@ -148,6 +149,7 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
 def _leaves(
     composed: dict[str, Any], overrides: Sequence[str], stages: Mapping[str, Any], collections: Mapping[str, Any]
 ) -> list[dict[str, Any]]:
+    check_variants(composed)
     composed["axes"] = with_collections(composed.get("axes") or {}, collections)
     return expand(without_foreign_words(composed, overrides), stages)
 

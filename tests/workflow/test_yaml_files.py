@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from surfexp.catalogue.folders import experiments
-from surfexp.catalogue.yaml_files import read_yaml
+from surfexp.catalogue.yaml_files import check_variants, read_yaml
 from surfexp.commands.command_line import main
+from surfexp.workflow.errors import UserError
 
 BOMB = "a0: &a0 [x, x]\n" + "".join(f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9)}]\n" for k in range(1, 9))
 MISTAKES = {
@@ -49,3 +51,28 @@ def test_bytes_that_are_no_text_are_told(working_folder: Path, capsys: pytest.Ca
 def test_every_experiment_that_ships_is_read(working_folder: Path) -> None:
     for name, file in experiments().items():
         assert read_yaml(file)["experiment"] == name
+
+
+@pytest.mark.parametrize(
+    ("configuration", "said"),
+    [
+        ({"grid": 3}, "grid is 3, options with lists of values are needed"),
+        ({"grid": {"solver.tolerance": 3}}, "grid: solver.tolerance is 3, a list of values is needed"),
+        ({"variants": 3}, "variants is 3, a list of partial configurations"),
+        ({"variants": [{}, "x"]}, "variant 2 is 'x', a partial configuration is needed"),
+        ({"variants": [{"grid": "x"}]}, "grid of variant 1 is 'x', options with lists"),
+        ({"variants": [{}, {"grid": {"a": {"b": 1}}}]}, "grid of variant 2: a is {'b': 1}, a list"),
+        ({"grid": ["9" * 400]}, "options with lists of values"),
+    ],
+)
+def test_variants_and_grids_of_another_shape_are_refused_with_their_place(
+    configuration: dict[str, object], said: str
+) -> None:
+    with pytest.raises(UserError, match=re.escape(said)) as caught:
+        check_variants(configuration)
+    assert len(str(caught.value)) < 200
+
+
+def test_sound_variants_and_grids_pass() -> None:
+    check_variants({"grid": {"a": [1]}, "variants": [{"grid": {"b": [{"name": "x"}, "y"]}}, {"grid": None}, {}]})
+    check_variants({"grid": None, "variants": None})
