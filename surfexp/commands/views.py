@@ -15,6 +15,7 @@ from rich.table import Table
 
 from surfexp.commands.parser import Parser
 from surfexp.commands.verdict_lines import print_verdicts
+from surfexp.report.repeats import Repeats, repeats_of, spread
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.tracking import tracking_uri
 from surfexp.report.words import word
@@ -102,15 +103,34 @@ def print_tables(groups: Sequence[Comparison], console: Console, limit: int | No
     """
     for group in groups:
         console.print(f"\n[bold]{escape(group.title)}[/bold]", soft_wrap=True)
+        if repeats := repeats_of(group):
+            _print(_repeats_table(repeats), console)
         rows = group.rows if limit is None else group.excerpt(limit)
-        table = _table(group, rows)
-        if sum(_least_widths(table)) + 3 * len(table.columns) + 1 <= console.width:
-            console.print(table)
-        else:
-            _print_blocks(table, console)
+        _print(_table(group, rows), console)
         if len(rows) < len(group.rows):
             said = "the first ones and the best; metrics.csv beside the report and surfexp table have all"
             console.print(f"{len(rows)} of {len(group.rows)} rows: {said}", soft_wrap=True)
+
+
+def _print(table: Table, console: Console) -> None:
+    if sum(_least_widths(table)) + 3 * len(table.columns) + 1 <= console.width:
+        console.print(table)
+    else:
+        _print_blocks(table, console)
+
+
+def _repeats_table(repeats: Repeats) -> Table:
+    seeds = ", ".join(short_name(name) for name in repeats.seeds)
+    table = Table(header_style="bold", title=f"mean ± deviation over {seeds}", title_justify="left", title_style="")
+    for name in repeats.columns:
+        table.add_column(escape(short_name(name)), overflow="fold")
+    for name in [*(name.replace("_", " ") for name in repeats.metrics), "n"]:
+        table.add_column(escape(name), justify="right")
+    for row in repeats.rows:
+        values = [escape(word(row.parameters.get(name, "–"))) for name in repeats.columns]
+        count = str(row.count) if row.solved == row.count else f"{row.solved} of {row.count}"
+        table.add_row(*values, *(spread(row.metrics.get(name)) for name in repeats.metrics), count)
+    return table
 
 
 def _table(group: Comparison, rows: Sequence[Row]) -> Table:

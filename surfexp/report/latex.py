@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from surfexp.report.repeats import Repeats, repeats_of, spread
 from surfexp.report.table import Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
@@ -68,12 +69,13 @@ def latex_table(group: Comparison, label: str, command: str) -> str:
     command : str
         What computes it again, for a comment at its head.
     """
-    names, metrics = group.varying, group.metric_names
-    state = any(row.limited or row.failure for row in group.rows)
+    repeats = repeats_of(group)
+    names, metrics = repeats.columns if repeats else group.varying, group.metric_names
+    state = not repeats and any(row.limited or row.failure for row in group.rows)
     head = [escape(short_name(name)) for name in names]
-    head += [_heading(group, name) for name in metrics] + (["state"] if state else [])
-    rows = [_cells(group, row, state) for row in group.rows]
-    columns = "l" * len(names) + "r" * len(metrics) + ("l" if state else "")
+    head += [_heading(group, name) for name in metrics] + (["state"] if state else []) + (["$n$"] if repeats else [])
+    rows = _repeated_cells(repeats) if repeats else [_cells(group, row, state) for row in group.rows]
+    columns = "l" * len(names) + "r" * (len(metrics) + bool(repeats)) + ("l" if state else "")
     lines = [
         f"% {command}",
         r"\begin{table}",
@@ -102,12 +104,21 @@ def number(value: float | None) -> str:
     text = format_number(value)
     if text == "–":
         return "--"
+    return f"${_power(text)}$"
+
+
+def _power(text: str) -> str:
+    """The inside of a formula for a number as tables show it."""
     mantissa, _, exponent = text.replace("\u202f", r"\,").replace("−", "-").replace("∞", r"\infty").partition("e")
-    return f"${mantissa}\\times 10^{{{exponent}}}$" if exponent else f"${mantissa}$"
+    return f"{mantissa}\\times 10^{{{exponent}}}" if exponent else mantissa
 
 
 def _sentence(group: Comparison) -> str:
-    return f"{group.title}. {group.caption}".strip() if group.caption else group.title
+    said = [group.title, group.caption.strip().rstrip(".")]
+    if repeats := repeats_of(group):
+        said.append(f"Mean ± standard deviation over {', '.join(short_name(name) for name in repeats.seeds)}")
+    words = [text for text in said if text]
+    return ". ".join(words) + ("." if len(words) > 1 else "")
 
 
 def _heading(group: Comparison, name: str) -> str:
@@ -122,6 +133,17 @@ def _cells(group: Comparison, row: Row, state: bool) -> list[str]:
         text = number(row.metrics.get(name))
         cells.append(f"\\boldmath{text}" if group.is_best(row, name) else text)
     return cells + (["failed" if row.failure else "not converged" if row.limited else ""] if state else [])
+
+
+def _repeated_cells(repeats: Repeats) -> list[list[str]]:
+    found = []
+    for row in repeats.rows:
+        cells = [escape(word(row.parameters.get(name, "–"))) for name in repeats.columns]
+        for name in repeats.metrics:
+            parts = [_power(text) for text in spread(row.metrics.get(name)).split(" ± ")]
+            cells.append("--" if parts == ["–"] else "$" + r" \pm ".join(parts) + "$")
+        found.append([*cells, f"${row.solved}$" if row.solved == row.count else f"${row.solved}$ of ${row.count}$"])
+    return found
 
 
 def _row(cells: Sequence[str]) -> str:

@@ -19,6 +19,7 @@ from surfexp.report.origin import read_origin
 from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
+from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
@@ -43,6 +44,7 @@ class Section:
     notes: dict[str, int]
     figures: list[dict[str, Any]]
     rankings: list[RankingShown]
+    repeats: Repeats | None
     figure_of: dict[int, int]
     row_of: dict[int, int]
 
@@ -97,7 +99,7 @@ def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], folder: Pat
                 row_of.setdefault(places[key], place)
     pictures = [*(drawn[key] for key in keys), *_costs_of(group, folder, number)]
     rankings = write_rankings(group, folder, number)
-    return Section(group, shown, number_notes(shown), pictures, rankings, figure_of, row_of)
+    return Section(group, shown, number_notes(shown), pictures, rankings, repeats_of(group), figure_of, row_of)
 
 
 def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:

@@ -11,6 +11,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
+from surfexp.report.repeats import spread
 from surfexp.report.table import format_number, short_name
 from surfexp.report.words import duration, word
 
@@ -29,7 +30,7 @@ def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
     loader = PackageLoader("surfexp.report", "templates")
     environment = Environment(loader=loader, autoescape=True)
     environment.filters.update(
-        number=format_number, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
+        number=format_number, spread=spread, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
     )
     style, *texts = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js", *scripts))
     policy = "; ".join(
