@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from surfexp.report.ranking.trials import trials_of
+from surfexp.report.repeats import mean_and_deviation
 from surfexp.report.table import Comparison, format_number
 from surfexp.workflow import store
 
@@ -66,11 +67,9 @@ def write_rankings(group: Comparison, folder: Path, number: int) -> list[Ranking
 def _lines(ranking: Ranking) -> list[RankingLine]:
     count, lines = len(ranking.trials.values), []
     for k, (method, failed) in enumerate(zip(ranking.methods, ranking.failed, strict=True)):
-        mean, deviation = format_number(float(ranking.mean[k])), format_number(float(ranking.deviation[k]))
+        mean = mean_and_deviation(float(ranking.mean[k]), float(ranking.deviation[k]))
         low, high = (format_number(float(end[k])) for end in (ranking.low, ranking.high))
         difference = f"{format_number(float(ranking.difference[k]))} ({low} to {high})" if k else "–"
         p = format_number(float(ranking.p[0, k])) if k else "–"
-        lines.append(
-            RankingLine(method, f"{ranking.ranks[k]:.2f}", f"{mean} ± {deviation}", difference, p, count - failed)
-        )
+        lines.append(RankingLine(method, f"{ranking.ranks[k]:.2f}", mean, difference, p, count - failed))
     return lines
