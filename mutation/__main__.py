@@ -8,7 +8,7 @@ from collections import Counter
 from itertools import chain
 from pathlib import Path
 
-from mutation import claims
+from mutation import claims, claims_page
 from mutation.change import Change
 from mutation.fault import Fault
 from mutation.geometry_faults import GEOMETRY_FAULTS
@@ -38,6 +38,7 @@ def main() -> None:
     drawn.set_defaults(run=run_random)
     turning = commands.add_parser("claims", help="faults that have to turn a claim; what is recorded is not run again")
     turning.add_argument("words", nargs="*", metavar="WORD", help="part of the name of an experiment")
+    turning.add_argument("--open", action="store_true", help="only those that name a claim which is not turned yet")
     turning.set_defaults(run=run_claims)
     for command in (planted, drawn, turning):
         command.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
@@ -105,13 +106,14 @@ def run_random(options: argparse.Namespace) -> list[str]:
 def run_claims(options: argparse.Namespace) -> list[str]:
     """Return which claims their fault left untouched, and write the page of all that are recorded."""
     problems = []
-    for trial in claims.try_all(claims.faults(options.words), options.workers):
+    wanted = claims_page.open_faults() if options.open else claims.faults(options.words)
+    for trial in claims.try_all(wanted, options.workers):
         counts = Counter(trial.outcome(claim) for claim in trial.before)
         told = ", ".join(f"{counts[outcome]} {outcome}" for outcome in claims.OUTCOMES if counts[outcome])
         print(f"{trial.fault.experiment}: {trial.fault.path}: {told}", flush=True)
         if trial.named and trial.outcome(trial.named) == "untouched":
             problems.append(f"untouched: {trial.fault.experiment}: {trial.named}")
-    claims.write_page()
+    claims_page.write_page()
     return problems
 
 

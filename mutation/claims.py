@@ -10,7 +10,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -25,21 +24,6 @@ from mutation import ROOT
 LIST = ROOT / "mutation" / "claims.yaml"
 RESULTS = ROOT / "results" / "mutation" / "claims"
 LIMIT = 5400  # seconds for an experiment with a fault; one that takes longer says nothing
-PAGE = ROOT / "docs" / "claim_faults.md"
-HEAD = """# Claims that faults turn
-
-Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault is planted in
-a copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another
-one, by a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that
-was run changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`,
-or else the first that turned it. *Not run*: readings of a collection that has to be brought (TOSCA), and faults that have
-not been run yet.
-
-**{summary}** {faults} faults were run, {missing} not.
-
-| experiment | claim | fault | without it | with it | outcome |
-|---|---|---|---|---|---|
-"""
 PARTS = {"surfexp": "surfexp", "plugins": "surfexp/plugins", "conf": "surfexp/conf", "profiles": "surfexp/profiles"}
 JUDGE = """
 import json, sys
@@ -124,6 +108,11 @@ def faults(words: Sequence[str] = ()) -> list[ClaimFault]:
     return [fault for fault in every if not words or any(word in fault.experiment for word in words)]
 
 
+def recorded_trials() -> list[Trial]:
+    """The trials of all listed faults that are recorded here."""
+    return [Trial(fault, **known) for fault in faults() if (known := _recorded(fault.experiment).get(fault.identity))]
+
+
 def try_all(wanted: Sequence[ClaimFault], workers: int) -> Iterator[Trial]:
     """Run what has no record yet and give the trials of all, an experiment at a time."""
     by_experiment: dict[str, list[ClaimFault]] = {}
@@ -186,50 +175,3 @@ def _plant(fault: ClaimFault, copy: Path) -> None:
     if source.count(fault.old) != 1:
         raise ValueError(f"{fault.old!r} occurs {source.count(fault.old)} times in {fault.path}, not once")
     file.write_text(source.replace(fault.old, fault.new), encoding="utf-8")
-
-
-def write_page() -> None:
-    """Write the table of all claims of experiments that have a trial."""
-    every = faults()
-    trials = [Trial(fault, **known) for fault in every if (known := _recorded(fault.experiment).get(fault.identity))]
-    rows = [_row(name, claim, trials) for name, claim in _stated()]
-    counts = Counter(outcome for outcome, _ in rows)
-    summary = f"Of {len(rows)} claims {counts['turned']} turned, {counts['stopped']} stopped, "
-    summary += f"{counts['untouched']} untouched, {counts['not computed']} not computed without a fault, "
-    summary += f"{counts['not run']} not run."
-    missing = len({(fault.experiment, fault.change) for fault in every}) - len(
-        run := {(trial.fault.experiment, trial.fault.change) for trial in trials}
-    )
-    head = HEAD.format(summary=summary, faults=len(run), missing=missing)
-    PAGE.write_text(head + "".join(line for _, line in rows), encoding="utf-8")
-
-
-def _stated() -> list[tuple[str, str]]:
-    """Return (experiment, claim) of every claim."""
-    files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
-    stated = [(file.stem, yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []) for file in files]
-    return [(name, entry["claim"]) for name, entries in stated for entry in entries]
-
-
-def _row(name: str, claim: str, trials: list[Trial]) -> tuple[str, str]:
-    """Return outcome and line of a claim, from the trial that says most about it."""
-    own = [trial for trial in trials if trial.fault.experiment == name and claim in trial.before]
-    if not own:
-        return "not run", _line(name, claim, "–", "–", "–", "not run")
-    best = min(own, key=lambda trial: (OUTCOMES.index(trial.outcome(claim)), trial.named != claim))
-    outcome = best.outcome(claim)
-    before = " ".join(best.before[claim][:2])
-    if outcome not in ("turned", "stopped"):
-        count = len({trial.fault.change for trial in own})
-        return outcome, _line(name, claim, f"{count} fault{'s' if count > 1 else ''}", before, before, outcome)
-    fault = best.fault
-    change = f"{fault.path}: `{_code(fault.old)}` → `{_code(fault.new)}`"
-    return outcome, _line(name, claim, change, before, " ".join(best.of(claim)[:2]), outcome)
-
-
-def _line(*cells: str) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
-
-
-def _code(text: str) -> str:
-    return " ".join(text.split())
