@@ -71,13 +71,13 @@ def main() -> None:
 
 
 def _write_page(page: Path) -> None:
-    """Write the table if every group has been run, and say which has not."""
-    if missing := [group for group in GROUPS if not (FOLDER / f"{group}.json").exists()]:
-        print(f"{page.name} is as it was: {', '.join(missing)} have not been run")
-        return
+    """Write the table of what has been run, and say which groups have not."""
+    missing = [group for group in GROUPS if not (FOLDER / f"{group}.json").exists()]
     rows, bad = [], []
     total: Counter[str] = Counter()
     for group in GROUPS:
+        if group in missing:
+            continue
         known = json.loads((FOLDER / f"{group}.json").read_text())
         cases = [Ended(**case) for case in known["cases"]]
         for kind in dict.fromkeys(case.kind for case in cases):
@@ -88,7 +88,8 @@ def _write_page(page: Path) -> None:
     head = f"| kind of fault | tried | {' | '.join(OUTCOMES)} |\n|{'---|' * (len(OUTCOMES) + 2)}\n"
     listed = "".join(f"- {case.outcome}: {case.kind}, {case.name}: {case.said}\n" for case in bad)
     rest = f"\n## What is wrong\n\n{listed}" if bad else ""
-    page.write_text(HEAD + head + "".join(rows) + _row("**all**", total) + rest, encoding="utf-8")
+    unknown = f"**Not run here: {', '.join(missing)}.**\n\n" if missing else ""
+    page.write_text(HEAD + unknown + head + "".join(rows) + _row("**all**", total) + rest, encoding="utf-8")
 
 
 def _row(name: str, counts: Counter[str]) -> str:

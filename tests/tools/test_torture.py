@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import time
 from collections import Counter
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
+from torture import __main__ as torture_page
 from torture.bad_files import contents, surfaces
-from torture.case import HUNG, REFUSED, RIGHT, WRONG, clear, in_a_child
+from torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear, in_a_child
 from torture.kills import _below
 from torture.sound_files import write_sound_files
 
@@ -63,3 +66,19 @@ def test_processes_below_one_are_found() -> None:
     assert child in _below(os.getpid())
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
+
+
+def test_the_page_counts_what_was_run_and_names_what_was_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(torture_page, "FOLDER", tmp_path)
+    cases = [Ended("cut off", "a.ply", REFUSED, "too short"), Ended("cut off", "b.ply", RIGHT, "")]
+    cases.append(Ended("zeros", "c.gii", HUNG, "not done after 10 s"))
+    for group, some in (("files", cases), ("names", cases[:1])):
+        (tmp_path / f"{group}.json").write_text(json.dumps({"seconds": 1.0, "cases": [asdict(case) for case in some]}))
+    page = tmp_path / "page.md"
+    torture_page._write_page(page)
+    text = page.read_text()
+    assert "**Not run here: requests, damages, strangers, misdeeds, kills, drivers.**" in text
+    assert (
+        "| files: cut off | 2 | 1 | 0 | 1 | 0 | 0 | 0 |" in text and "| **all** | 4 | 2 | 0 | 1 | 0 | 0 | 1 |" in text
+    )
+    assert "- hung: zeros, c.gii: not done after 10 s" in text
