@@ -9,6 +9,7 @@ from __future__ import annotations
 import gzip
 import re
 import struct
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from xml.parsers import expat
@@ -57,7 +58,7 @@ def _check_gifti(path: Path) -> None:
                 parser.Parse(piece)
                 if (read := read + len(piece)) > LARGEST_BYTES:
                     raise ValueError(f"unpacked it has over {LARGEST_BYTES} bytes, the most that is read")
-    except (expat.ExpatError, OSError, EOFError, LookupError):
+    except (expat.ExpatError, OSError, EOFError, LookupError, zlib.error):
         return  # not XML, or cut off: the reader of the format says so
     if refused:
         raise ValueError(refused[0])

@@ -71,6 +71,20 @@ def test_a_gifti_array_with_impossible_dimensions_is_refused_at_once(
     assert time.monotonic() - begin < 60.0
 
 
+@pytest.mark.parametrize("place", [0.2, 0.5, 0.9])
+def test_a_spoilt_archive_is_left_to_the_reader_which_refuses_it(tmp_path: Path, place: float) -> None:
+    path = tmp_path / "a.shape.gii"
+    write_gifti_maps(path, {"thickness": np.random.default_rng(0).normal(size=len(MESH.vertices))}, "left")
+    whole = bytearray(gzip.compress(path.read_bytes()))
+    begin = int(place * len(whole))
+    whole[begin : begin + 40] = bytes(40)
+    spoilt = tmp_path / "a.shape.gii.gz"
+    spoilt.write_bytes(whole)
+    check_declared_sizes(spoilt)
+    with pytest.raises(ValueError, match="it is not a readable GIFTI file"):
+        read_maps(spoilt)
+
+
 def test_a_gifti_array_of_too_many_numbers_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.shape.gii"
     write_gifti_maps(path, {"thickness": VALUES}, "left")
