@@ -8,12 +8,12 @@ from typing import ClassVar
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
-from surfexp.html_table import html_table
 from surfexp.metric import Metric
+from surfexp.summary import Summarized, Summary
 
 
-@dataclass(frozen=True, eq=False)
-class Distance:
+@dataclass(frozen=True, eq=False, repr=False)
+class Distance(Summarized):
     """The distance between two embedded surfaces.
 
     Parameters
@@ -81,7 +81,7 @@ class Distance:
         }
         object.__setattr__(self, "metrics", {**known, **self.metrics})
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         facts = {
             "distance": self.value,
             "lower bound": self.lower_bound,
@@ -89,4 +89,4 @@ class Distance:
             "eigenfunctions": self.basis.shape[0],
             "vertices mapped": int((self.correspondence >= 0).sum()),
         }
-        return html_table(f"spectral distance {self.method}".rstrip(), facts, self.notes)
+        return Summary(f"spectral distance {self.method}".rstrip(), facts, self.notes)

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
-from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.metric import Metric
+from surfexp.summary import Summarized, Summary
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +39,8 @@ class Truth:
     midline: Floats | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(Summarized):
     """A mesh with what is known about it.
 
     Parameters
@@ -136,7 +136,7 @@ class Surface:
         """
         return replace(self, mesh=mesh, shape=None, part=None, truth=replace(self.truth, midline=None))
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         size = f" {self.unit}²" if self.unit else ""
         facts = {
             "vertices": len(self.mesh.vertices),
@@ -149,4 +149,4 @@ class Surface:
             "maps": ", ".join(self.scalars),
             "labels": ", ".join(self.labels),
         }
-        return html_table(self.name, facts, self.notes)
+        return Summary(self.name, facts, self.notes)

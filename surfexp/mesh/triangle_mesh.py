@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from surfexp.arrays import Floats, Integers
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TriangleMesh:
     """A triangulated surface in space.
 
@@ -35,6 +35,9 @@ class TriangleMesh:
 
     vertices: Floats
     faces: Integers
+
+    def __repr__(self) -> str:
+        return f"<TriangleMesh: {len(self.vertices):,} vertices, {len(self.faces):,} faces>"
 
     def __post_init__(self) -> None:
         vertices = np.ascontiguousarray(self.vertices, dtype=np.float64).view()

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
-from surfexp.html_table import html_table
 from surfexp.metric import Metric
+from surfexp.summary import Summarized, Summary
 
 if TYPE_CHECKING:
     import networkx
@@ -19,8 +19,8 @@ CONTOUR, CAP, JUNCTION = 0, 1, 2
 KINDS = ("contour", "cap", "junction")
 
 
-@dataclass(frozen=True, eq=False)
-class Skeleton:
+@dataclass(frozen=True, eq=False, repr=False)
+class Skeleton(Summarized):
     """A graph in space.
 
     Parameters
@@ -110,7 +110,7 @@ class Skeleton:
         graph.add_edges_from((a, b, {"length": size}) for (a, b), size in zip(self.arcs.tolist(), sizes, strict=True))
         return graph
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         facts = {
             "levels": len(self.levels),
             "loops": int(self.metrics["b1"]),
@@ -118,7 +118,7 @@ class Skeleton:
             "branches": int(self.metrics["branch_nodes"]),
             "end points": int(self.metrics["leaves"]),
         }
-        return html_table(f"{self.name}, {self.method}", facts, self.notes)
+        return Summary(f"{self.name}, {self.method}", facts, self.notes)
 
 
 def chain_order(skeleton: Skeleton) -> Integers:

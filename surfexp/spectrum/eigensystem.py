@@ -9,17 +9,17 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.arrays import Floats, Integers
-from surfexp.html_table import html_table
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
 from surfexp.metric import Metric
+from surfexp.summary import Summarized, Summary
 
 SMALLEST_GAP = 1e-6
 COLUMNS_AT_ONCE = 64
 
 
-@dataclass(frozen=True, eq=False)
-class EigenSystem:
+@dataclass(frozen=True, eq=False, repr=False)
+class EigenSystem(Summarized):
     """The k lowest pairs of A x = lambda B x.
 
     Parameters
@@ -81,7 +81,7 @@ class EigenSystem:
         "area": Metric("area", "unit of length squared"),
     }
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         facts = {
             "lowest": float(self.values[0]),
             "highest": float(self.values[-1]),
@@ -91,7 +91,7 @@ class EigenSystem:
             "clusters": len(self.clusters),
             "method": self.method,
         }
-        return html_table(f"{len(self.values)} eigenpairs", facts, self.notes)
+        return Summary(f"{len(self.values)} eigenpairs", facts, self.notes)
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ def check_pencil(stiffness: csr_array, mass: csr_array) -> None:
         if bad:
             raise EigensolverError(f"the {name} matrix has {bad} entries that are not finite: repair the mesh")
         skew = float(np.abs((matrix - matrix.T).data).max(initial=0.0))
-        if skew > LARGEST_SKEW * float(np.abs(matrix.data).max(initial=1.0)):
+        if skew > LARGEST_SKEW * float(np.abs(matrix.data).max(initial=0.0)):
             raise EigensolverError(
                 f"the {name} matrix is not symmetric, by {skew:.1e}: take its symmetric part, or L with M L symmetric"
             )

@@ -15,7 +15,7 @@ from surfexp.linalg.ldlt import LDLT
 from surfexp.spectrum.counting_function import guess_eigenvalue
 from surfexp.spectrum.eigensystem import EigenSystem, Measurement, mean_spacing, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
-from surfexp.spectrum.spectrum_slice import EDGE_GAP, SliceRequest, SpectrumSlice, solve_slice
+from surfexp.spectrum.spectrum_slice import EDGE_GAP, SliceRequest, SpectrumSlice, open_gaps, solve_slice
 
 SLICE = 350
 # few pairs are found soonest from their middle, many from above it
@@ -139,12 +139,12 @@ def _assemble(
     spacing = max(edges[-1], 0.0) / max(pencil.counts[edges[-1]], 1) if edges else 0.0
     # before a cluster is cut: its parts alone would not span what inverse iteration keeps
     measurement, polishes = polish(pencil, vectors, tolerance, spacing)
+    notes = _notes(measurement.values, k, spacing or measurement.spacing, slices)
     if total > k:
         lowest = np.argsort(measurement.values, kind="stable")[:k]
         in_order = bool((lowest == np.arange(k)).all())
         vectors = vectors[:, :k] if in_order else np.asfortranarray(vectors[:, lowest])
         measurement = measurement.of(lowest)
-    notes = _notes(total, k, slices)
     for column in vectors.T:
         column[pencil.order] = column.copy()
     complete = all(part.complete for part in slices) and total >= k
@@ -163,9 +163,9 @@ def _assemble(
     )
 
 
-def _notes(total: int, k: int, slices: list[SpectrumSlice]) -> tuple[str, ...]:
-    notes = []
-    if total > k:
+def _notes(values: Floats, k: int, spacing: float, slices: list[SpectrumSlice]) -> tuple[str, ...]:
+    notes, total = [], len(values)
+    if total > k and not open_gaps(np.sort(values), spacing)[k - 1]:
         notes.append(f"k = {k} cuts a cluster of nearly equal eigenvalues: k = {total} contains all of it")
     for part in slices:
         if not part.complete:

@@ -119,13 +119,18 @@ def upper_edge(values: Floats, shift: float, request: SliceRequest) -> int:
     The largest gap is taken among those that `freedom` allows; without it, the first that is wide enough for an edge.
     """
     wanted = int((values < shift).sum()) + request.above
-    gaps = np.diff(values) / np.maximum(np.abs(values[1:]), request.spacing)
     first = max(1, wanted - request.freedom)
     if request.freedom:
+        gaps = np.diff(values) / np.maximum(np.abs(values[1:]), request.spacing)
         return first + int(np.argmax(gaps[first - 1 : wanted])) if len(values) > wanted else 0
-    widths = np.maximum(SMALLEST_GAP, EDGE_GAP * request.spacing / np.maximum(np.abs(values[1:]), request.spacing))
-    open_gaps = np.flatnonzero((gaps > widths)[first - 1 :])
-    return first + int(open_gaps[0]) if len(open_gaps) else 0
+    chosen = np.flatnonzero(open_gaps(values, request.spacing)[first - 1 :])
+    return first + int(chosen[0]) if len(chosen) else 0
+
+
+def open_gaps(values: Floats, spacing: float) -> NDArray[np.bool_]:
+    """Return for each value but the last of a sorted spectrum whether an edge may follow it."""
+    scales = np.maximum(np.abs(values[1:]), spacing)
+    return np.asarray(np.diff(values) > np.maximum(SMALLEST_GAP * scales, EDGE_GAP * spacing))
 
 
 def _iterate(

@@ -8,10 +8,10 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.arrays import Floats
-from surfexp.html_table import html_table
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.noise_level import noise_level
@@ -25,8 +25,8 @@ HEAT_STEPS = 10
 NEWTON_BELOW = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
-class DenoisedMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class DenoisedMap(Summarized):
     """A map without its noise.
 
     Parameters
@@ -45,7 +45,7 @@ class DenoisedMap:
     certificate: dict[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         known = np.isfinite(self.values)
         facts = {
             "known values": int(known.sum()),
@@ -53,7 +53,7 @@ class DenoisedMap:
             "largest": float(self.values[known].max()) if known.any() else None,
             **{name.replace("_", " "): value for name, value in self.certificate.items()},
         }
-        return html_table(f"map after {self.method}", facts, self.notes)
+        return Summary(f"map after {self.method}", facts, self.notes)
 
 
 def denoise(

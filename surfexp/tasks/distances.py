@@ -15,11 +15,11 @@ from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
-from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 # pairs of points that a search compares at most where no limit is given: about a minute
@@ -99,8 +99,8 @@ def _mirror_images(first: SpectralEmbedding, second: SpectralEmbedding, found: D
     return (f"{choices} the same distance: a surface has a symmetry, and nothing intrinsic tells which map is right.",)
 
 
-@dataclass(frozen=True, eq=False)
-class ModeAlignment:
+@dataclass(frozen=True, eq=False, repr=False)
+class ModeAlignment(Summarized):
     """Which combination of the target's modes plays the part of each mode of the source.
 
     Parameters
@@ -126,7 +126,7 @@ class ModeAlignment:
     vectors: Floats
     notes: tuple[str, ...] = ()
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         facts = {
             "single modes": sum(first == last for first, last in self.blocks),
             "blocks of several": sum(first < last for first, last in self.blocks),
@@ -134,7 +134,7 @@ class ModeAlignment:
             "lower bound": self.lower_bound,
             "signs proved best": self.optimal,
         }
-        return html_table(f"{len(self.basis)} aligned modes", facts, self.notes)
+        return Summary(f"{len(self.basis)} aligned modes", facts, self.notes)
 
 
 def align(

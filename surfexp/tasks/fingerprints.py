@@ -15,11 +15,11 @@ from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.arrays import Floats
-from surfexp.html_table import html_table
 from surfexp.io.csv_cells import cells
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.summary import Summarized, Summary
 from surfexp.tasks.files import PathLike, read
 from surfexp.tasks.inputs import part_for
 
@@ -32,8 +32,8 @@ Progress = Callable[[str, int, int], None]
 Source = Path | LabelledStructure
 
 
-@dataclass(frozen=True, eq=False)
-class Fingerprints:
+@dataclass(frozen=True, eq=False, repr=False)
+class Fingerprints(Summarized):
     """Area, volume and lowest eigenvalues of structures, with their proof.
 
     Parameters
@@ -79,14 +79,14 @@ class Fingerprints:
         rows["repairs"] = [len(self.repairs.get(name, ())) for name in self.columns]
         return rows
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         facts = {
             "complete": sum(self.complete.values()),
             "largest residual": max(self.residuals.values(), default=None),
             "repaired": len(self.repairs),
             "left out": len(self.refused),
         }
-        return html_table(f"fingerprints of {len(self.columns)} structures", facts, self.notes)
+        return Summary(f"fingerprints of {len(self.columns)} structures", facts, self.notes)
 
     def save(self, path: PathLike) -> None:
         """Write one CSV: a column a structure, rows as in BrainPrint, then those of the proof.

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.arrays import Floats, Integers
-from surfexp.html_table import html_table
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
@@ -26,8 +26,8 @@ CLIPPED_AT = 50.0
 NAMES = {0: "unknown", 1: "darker", 2: "brighter"}
 
 
-@dataclass(frozen=True, eq=False)
-class Segmentation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Segmentation(Summarized):
     """Two regions of a surface, and what is proved of them.
 
     Parameters
@@ -75,11 +75,11 @@ class Segmentation:
         """The labels as files hold them: 0 unknown, 1 darker, 2 brighter."""
         return LabelMap(self.labels + 1, NAMES)
 
-    def _repr_html_(self) -> str:
+    def _summary(self) -> Summary:
         counts = {f"vertices {name}": int((self.labels == key - 1).sum()) for key, name in NAMES.items() if key}
         numbers = {"mean of the brighter": self.c1, "mean of the darker": self.c2, "boundary length": self.perimeter}
         proof = {"gap": self.gap, "labelling gap": self.labelling_gap, "converged": self.converged}
-        return html_table("two regions", counts | numbers | proof, self.notes)
+        return Summary("two regions", counts | numbers | proof, self.notes)
 
 
 def segment(

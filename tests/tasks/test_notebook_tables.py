@@ -1,4 +1,4 @@
-"""Results as small tables in notebooks: well formed, escaped, with the proof in them."""
+"""Results at a prompt and as tables in notebooks: short, well formed, escaped, with the proof in them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import surfexp as sx
-from surfexp.html_table import html_table
 from surfexp.mesh.surface import Surface
+from surfexp.summary import Summary
 from surfexp.tasks.fingerprints import Fingerprints
 
 SPHERE = sx.shape("icosphere", levels=2)
@@ -24,7 +24,7 @@ def fingerprints() -> Fingerprints:
         return sx.fingerprint(folder, count=4)
 
 
-@pytest.mark.parametrize(
+RESULTS = pytest.mark.parametrize(
     ("make", "words"),
     [
         (lambda: Surface(SPHERE.mesh, "a <b> & c", "mm", scalars={"<z>": Z}), ["a <b> & c", "162", "<z>", "mm²"]),
@@ -37,15 +37,31 @@ def fingerprints() -> Fingerprints:
         (lambda: sx.segment(SPHERE, Z), ["two regions", "vertices brighter", "labelling gap"]),
     ],
 )
+
+
+@RESULTS
 def test_tables_are_well_formed_and_hold_what_is_proved(make, words: list[str]) -> None:
     tree = ElementTree.fromstring(f"<div>{make()._repr_html_()}</div>")  # noqa: S314, the project's own page
     text = " ".join(tree.itertext())
     assert all(word in text for word in words), text
 
 
+@RESULTS
+def test_a_prompt_shows_one_line_with_the_same_words(make, words: list[str]) -> None:
+    result = make()
+    line = repr(result)
+    assert line.startswith(f"<{type(result).__name__}: ") and "\n" not in line and len(line) < 400
+    assert all(word in line for word in words), line
+
+
 def test_everything_is_escaped_and_nothing_unknown_is_shown() -> None:
-    shown = html_table("<script>", {"<a>": "<b>", "none": None, "empty": ""}, ["<i>"])
+    shown = Summary("<script>", {"<a>": "<b>", "none": None, "empty": ""}, ["<i>"]).table()
     assert "<script>" not in shown and "<b>" not in shown and "<i>" not in shown
     assert "none" not in shown and "empty" not in shown
-    assert "1,000" in html_table("", {"n": 1000}) and "0.3333" in html_table("", {"x": 1 / 3})
-    assert "3.142" in html_table("", {"x": float(np.pi)})
+    facts = Summary("", {"count": 1000, "third": 1 / 3, "pi": float(np.pi), "sure": True}).rows()
+    assert facts == {"count": "1,000", "third": "0.3333", "pi": "3.142", "sure": "yes"}
+
+
+def test_a_line_stays_one_line_and_counts_the_notes() -> None:
+    assert Summary("two\nlines", {"a": 1}, ["x", "y"]).line("Kind") == "<Kind: two lines, a 1; 2 notes>"
+    assert repr(SPHERE.mesh) == "<TriangleMesh: 162 vertices, 320 faces>"
