@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import faulthandler
 import os
+import re
 import resource
 import selectors
 import signal
@@ -19,6 +20,8 @@ WRONG, HUNG = "wrong", "hung"
 OUTCOMES = (REFUSED, MENDED, RIGHT, UNKNOWABLE, WRONG, HUNG)
 SECONDS, BYTES = 10.0, 2**30
 LONGEST_LINE = 300
+# the line of an exception that nobody foresaw
+UNFORESEEN = re.compile(r"unexpected \w+ in \S*\.py:\d+|Traceback")
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,7 @@ def clear(message: str) -> str:
         return f"has several lines: {message.strip()[:200]!r}"
     if len(message) > LONGEST_LINE:
         return f"has {len(message)} characters: {message[:200]!r}"
-    if "unexpected" in message.lower() or "Traceback" in message:
+    if UNFORESEEN.search(message):
         return f"is no explanation: {message!r}"
     return ""
 

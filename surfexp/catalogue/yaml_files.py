@@ -34,7 +34,7 @@ def read_yaml(file: Path) -> dict[str, Any]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         where = f", line {mark.line + 1}" if mark else ""
-        raise UserError(f"{file}{where}: {_line(error.problem or error.context or 'not YAML')}") from None
+        raise UserError(f"{file}{where}: not YAML: {_line(error.problem or error.context or '')}") from None
     except yaml.YAMLError as error:
         raise UserError(f"{file}: {_line(str(error).splitlines()[0])}") from None
     except RecursionError:

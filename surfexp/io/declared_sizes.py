@@ -1,4 +1,4 @@
-"""Sizes that a GIFTI or CIFTI file declares, checked before a parser believes them.
+"""Sizes that a file declares, checked before a parser believes them.
 
 nibabel counts to a declared number of dimensions, walks extensions by their declared lengths and makes room for declared
 vertices: with numbers that lie it is busy for hours, or asks for more memory than there is.
@@ -15,6 +15,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from surfexp.io.cifti import is_cifti
+from surfexp.io.freesurfer_sizes import VOLUMES, check_annotation, check_volume
 from surfexp.io.gifti import is_gifti
 from surfexp.io.numbers import LARGEST_BYTES
 
@@ -24,11 +25,14 @@ LARGEST_COUNT = 1 << 28
 PIECE = 1 << 20
 # NIfTI-2: bytes of the header, and of the flag of extensions behind it
 HEADER, FLAG = 540, 4
+NUMBER_BYTES = {2: 1, 4: 2, 8: 4, 16: 4, 32: 8, 64: 8, 256: 1, 512: 2, 768: 4, 1024: 8, 1280: 8, 1792: 16}
+# NaN is written for every vertex that a hemisphere is said to have
+MOST_VERTICES = 1 << 26
 COUNTS = re.compile(rb"""(SurfaceNumberOfVertices|IndexCount|NumberOfSeriesPoints)\s*=\s*["'](\d+)["']""")
 
 
 def check_declared_sizes(path: Path) -> None:
-    """Refuse a GIFTI or CIFTI file whose declared sizes cannot be true; others, and what is no such file, pass.
+    """Refuse a GIFTI, CIFTI, .mgh or .annot file whose declared sizes cannot be true; others, and what is none, pass.
 
     Raises
     ------
@@ -39,6 +43,10 @@ def check_declared_sizes(path: Path) -> None:
         _check_gifti(path)
     elif is_cifti(path):
         _check_cifti(path)
+    elif path.suffix.lower() in VOLUMES:
+        check_volume(path)
+    elif path.suffix == ".annot":
+        check_annotation(path)
 
 
 def _check_gifti(path: Path) -> None:
@@ -59,7 +67,7 @@ def _check_gifti(path: Path) -> None:
                 if (read := read + len(piece)) > LARGEST_BYTES:
                     raise ValueError(f"unpacked it has over {LARGEST_BYTES} bytes, the most that is read")
     except (expat.ExpatError, OSError, EOFError, LookupError, zlib.error):
-        return  # not XML, or cut off: the reader of the format says so
+        pass  # not XML, or cut off: the reader of the format says so
     if refused:
         raise ValueError(refused[0])
 
@@ -83,9 +91,9 @@ def _check_cifti(path: Path) -> None:
         order = next((order for order in "<>" if head[:4] == struct.pack(f"{order}i", HEADER)), "")
         if len(head) < HEADER + FLAG or not order:
             return  # no NIfTI-2 header: the reader of the format says so
-        bits = struct.unpack_from(f"{order}h", head, 14)[0]
+        kind = struct.unpack_from(f"{order}h", head, 12)[0]
         dimensions, begin = struct.unpack_from(f"{order}8q", head, 16), struct.unpack_from(f"{order}q", head, 168)[0]
-        _check_extent(dimensions, bits, begin, size)
+        _check_extent(dimensions, kind, begin, size)
         end = HEADER + FLAG
         while head[HEADER] and end + 8 <= begin:
             stream.seek(end)
@@ -93,20 +101,20 @@ def _check_cifti(path: Path) -> None:
             if not 16 <= length <= begin - end:
                 raise ValueError(f"an extension of its header has {length} bytes, 16 to {begin - end} have room")
             for name, count in COUNTS.findall(stream.read(length - 8)):
-                if len(count) > 12 or int(count) > LARGEST_COUNT:
+                if len(count) > 12 or int(count) > MOST_VERTICES:
                     shown = count[:20].decode()
-                    raise ValueError(f"its {name.decode()} is {shown}, at most {LARGEST_COUNT} are read")
+                    raise ValueError(f"its {name.decode()} is {shown}, at most {MOST_VERTICES} are read")
             end += length
 
 
-def _check_extent(dimensions: tuple[int, ...], bits: int, begin: int, size: int) -> None:
+def _check_extent(dimensions: tuple[int, ...], kind: int, begin: int, size: int) -> None:
     """The array must fit into the file behind its header."""
     used, rest = dimensions[0], size - begin
     if not 1 <= used <= 7 or min(dimensions[1 : used + 1]) < 0:
         raise ValueError(
             f"its header has the dimensions {', '.join(map(str, dimensions[:3]))}, ...: none below 0, 1 to 7"
         )
-    bytes_of_array = max(bits, 0) // 8
+    bytes_of_array = NUMBER_BYTES.get(kind, 1)
     for extent in dimensions[1 : used + 1]:
         bytes_of_array *= extent
     if not HEADER + FLAG <= begin <= size or bytes_of_array > rest:

@@ -12,6 +12,7 @@ from surfexp.arrays import Floats
 from surfexp.io import freesurfer
 from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes
+from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
 from surfexp.io.npz import read_arrays
@@ -40,16 +41,13 @@ def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
         If the file is missing, broken or cut off, or holds something else than real numbers; the message begins with its name.
     """
     path = Path(path)
-    try:
+    with reading(path, "cannot be read as a scalar map"):
         if not path.is_file():
             raise ValueError(f"no such file in {path.parent.absolute()}")
         if not 0 < path.stat().st_size <= LARGEST_BYTES:
             raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
         check_declared_sizes(path)
         maps = _read(path, hemisphere)
-    except (ValueError, OSError, EOFError, OverflowError) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise ValueError(f"{path} cannot be read as a scalar map: {reason}") from error
     if len(maps) == 1 and next(iter(maps)) in UNNAMED:
         return {_stem(path): next(iter(maps.values()))}
     return maps
@@ -105,10 +103,8 @@ def read_named_labels(path: Path | str, hemisphere: str = "") -> LabelMap:
     """
     path = Path(path)
     if path.is_file():
-        try:
+        with reading(path, "is not a readable file of labels"):
             check_declared_sizes(path)
-        except ValueError as error:
-            raise ValueError(f"{path} is not a readable file of labels: {error}") from None
     return read_label_map(path, hemisphere)
 
 
@@ -151,12 +147,11 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
 
 
 def _listed(file: Path, count: int) -> NDArray[np.bool_]:
-    try:
+    with reading(file, "cannot be read as a label"):
         numbers = freesurfer.read_vertex_list(file)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{file} cannot be read as a label: {error}") from error
     if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
-        raise ValueError(f"{file} names vertex {numbers.max()}, the surface has 0..{count - 1}")
+        worst = numbers.min() if numbers.min() < 0 else numbers.max()
+        raise ValueError(f"{file} names vertex {worst}, the surface has 0..{count - 1}")
     inside = np.zeros(count, dtype=bool)
     inside[numbers] = True
     return inside

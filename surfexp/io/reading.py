@@ -7,6 +7,7 @@ from pathlib import Path
 from surfexp.arrays import Floats, Integers
 from surfexp.io import freesurfer
 from surfexp.io.declared_sizes import check_declared_sizes
+from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.npz import read_npz_mesh
@@ -41,17 +42,12 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
         If the file is missing, of an unknown format, broken or cut off; the message begins with the file's name.
     """
     path = Path(path)
-    try:
+    with reading(path, "cannot be read as a mesh"):
         vertices, faces, scalars = _read(path)
         points, corners = checked_geometry(vertices, faces)
-    except (ValueError, OSError) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise ValueError(f"{path} cannot be read as a mesh: {reason}") from error
-    for name, values in scalars.items():
-        if len(values) != len(points):
-            raise ValueError(
-                f"{path} cannot be read as a mesh: map {name!r} has {len(values)} values for {len(points)} vertices"
-            )
+        for name, values in scalars.items():
+            if len(values) != len(points):
+                raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")
     return points, corners, scalars
 
 

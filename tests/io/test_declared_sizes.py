@@ -136,7 +136,7 @@ def test_declared_vertices_beyond_reason_are_refused_before_room_is_made(cifti: 
         cut = len(longer) - len(found[0])
         place = found.end() + spare.end() - cut
         cifti.write_bytes(whole[: found.start()] + longer + whole[found.end() : place] + whole[place + cut :])
-    with pytest.raises(ValueError, match=f"its {name} is 9+, at most 268435456 are read"):
+    with pytest.raises(ValueError, match=f"its {name} is 9+, at most 67108864 are read"):
         read_maps(cifti, "left")
 
 
