@@ -22,6 +22,7 @@ from torture import ROOT
 from torture.case import LONGEST_LINE, clear
 
 FOLDER = ROOT / "results" / "fuzzing"
+CORPUS = ROOT / "tests" / "corpus"
 PAGE = ROOT / "docs" / "fuzzing.md"
 SECONDS, MEGABYTES = 10, 2048
 MEMORY = "/dev/shm"  # noqa: S108, below it only a folder with a random name is made
@@ -168,7 +169,7 @@ def _write_seeds(name: str, corpus: Path) -> None:
     with tempfile.TemporaryDirectory() as text:
         sound = write_sound_files(Path(text))
     (corpus / "sound").write_bytes(SMALL.encode() if name == EXPERIMENT else sound[name])
-    for file in sorted((ROOT / "tests" / "corpus" / name).glob("*")):
+    for file in sorted((CORPUS / name).glob("*")):
         shutil.copy(file, corpus / file.name)
 
 

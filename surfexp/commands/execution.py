@@ -100,7 +100,9 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
     shown = missing or plan.stored
-    code = drive(command, log, lambda it: follow(it, shown, results), grace, env=environment, pass_fds=_locks)
+    code = drive(
+        command, log, lambda it: follow(it, plan.nodes, shown, results), grace, env=environment, pass_fds=_locks
+    )
     if code and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
         tail = [line for line in log.read_text().splitlines() if line.strip()]
         reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"

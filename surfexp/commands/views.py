@@ -24,6 +24,8 @@ from surfexp.workflow.plan import Plan, read_plan
 
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
+# of an output that is no terminal: no table is that wide
+WIDE = 2000
 FORMATS = ("text", "latex", "csv")
 
 
@@ -93,7 +95,7 @@ def latest_plan(results: Path, experiment: str) -> Plan:
 def wide_console() -> Console:
     """A console for tables: as wide as the terminal, or wide enough for any table when the output is a file."""
     console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=200)
+    return console if console.is_terminal else Console(highlight=False, width=WIDE)
 
 
 def print_tables(groups: Sequence[Comparison], console: Console, limit: int | None = None) -> None:

@@ -13,7 +13,9 @@ import resource
 import signal
 import sys
 import traceback
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from surfexp.workflow import stage, store
 from surfexp.workflow.outcome import event_path
@@ -36,6 +38,7 @@ def fork_stage(plan_path: Path, plan: Plan, key: str, log: Path | None = None) -
         signal.signal(signal.SIGCHLD, signal.SIG_DFL)
         if log is not None:
             _write_to(log)
+        _limit(plan.settings.resources)
         code = stage.run_stage(plan_path, key, plan)
     except BaseException:  # a plugin that calls sys.exit ends here as well
         traceback.print_exc()
@@ -46,12 +49,23 @@ def fork_stage(plan_path: Path, plan: Plan, key: str, log: Path | None = None) -
         os._exit(code)
 
 
+def _limit(resources: Mapping[Any, float | None]) -> None:
+    """Let the kernel end this process after its time, and refuse it memory beyond its share; MB are of 10^6 bytes."""
+    if seconds := resources.get("time"):
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+    if megabytes := resources.get("memory"):
+        resource.setrlimit(resource.RLIMIT_DATA, (int(megabytes * 1e6),) * 2)
+
+
 def finished(plan_path: Path, plan: Plan, key: str, status: int, usage: resource.struct_rusage) -> int:
     """Exit code of a stage from its wait status; one that died without a word gets an event that says how."""
     results, node = plan_path.resolve().parent.parent, plan.nodes[key]
     code = os.waitstatus_to_exitcode(status)
     if not event_path(results, node.kind, key).exists():
-        write_death(results, node, death(code), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0)
+        limit = plan.settings.resources.get("time")
+        reason = f"it was ended after {limit:g} s, the limit resources.time" if code == -signal.SIGALRM else death(code)
+        write_death(results, node, reason, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0)
         return 1
     return 1 if code else 0
 

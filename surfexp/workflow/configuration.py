@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, ValidationError
 from typing_extensions import TypedDict
 
 from surfexp.workflow.errors import UserError, check_known, unknown
@@ -32,6 +32,7 @@ class Settings(BaseModel):
     results: str = Field("results", description="folder of all output")
     cores: int | None = Field(None, ge=1, description="processors for Snakemake; default: all")
     profile: str | None = Field(None, description="Snakemake profile, e.g. profiles/slurm")
+    resources: dict[Literal["time", "memory"], PositiveFloat | None] = Field({}, description="limits of a stage: s, MB")
     timing: bool = Field(False, description="clocks matter: one job at a time, the second call of each leaf counts")
     target: str = Field("solver", description="stage kind at the end of each chain")
     comparison: str = Field("", description="heading of the table that a variant belongs to")
@@ -116,6 +117,8 @@ def expand(configuration: Context, overrides: Mapping[str, Any] | None = None) -
 
 def _override(leaves: list[Context], dotted: str, value: Any) -> list[Context]:
     kind, _, option = dotted.partition(".")
+    if kind not in KINDS:
+        return [assign(leaf, dotted, value) for leaf in leaves]
     if not option:
         return [{**leaf, kind: value} for leaf in leaves]
     names = [str(stage(leaf[kind]).get("name")) if leaf.get(kind) else None for leaf in leaves]

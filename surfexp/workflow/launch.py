@@ -90,7 +90,7 @@ def prepare_hydra() -> None:
 def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     """Compose what the command line says and act on its plan; a sweep is Hydra's, in one batch or several."""
     prepare_hydra()
-    ours = re.compile(rf"({'|'.join(KINDS)})\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
+    ours = re.compile(rf"({'|'.join(KINDS)}|resources)\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
     # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
     arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
@@ -195,8 +195,7 @@ def _plain(composed: DictConfig) -> dict[str, Any]:
 
 def _objective(plan: Plan) -> float:
     name, results = plan.settings.objective, Path(plan.settings.results)
-    values = [outcome(results, plan.nodes[leaf.key]).metrics.get(str(name)) for leaf in plan.leaves]
-    numbers = [value for value in values if value is not None]
-    if len(numbers) < len(values):
+    metrics = [outcome(results, plan.nodes[leaf.key]).metrics for leaf in plan.leaves]
+    if any(name not in found for found in metrics):
         raise UserError(f"objective {name!r} is no metric of {plan.settings.target}")
-    return sum(numbers) / len(numbers)
+    return sum(found[str(name)] for found in metrics) / len(metrics)

@@ -46,10 +46,8 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     failure = ""
     store.write_text(_progress["path"], "started")
     try:
-        if (
-            edited_since(plan_path.stat().st_mtime, Path(node.file))
-            and code_digest(Path(node.file), node.function) != node.code
-        ):
+        file, planned = Path(node.file), plan_path.stat().st_mtime
+        if edited_since(planned, file) and code_digest(file, node.function) != node.code:
             raise RuntimeError("the code was edited after this run was planned; run the same command again")
         for _ in range(1 + plan.settings.timing):  # where clocks matter, the first call compiles and warms the caches
             result = make(plan.nodes, key, results)

@@ -45,7 +45,12 @@ def test_every_end_of_a_case_is_told(work: object, outcome: str, said: str) -> N
 
 def test_what_a_clear_line_is() -> None:
     assert not clear("a.ply has 3 flipped faces: surfexp repair a.ply")
-    assert clear("unexpected TypeError in a.py:7: x") and not clear("a.csv: unexpected end of data") and clear("Traceback (most recent call last)") and clear(" \n ")
+    assert (
+        clear("unexpected TypeError in a.py:7: x")
+        and not clear("a.csv: unexpected end of data")
+        and clear("Traceback (most recent call last)")
+        and clear(" \n ")
+    )
 
 
 def test_bad_files_are_many_differ_from_the_sound_ones_and_repeat(tmp_path: Path) -> None:

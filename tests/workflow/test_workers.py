@@ -38,6 +38,9 @@ def ending(options: End) -> Surface:
         os._exit(int(options.size))
     if options.how == "sys.exit":
         sys.exit(0)
+    if options.how == "loop":
+        while True:
+            pass
     if options.how == "memory":
         np.ones(int(options.size * 2**17))
     if options.how == "threads":
@@ -158,6 +161,26 @@ def test_a_run_names_what_died_and_keeps_the_rest(results: Path) -> None:
     header, values = (line.split("\t") for line in benchmark.read_text().splitlines())
     event = read_event(results, "surface", record.parent.name)
     assert float(values[header.index("max_rss")]) == pytest.approx(event["peak_memory_mb"], rel=0.02)
+
+
+def test_stages_have_limits_of_time_and_memory_where_asked_for(results: Path) -> None:
+    (results.parent / "conf" / "experiment").mkdir(parents=True)
+    stages = [
+        {"name": "ending", "how": how, "size": size} for how, size in (("loop", 0.0), ("memory", 900.0), ("well", 1.0))
+    ]
+    experiment = {"experiment": "limits", "target": "surface", "grid": {"surface": stages}}
+    text = "# @package _global_\n" + json.dumps(experiment)
+    (results.parent / "conf" / "experiment" / "limits.yaml").write_text(text)
+    done = run("limits", "resources.time=3", "resources.memory=700")
+    assert done.returncode == 1 and "Traceback" not in done.stderr, done.stderr
+    assert "surface/ending: it was ended after 3 s, the limit resources.time" in done.stderr
+    assert "surface/ending: Unable to allocate 900. MiB" in done.stderr
+    assert len(list(results.glob("store/*/*/record.json"))) == 1
+    assert (results / "limits" / "report.html").exists()
+    for wrong, said in (("resources.time=-1", "greater than 0"), ("resources.tme=1", "'time' or 'memory'"),
+                        ("resources.time=soon", "valid number")):  # fmt: skip
+        done = run("limits", wrong)
+        assert done.returncode == 2 and said in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
 
 
 def test_a_death_by_a_signal_without_a_name() -> None:
