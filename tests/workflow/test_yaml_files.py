@@ -14,14 +14,14 @@ from surfexp.workflow.errors import UserError
 
 BOMB = "a0: &a0 [x, x]\n" + "".join(f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9)}]\n" for k in range(1, 9))
 MISTAKES = {
-    "a: [": "line 1: expected the node content",
-    "title: x\n\tx: 1\n": "line 2: found character",
+    "a: [": "line 1: not YAML: expected the node content",
+    "title: x\n\tx: 1\n": "line 2: not YAML: found character",
     "a: \x00": "special characters are not allowed",
     "a: &a [*a]\n": "line 1: an alias stands inside of what it is an alias of",
     "experiment: sent\nsurface:\n  name: cup\n  name: torus\n": "line 3: key 'name' stands there twice",
     BOMB: "its aliases unfold to over 100,000 entries",
-    "a: *unknown\n": "line 1: found undefined alias",
-    "title: !!python/object/apply:os.system [x]\n": "line 1: could not determine a constructor",
+    "a: *unknown\n": "line 1: not YAML: found undefined alias",
+    "title: !!python/object/apply:os.system [x]\n": "line 1: not YAML: could not determine a constructor",
     "- a\n": "holds list, a mapping of options is needed",
     "": "holds NoneType",
     "a: " + "[" * 3000: "",
