@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from surfexp.catalogue.folders import experiments
 from surfexp.catalogue.yaml_files import read_yaml
+from surfexp.language.lines import with_line
+from surfexp.language.written_out import written_out
 from surfexp.workflow.errors import unknown
 
 
 def read_experiment(name: str) -> dict[str, Any]:
-    """Return the contents of an experiment's file.
+    """Return the contents of an experiment's file, its short forms written out.
 
     Raises
     ------
     UserError
-        If there is no such experiment, or as `read_yaml`.
+        If there is no such experiment, or as `read_yaml` and `written_out`.
     """
     files = experiments()
     if name not in files:
         raise unknown("experiment", name, files)
-    return read_yaml(files[name])
+    return written_out(read_yaml(files[name]))
 
 
 def check_files(arguments: Iterable[str]) -> None:
@@ -37,11 +40,31 @@ def check_files(arguments: Iterable[str]) -> None:
     UserError
         As `read_yaml`.
     """
+    for file in _files(arguments):
+        read_yaml(file)
+
+
+def located(message: str, arguments: Sequence[str]) -> str:
+    """Return an error with the line of the experiment's file in which the thing stands that it names.
+
+    Parameters
+    ----------
+    message : str
+    arguments : sequence of str
+        As of `surfexp run`; what one of them says itself is not looked for in a file.
+    """
+    for file in _files(arguments):
+        own = [text for text in arguments if text.partition("=")[0].lstrip("+") != "experiment"]
+        if not own:
+            return with_line(message, file)
+    return message
+
+
+def _files(arguments: Iterable[str]) -> list[Path]:
     files = experiments()
     values = [text.partition("=")[2] for text in arguments if text.partition("=")[0].lstrip("+") == "experiment"]
-    for name in (name.strip() for value in values for name in value.split(",")):
-        if name in files:
-            read_yaml(files[name])
+    names = [name.strip() for value in values for name in value.split(",")]
+    return [files[name] for name in names if name in files]
 
 
 def methods_named(document: Any, kinds: Collection[str]) -> dict[str, list[str]]:

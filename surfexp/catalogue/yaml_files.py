@@ -83,9 +83,11 @@ def _check(node: Any, file: Path, sizes: dict[int, int], above: tuple[int, ...])
         return sizes[id(node)]
     size = 1
     if isinstance(node, yaml.MappingNode):
-        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
-        if twice := next((key for key in keys if keys.count(key) > 1), None):
-            raise UserError(f"{where}: key {_line(twice)!r} stands there twice")
+        seen: set[str] = set()
+        for key in [key for key, _ in node.value if isinstance(key, yaml.ScalarNode)]:
+            if key.value in seen:
+                raise UserError(f"{file}, line {key.start_mark.line + 1}: key {_line(key.value)!r} stands there twice")
+            seen.add(key.value)
         size += sum(_check(value, file, sizes, (*above, id(node))) for _, value in node.value)
     elif isinstance(node, yaml.SequenceNode):
         size += sum(_check(value, file, sizes, (*above, id(node))) for value in node.value)

@@ -29,7 +29,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "curvature": ("surface_commands", "mean curvature: surfexp curvature SURFACE --to FILE"),
     "convert": ("surface_commands", "another format: surfexp convert FILE FILE"),
     "plot": ("surface_commands", "a picture: surfexp plot SURFACE [MAP] --to FILE.png"),
-    "check": ("mesh_quality", "the defects of mesh files: surfexp check FILE ..."),
+    "check": ("mesh_quality", "the defects of meshes, or the mistakes of an experiment: surfexp check FILE ..."),
     "repair": ("mesh_quality", "a mesh without defects: surfexp repair FILE --to FILE"),
     "run": (
         "run",
@@ -50,7 +50,8 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "ui": ("views", "open the MLflow dashboard on this machine: surfexp ui [--port N]"),
     "clean": ("clean", "remove stored results that no plan names: surfexp clean [--all] [--yes]"),
     "verify": ("verify", "hash every stored result again and name what is damaged: surfexp verify"),
-    "new": ("new", "write a plugin file with its test: surfexp new KIND NAME"),
+    "new": ("new", "write a plugin file with its test, or an experiment: surfexp new KIND|experiment NAME"),
+    "schema": ("schema", "experiments completed by an editor: surfexp schema --to FILE"),
     "view": ("view", "turn a surface in a window (needs open3d): surfexp view FILE"),
     "mesh": ("mesh", "check a mesh, or repair it: surfexp mesh check|repair FILE [--output FILE]"),
     "collect": ("collect", "an axis of your own surfaces: surfexp collect FOLDER --to NAME, then run axes=NAME"),

@@ -12,15 +12,19 @@ from surfexp.commands.click_command import run_click, shown
 DEFECTIVE = 2
 
 
-@click.command(**shown("check", "scan.ply", "subjects/*/surf/lh.white"))
+@click.command(**shown("check", "scan.ply", "conf/experiment/mine.yaml"))
 @click.argument("files", nargs=-1, required=True)
 def check(files: tuple[str, ...]) -> int:
-    """Name every defect of mesh files; exit code 2 where a method would refuse one."""
+    """Name every defect of mesh files, or the first mistake of experiments; exit code 2 where something is wrong."""
+    from surfexp.commands.experiment_check import SUFFIXES, check_experiment
     from surfexp.io.reading import read_mesh
     from surfexp.mesh.validate import validate
 
     sound = True
     for file in files:
+        if Path(file).suffix in SUFFIXES:
+            click.echo(check_experiment(Path(file)))
+            continue
         try:
             vertices, faces, _ = read_mesh(file)
         except ValueError as error:

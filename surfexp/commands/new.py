@@ -1,14 +1,17 @@
-"""`surfexp new`: a plugin file to start from, with its test; or a stage kind with its first method."""
+"""`surfexp new`: a plugin file to start from, with its test; a stage kind with its first method; or an experiment."""
 
 from __future__ import annotations
 
 import keyword
+import re
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
+from surfexp.catalogue.folders import experiments
 from surfexp.commands.parser import Parser
 from surfexp.workflow import registry
+from surfexp.workflow.configuration import NAME
 from surfexp.workflow.errors import UserError, unknown
 from surfexp.workflow.kinds import KINDS
 
@@ -21,14 +24,18 @@ def command(name: str, arguments: list[str]) -> int:
     parser = Parser(
         f"surfexp {name}",
         description=__doc__,
-        epilog="examples: surfexp new solver my_method, surfexp new kind thickness",
+        epilog="examples: surfexp new solver my_method, surfexp new kind thickness, surfexp new experiment noise",
     )
-    parser.add_argument("kind", help=f"kind, for a stage kind with its first method, or one of: {', '.join(KINDS)}")
+    parser.add_argument(
+        "kind", help=f"experiment; kind, for a stage kind with its first method; or one of: {', '.join(KINDS)}"
+    )
     parser.add_argument("name", help="the field's word for the method, e.g. split_bregman")
     given = parser.parse_args(arguments)
+    if given.kind == "experiment":
+        return _new_experiment(given.name)
     registry.load_all(Path.cwd())
     if given.kind != "kind" and given.kind not in KINDS:
-        raise unknown("stage kind", given.kind, ["kind", *KINDS])
+        raise unknown("stage kind", given.kind, ["experiment", "kind", *KINDS])
     if not given.name.isidentifier() or keyword.iskeyword(given.name):
         raise UserError(f"plugin name {given.name!r}: letters, digits and underscores, e.g. {'my_method'!r}")
     if (given.kind, given.name) in registry.PLUGINS:
@@ -45,6 +52,21 @@ def command(name: str, arguments: list[str]) -> int:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
         print(f"written: {file}")
+    return 0
+
+
+def _new_experiment(name: str) -> int:
+    """Write `conf/experiment/NAME.yaml`, which can be run as it is."""
+    if not re.fullmatch(NAME, name):
+        raise UserError(f"experiment name {name!r}: letters, digits, underscores, points and dashes, e.g. {'noise'!r}")
+    if name in (known := experiments()):
+        raise UserError(f"experiment {name!r} exists: {known[name]}")
+    file = Path("conf", "experiment", f"{name}.yaml")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(
+        _filled("experiment", {"name": name, "title": name.replace("_", " ").capitalize()}), encoding="utf-8"
+    )
+    print(f"written: {file}")
     return 0
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.catalogue.experiment_files import check_files
+from surfexp.catalogue.experiment_files import check_files, located
 from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.workflow.errors import StageFailure, UserError
@@ -68,7 +68,9 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     try:
         launch(arguments, check_and_act)
     except (HydraException, OmegaConfBaseException) as error:
-        raise UserError(" ".join(str(error).split())) from error
+        raise UserError(located(" ".join(str(error).split()), arguments)) from error
+    except UserError as error:
+        raise UserError(located(str(error), arguments)) from error
     if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
         remember(kept_at, plans[0])
 

@@ -116,5 +116,7 @@ def _read(given: Any, number: int) -> Claim:
         return Claim.model_validate(given)
     except ValidationError as error:
         missing = [str(item["loc"][-1]) for item in error.errors() if item["type"] == "missing"]
-        reason = f"{missing[0]!r} is missing" if missing else one_line("claim", error)
+        first = error.errors()[0]
+        found = one_line("claim", error) if first["loc"] else first["msg"].removeprefix("Value error, ")
+        reason = f"{missing[0]!r} is missing" if missing else found
         raise UserError(f"{where}: {reason}") from None

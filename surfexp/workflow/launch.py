@@ -20,8 +20,8 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.catalogue.planned import place, remembered
-from surfexp.catalogue.yaml_files import check_variants
 from surfexp.hydra_guard import refuse_code
+from surfexp.language.written_out import named, written_out
 from surfexp.own_data import with_collections, without_foreign_words
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
@@ -131,7 +131,6 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
     sweeper = composed.hydra.sweeper
     if len(single) < len(overrides) or sweeper.get("params") or not sweeper._target_.endswith(".BasicSweeper"):
         return None
-    composed.hydra = None
     return make_plan(_leaves(_plain(composed), overrides, stages, collections))
 
 
@@ -149,7 +148,7 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
 def _leaves(
     composed: dict[str, Any], overrides: Sequence[str], stages: Mapping[str, Any], collections: Mapping[str, Any]
 ) -> list[dict[str, Any]]:
-    check_variants(composed)
+    composed = written_out(composed)
     composed["axes"] = with_collections(composed.get("axes") or {}, collections)
     return expand(without_foreign_words(composed, overrides), stages)
 
@@ -189,8 +188,9 @@ def _collection(name: str, repository: Any) -> dict[str, Any]:
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:
-    configuration: Any = OmegaConf.to_container(composed, resolve=True, throw_on_missing=False)
-    return {str(key): value for key, value in configuration.items() if key != "hydra"}
+    ours = OmegaConf.masked_copy(composed, [str(key) for key in composed if key != "hydra"])
+    configuration: Any = OmegaConf.to_container(ours, resolve=True, throw_on_missing=False)
+    return named(configuration, OmegaConf.select(composed, "hydra.runtime.choices.experiment"))
 
 
 def _objective(plan: Plan) -> float:

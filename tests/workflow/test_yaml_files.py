@@ -18,7 +18,7 @@ MISTAKES = {
     "title: x\n\tx: 1\n": "line 2: not YAML: found character",
     "a: \x00": "special characters are not allowed",
     "a: &a [*a]\n": "line 1: an alias stands inside of what it is an alias of",
-    "experiment: sent\nsurface:\n  name: cup\n  name: torus\n": "line 3: key 'name' stands there twice",
+    "experiment: sent\nsurface:\n  name: cup\n  name: torus\n": "line 4: key 'name' stands there twice",
     BOMB: "its aliases unfold to over 100,000 entries",
     "a: *unknown\n": "line 1: not YAML: found undefined alias",
     "title: !!python/object/apply:os.system [x]\n": "line 1: not YAML: could not determine a constructor",

@@ -1,0 +1,116 @@
+"""`surfexp check` of an experiment, its line for each mistake; `surfexp new experiment`; the schema for editors."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import jsonschema
+import pytest
+import yaml
+
+from surfexp.catalogue.folders import experiments
+from surfexp.commands.command_line import main
+from surfexp.language.lines import with_line
+
+GOOD = """\
+title: Does the error grow with the noise?
+surface: {icosphere: {levels: 3}}
+image: {two_phase: {}}
+model: rof
+solver: primal_dual
+grid: {image.noise: [10.0, 20.0], operator: [fem, libigl]}
+repeat: {image.seed: 3}
+figures: [{sweep: rmse, against: image.noise}]
+claims:
+  - Twice the noise gives at most thrice the error:
+      ratio: {metric: rmse, of: {image.noise: 20.0}, to: {image.noise: 10.0}}
+      between: [0, 3]
+"""
+# what is changed, into what, the line of the mistake, what is said of it
+MISTAKES = [
+    ("icosphere:", "icosfere:", 2, "did you mean 'icosphere'"),
+    ("levels: 3", "level: 3", 2, "did you mean 'levels'"),
+    ("levels: 3", "levels: -3", 2, "greater than or equal to"),
+    ("solver:", "solvr:", 5, "did you mean 'solver'"),
+    ("libigl", "libigll", 6, "did you mean 'libigl'"),
+    ("image.seed: 3", "image.seed: 0", 7, "number of repetitions"),
+    ("against: image.noise", "against: image.nois", 8, "did you mean 'image.noise'"),
+    ("sweep: rmse", "sweep: rmsee", 8, "did you mean 'rmse'"),
+    ("ratio:", "rato:", 11, "did you mean 'ratio'"),
+    ("metric: rmse", "metric: rmsee", 11, "did you mean 'rmse'"),
+    ("[0, 3]", "[3, 0]", 10, "above the upper end"),
+    ("  - Twice", "\t- Twice", 10, "cannot start any token"),
+    ("model: rof\n", "model: rof\nmodel: tv\n", 5, "stands there twice"),
+]
+
+
+@pytest.fixture
+def file(working_folder: Path) -> Iterator[Path]:
+    file = working_folder / "conf" / "experiment" / "mine.yaml"
+    file.parent.mkdir(parents=True)
+    file.write_text(GOOD)
+    yield file
+
+
+def test_a_good_file_is_planned_and_counted(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "conf/experiment/mine.yaml"]) == 0
+    assert "nothing wrong; 12 rows, " in capsys.readouterr().out
+    assert not (file.parents[2] / "results").exists()
+
+
+@pytest.mark.parametrize(("old", "new", "line", "said"), MISTAKES, ids=[new for _, new, _, _ in MISTAKES])
+def test_a_mistake_is_told_with_its_line(
+    file: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, line: int, said: str
+) -> None:
+    file.write_text(GOOD.replace(old, new, 1))
+    assert main(["check", "conf/experiment/mine.yaml"]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1 and len(error) <= 301
+    assert f"conf/experiment/mine.yaml, line {line}: " in error and said in error
+
+
+def test_a_file_elsewhere_is_refused(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file.rename(file.parents[2] / "mine.yaml")
+    assert main(["check", "mine.yaml"]) == 2 and "conf/experiment/NAME.yaml" in capsys.readouterr().err
+    assert main(["check", "other.yaml"]) == 2 and "no such file" in capsys.readouterr().err
+
+
+def test_what_the_command_line_says_is_not_looked_for_in_the_file(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plan", "experiment=mine", "solver=rof"]) == 2
+    assert "line" not in capsys.readouterr().err
+
+
+def test_lines_of_keys_values_and_dotted_names(tmp_path: Path) -> None:
+    file = tmp_path / "e.yaml"
+    file.write_text("a: x\nb: &b {long.name: [y]}\nc: *b\nd: A statement that is long enough for a table\n")
+    assert with_line("unknown thing 'y'", file) == f"{file}, line 2: unknown thing 'y'"
+    assert with_line("kind/plugin.name = 3: too large", file).startswith(f"{file}, line 2: ")
+    assert with_line("claim 1 (A statement that is long)", file).startswith(f"{file}, line 4: ")
+    assert with_line("unknown thing 'z'", file) == "unknown thing 'z'"
+
+
+def test_a_new_experiment_can_be_run(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "experiment", "noise_race"]) == 0
+    assert main(["check", "conf/experiment/noise_race.yaml"]) == 0
+    assert "18 rows" in capsys.readouterr().out
+    assert main(["new", "experiment", "noise_race"]) == 2 and "exists" in capsys.readouterr().err
+    assert main(["new", "experiment", "../up"]) == 2 and "letters" in capsys.readouterr().err
+    assert not (working_folder.parent / "up.yaml").exists()
+
+
+def test_the_schema_takes_every_experiment_and_no_mistake(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["schema", "--to", "schema.json"]) == 0
+    assert "yaml-language-server" in capsys.readouterr().out
+    schema = json.loads(Path("schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    for known in experiments().values():
+        document = yaml.safe_load(known.read_text(encoding="utf-8"))
+        assert validator.is_valid(document), f"{known}: {next(validator.iter_errors(document)).message[:200]}"
+    for old, new, line, _ in MISTAKES[:6]:
+        if line not in (6, 7):  # values of a grid, which may be anything
+            assert not validator.is_valid(yaml.safe_load(GOOD.replace(old, new, 1))), new
