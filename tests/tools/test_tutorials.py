@@ -92,7 +92,7 @@ def test_every_line_of_a_tutorial_does_what_the_page_says(page: Path, working_fo
 def test_pages_have_blocks_and_their_files_are_told_from_commands() -> None:
     assert {path.stem for path in TUTORIALS} >= {"my_cortex", "my_shapes", "experiment", "solver", "operator"}
     found = blocks(DOCS / "tutorials" / "experiment.md")
-    assert found[0].file == "conf/experiment/noise_and_error.yaml" and found[0].text.startswith("# @package")
+    assert found[0].file == "conf/experiment/noise_and_error.yaml" and found[0].text.startswith("title: ")
     assert [command for block in found if block.language == "console" for command, _ in commands(block.text)]
 
 
