@@ -16,6 +16,7 @@ from rich.table import Table
 from surfexp.catalogue.experiment_files import check_files, located
 from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
+from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.workflow.errors import StageFailure, UserError
 
 if TYPE_CHECKING:
@@ -31,10 +32,14 @@ def command(name: str, arguments: list[str]) -> int:
         print(usage(name))
         return 0
     check_arguments(arguments)
+    arguments = repeatable(arguments)
     doubtful: list[str] = []
-    action: Callable[[Plan], None] = _show if name == "plan" else partial(_run, doubtful, arguments)
+    search = name == "run" and is_search(arguments)
+    action: Callable[[Plan], None] = partial(_trials if search else _run, doubtful, arguments)
     try:
-        plan_and_act(arguments, action)
+        plans = plan_and_act(arguments, _show if name == "plan" else action)
+        if search:
+            _tell(plans[-1], doubtful)
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
@@ -43,12 +48,15 @@ def command(name: str, arguments: list[str]) -> int:
     return UNCONVERGED if doubtful else 0
 
 
-def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
-    """Act on the plan of a request; one that was made before is not made again, and its names are not checked again."""
+def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[Plan]:
+    """Act on the plan of a request, or on each of a search with those before it in it; return them.
+
+    A plan that was made before is not made again, and its names are not checked again.
+    """
     kept_at = place(arguments)
     if (known := remembered(kept_at)) is not None:
         action(known)
-        return
+        return [known]
     check_files(arguments)
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
@@ -62,8 +70,9 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
     def check_and_act(plan: Plan) -> None:
         check_names(plan)
         check_combinations(plan)
-        plans.append(plan)
-        action(plan)
+        # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment
+        plans.append(joined(plans[-1], plan) if plans and plan.settings.objective else plan)
+        action(plans[-1])
 
     try:
         launch(arguments, check_and_act)
@@ -73,15 +82,26 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> None:
         raise UserError(located(str(error), arguments)) from error
     if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
         remember(kept_at, plans[0])
+    return plans
+
+
+def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
+    """Run what is new of a search and say how it stands."""
+    from surfexp.commands.execution import run
+    from surfexp.report.search import search_of
+    from surfexp.report.table import rows_of
+
+    run(plan, arguments)
+    command = shlex.join(["surfexp", "run", *arguments])
+    found = search_of(rows_of(plan, Path(plan.settings.results)), plan.settings.objective, command)
+    if found is not None:
+        print(found.sentence, flush=True)
 
 
 def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
     from surfexp.commands.execution import run, unfinished
-    from surfexp.commands.verdict_lines import print_verdicts
-    from surfexp.commands.views import print_tables, wide_console
-    from surfexp.report.convergence import unconverged
-    from surfexp.report.table import comparisons, rows_of
+    from surfexp.commands.views import wide_console
 
     results = Path(plan.settings.results)
     missing = unfinished(plan, results)
@@ -93,18 +113,35 @@ def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
         run(plan, arguments)
     except StageFailure as error:
         failure = error
+    _tell(plan, doubtful)
+    if failure is not None:
+        raise failure
+
+
+def _tell(plan: Plan, doubtful: list[str]) -> None:
+    """Print the tables of a plan that was run, its verdicts, and where its pages are."""
+    from surfexp.commands.verdict_lines import print_verdicts
+    from surfexp.commands.views import print_tables, wide_console
+    from surfexp.report.convergence import unconverged
+    from surfexp.report.origin import read_origin
+    from surfexp.report.search import search_of
+    from surfexp.report.table import comparisons, rows_of
+
+    results, console = Path(plan.settings.results), wide_console()
     rows = rows_of(plan, results.resolve())
     groups = comparisons(rows)
     print_tables(groups, console, ROWS_PRINTED)
     print_verdicts(plan, rows, console)
+    command = read_origin(results / plan.settings.experiment).get("command", "")
+    if search := search_of(rows, plan.settings.objective, command):
+        console.print(f"search     {search.sentence}", soft_wrap=True)
+        console.print(f"again      {search.command}", soft_wrap=True)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
     lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines
     warn(lines)
-    if failure is not None:
-        raise failure
 
 
 def warn(lines: list[str]) -> None:

@@ -20,6 +20,7 @@ from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.repeats import Repeats, repeats_of
+from surfexp.report.search import search_of, write_search
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
@@ -63,6 +64,8 @@ def write_report(plan: Plan, results: Path) -> Path:
         item |= turning.of(plan.nodes, item["key"])
     verdicts = judge(read_claims(plan.settings.claims), rows)
     store.write_text(folder / "metrics.csv", to_csv(rows))
+    made = read_origin(folder)
+    search = search_of(rows, plan.settings.objective, made.get("command", ""))
     page = render(
         "report.html.j2",
         settings=plan.settings,
@@ -73,7 +76,9 @@ def write_report(plan: Plan, results: Path) -> Path:
         verdicts=verdicts,
         stages=len(plan.stored),
         requested=plan.requested,
-        made=read_origin(folder),
+        made=made,
+        search=search,
+        searched=write_search(search, folder / "figures") if search else "",
         arrays=turning.payload.arrays,
         scripts=turning.scripts,
     )
