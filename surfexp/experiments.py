@@ -11,14 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.extras import require_installed
+from surfexp.summary import Summarized, Summary
 
 # exit code of `surfexp run` where a row did not converge
 UNCONVERGED = 3
 LABORATORY = ("hydra", "snakemake", "mlflow", "pydantic", "pandas")
 
 
-@dataclass(frozen=True, eq=False)
-class ExperimentRun:
+@dataclass(frozen=True, eq=False, repr=False)
+class ExperimentRun(Summarized):
     """The results of an experiment.
 
     Parameters
@@ -40,6 +41,14 @@ class ExperimentRun:
     figures: dict[str, Path]
     folder: Path
     _kinds: dict[str, str]
+
+    def _summary(self) -> Summary:
+        failed = int((self.table["failure"] != "").sum()) if "failure" in self.table else 0
+        facts = {"rows": len(self.table), "failed": failed or None, "figures": len(self.figures), "folder": self.folder}
+        return Summary(self.name, facts)
+
+    def _repr_html_(self) -> str:
+        return self._summary().table() + self.table._repr_html_()
 
     def result(self, key: str) -> Any:
         """Return the stored result of a row: a solution, eigenpairs, a statistic, ...

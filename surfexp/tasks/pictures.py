@@ -22,7 +22,7 @@ from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
 SUFFIXES = (".png", ".svg")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Picture:
     """A finished picture, shown by notebooks as it is.
 
@@ -52,6 +52,10 @@ class Picture:
             target.write_bytes(encode_png(self.figure.pixels))
         else:
             target.write_text(_as_svg(self.figure), encoding="utf-8")
+
+    def __repr__(self) -> str:
+        height, width = self.figure.pixels.shape[:2]
+        return f"<Picture: {width} by {height} pixels>"
 
     def _repr_png_(self) -> bytes:
         return encode_png(self.figure.pixels)

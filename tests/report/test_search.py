@@ -90,7 +90,14 @@ def test_trials_are_rows_of_one_plan_each_once() -> None:
 def test_a_search_asked_again_computes_nothing_and_is_one_table(
     working_folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    asked = ["run", "experiment=quickstart", "surface=icosphere", "surface.levels=3", "image=two_phase", "image.noise=20"]
+    asked = [
+        "run",
+        "experiment=quickstart",
+        "surface=icosphere",
+        "surface.levels=3",
+        "image=two_phase",
+        "image.noise=20",
+    ]
     asked += ["model=rof", "solver=primal_dual", "operator=fem", "figures=[]", "columns=[rmse]", "hydra/sweeper=optuna"]
     asked += ["objective=rmse", "model.w=interval(0.5,2)", "hydra.sweeper.n_trials=4"]
     assert main(asked) in (0, 3)

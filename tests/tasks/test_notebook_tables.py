@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.experiments import ExperimentRun
 from surfexp.mesh.surface import Surface
 from surfexp.summary import Summary
 from surfexp.tasks.fingerprints import Fingerprints
@@ -65,3 +67,15 @@ def test_everything_is_escaped_and_nothing_unknown_is_shown() -> None:
 def test_a_line_stays_one_line_and_counts_the_notes() -> None:
     assert Summary("two\nlines", {"a": 1}, ["x", "y"]).line("Kind") == "<Kind: two lines, a 1; 2 notes>"
     assert repr(SPHERE.mesh) == "<TriangleMesh: 162 vertices, 320 faces>"
+
+
+def test_a_picture_says_its_size_not_its_pixels() -> None:
+    assert repr(sx.plot(SPHERE, Z, width=200)).startswith("<Picture: ") and len(repr(sx.plot(SPHERE, width=200))) < 60
+
+
+def test_a_run_says_its_rows_and_shows_its_table() -> None:
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame({"rmse": [1.0, 2.0], "failure": ["", "it died"]}, index=["a", "b"])
+    found = ExperimentRun("mine", table, {}, Path("results/mine"), {})
+    assert repr(found) == "<ExperimentRun: mine, rows 2, failed 1, figures 0, folder results/mine>"
+    assert "it died" in found._repr_html_() and "<caption>mine</caption>" in found._repr_html_()
