@@ -14,6 +14,14 @@ from surfexp.workflow.kinds import KINDS
 Configuration = dict[str, Any]
 # what stands at the top of every composition, whatever the file says, and the setting of which Hydra reads another part
 OUTSIDE = ("results", "hydra")
+# what stands below these keys, and how a refusal says it
+SHAPES: dict[str, tuple[type, str]] = {
+    "parts": (Mapping, "names with stages are needed: NAME: {surface: ...}"),
+    "repeat": (Mapping, "seeds with a number of repetitions are needed: image.seed: 3"),
+    "axes": (Mapping, "collections by name are needed: NAME: {LABEL: {surface: ...}}"),
+    "figures": (list, "a list of figures is needed: [denoising]"),
+    "claims": (list, "a list of statements is needed"),
+}
 
 
 def named(composed: Mapping[str, Any], name: str | None) -> Configuration:
@@ -67,10 +75,9 @@ def written_out(composed: Mapping[str, Any]) -> Configuration:
     >>> written_out({"surface": {"cup": {"vertices": 4000}}, "repeat": {"image.seed": 2}})["grid"]
     {'image.seed': [0, 1]}
     """
+    _check_shapes(composed, "the experiment")
     check_variants(composed)
     parts = composed.get("parts") or {}
-    if not isinstance(parts, Mapping):
-        raise UserError(f"parts is {parts!r}, names with stages are needed: NAME: {{surface: ...}}")
     own = {name: _stages(part, {}) for name, part in parts.items()}
     found = _stages({key: value for key, value in composed.items() if key not in ("parts", "repeat")}, own)
     if seeds := _seeds(composed.get("repeat") or {}):
@@ -83,10 +90,32 @@ def written_out(composed: Mapping[str, Any]) -> Configuration:
     return found
 
 
-def _seeds(repeat: Any) -> dict[str, list[int]]:
+def _check_shapes(part: Any, where: str) -> None:
+    """Refuse keys that are no text, and lists and mappings that are none; members of an axis may have any label."""
+    for key, value in part.items() if isinstance(part, Mapping) else ():
+        if not isinstance(key, str):
+            raise UserError(f"{where}: key {key!r} is no text; put it in quotation marks")
+        shape, needed = SHAPES.get(key, (object, ""))
+        if value is not None and not isinstance(value, shape) and where in ("the experiment", "a variant"):
+            raise UserError(f"{key} is {str(value)[:80]!r}, {needed}")
+        if key == "axes" and isinstance(value, Mapping):
+            for axis, members in value.items():
+                if not isinstance(members, Mapping | list):
+                    raise UserError(
+                        f"axis {axis} is {str(members)[:80]!r}, members by label or a list of them are needed"
+                    )
+                for facts in members.values() if isinstance(members, Mapping) else members:
+                    _check_shapes(facts, f"axis {axis}")
+        elif key == "variants" and isinstance(value, list):
+            for variant in value:
+                _check_shapes(variant, "a variant")
+        else:
+            for item in value if isinstance(value, list) else [value]:
+                _check_shapes(item, key)
+
+
+def _seeds(repeat: Mapping[str, Any]) -> dict[str, list[int]]:
     """The values of seeds that are repeated: 0, 1, 2, ..."""
-    if not isinstance(repeat, Mapping):
-        raise UserError(f"repeat is {repeat!r}, seeds with a number of repetitions are needed: image.seed: 3")
     for option, count in repeat.items():
         if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 10_000:
             raise UserError(f"repeat: {str(option)!r} is {count!r}, a number of repetitions from 1 to 10000 is needed")

@@ -163,9 +163,9 @@ def test_the_file_names_the_experiment() -> None:
 MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "results": ({"experiment": {"results": "/"}}, "'results' is no part of an experiment"),
     "name": ({"experiment": {"experiment": "other"}}, "it calls itself 'other'"),
-    "parts": ({"parts": ["a"]}, "parts is"),
+    "parts": ({"parts": ["a"]}, "parts is .*names with stages"),
     "part": ({"parts": {"left": {}}, "distance": {"inputs": {"source": "lef"}}}, "'lef' is no part.*'left'"),
-    "repeat": ({"repeat": 3}, "repeat is 3"),
+    "repeat": ({"repeat": 3}, "repeat is .3., seeds"),
     "times": ({"repeat": {"image.seed": 0}}, "'image.seed' is 0"),
     "truth": ({"repeat": {"image.seed": True}}, "is True"),
     "no seed": ({"repeat": {"image.noise": 3}}, "'image.noise' is no seed"),
@@ -184,6 +184,11 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "quantity": ({"claims": [{"S": {"between": [0, 1]}}]}, "no quantity given"),
     "key": ({"claims": [{"S": {"rato": "x"}}]}, "did you mean 'ratio'"),
     "of": ({"claims": [{"S": {"all": {"metrik": "x"}}}]}, "did you mean 'metric'"),
+    "figures": ({"figures": 3}, "a list of figures"),
+    "claims": ({"claims": {"a": 1}}, "a list of statements"),
+    "axes": ({"axes": [1]}, "collections by name"),
+    "axis": ({"axes": {"a": 1}}, "members by label"),
+    "text": ({"grid": {3: [1]}}, "key 3 is no text"),
     "body": ({"claims": [{"S": 3}]}, "a quantity and an interval are needed"),
 }
 
