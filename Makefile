@@ -7,7 +7,7 @@ export OPENBLAS_NUM_THREADS ?= 1
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture reproduction reproduction-changed site viewer ui lock dist audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture torture-part reproduction reproduction-changed site viewer ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -45,6 +45,9 @@ mutate: .venv/ready
 
 torture: .venv/ready
 	$(BIN)/python -m torture
+
+torture-part: .venv/ready
+	$(BIN)/python -m torture --part
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.

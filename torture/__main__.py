@@ -36,6 +36,16 @@ GROUPS: dict[str, list[Callable[[], Iterator[Ended]]]] = {
     "kills": [partial(kills, seed, 25) for seed in range(8)],
     "drivers": [partial(drivers, 5) for _ in range(4)],
 }
+# minutes: a part of each group but what takes a crowd of processes, each time the same
+PART: dict[str, list[Callable[[], Iterator[Ended]]]] = {
+    "files": [partial(bad_files, every=13)],
+    "damages": [partial(damages, 0, 20, whole_runs=4)],
+    "requests": [partial(requests, 0, 20)],
+    "misdeeds": [partial(misdeeds, every=8)],
+    "strangers": [partial(strangers, every=8)],
+    "names": [partial(names, every=8)],
+    "kills": [partial(kills, 0, 4)],
+}
 AT_ONCE = 2
 Part = tuple[float, list[Ended]]
 PAGE = ROOT / "docs" / "reliability.md"
@@ -54,51 +64,55 @@ def main() -> None:
     """Run the groups that are named, all by default; end with 1 if anything is wrong or hung."""
     parser = argparse.ArgumentParser(prog="torture", description=__doc__)
     parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"all by default: {', '.join(GROUPS)}")
+    parser.add_argument("--part", action="store_true", help="one case of many, in minutes; the page is left as it is")
     given = parser.parse_args()
     for unknown in set(given.groups) - set(GROUPS):
         parser.error(f"group {unknown!r} is unknown, choose from {', '.join(GROUPS)}")
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    bad = _run(given.groups or list(GROUPS))
-    _write_page(PAGE)
+    groups = PART if given.part else GROUPS
+    bad = _run({name: groups[name] for name in given.groups or groups}, keep=not given.part)
+    if not given.part:
+        _write_page(PAGE)
     sys.exit(1 if bad else 0)
 
 
-def _run(groups: list[str]) -> int:
+def _run(groups: dict[str, list[Callable[[], Iterator[Ended]]]], keep: bool) -> int:
     """Run the parts of the groups, some at once and each in a new process; keep a group as soon as it is whole."""
     bad = 0
     with ProcessPoolExecutor(AT_ONCE, get_context("spawn"), max_tasks_per_child=1) as pool:
         parts: dict[Future[Part], str] = {
-            pool.submit(_part, group, number): group for group in groups for number in range(len(GROUPS[group]))
+            pool.submit(_part, work): group for group, works in groups.items() for work in works
         }
         done: dict[str, list[Part]] = {group: [] for group in groups}
         for future in as_completed(parts):
             group = parts[future]
             done[group].append(future.result())
-            if len(done[group]) == len(GROUPS[group]):
-                bad += _keep(group, done[group])
+            if len(done[group]) == len(groups[group]):
+                bad += _told(group, done[group], keep)
     return bad
 
 
-def _part(group: str, number: int) -> Part:
+def _part(work: Callable[[], Iterator[Ended]]) -> Part:
     begin = time.monotonic()
     found = []
-    for ended in GROUPS[group][number]():
+    for ended in work():
         found.append(ended)
         if ended.outcome in (WRONG, HUNG):
             print(f"{ended.outcome}: {ended.kind}: {ended.name}: {ended.said}", flush=True)
     return time.monotonic() - begin, found
 
 
-def _keep(group: str, parts: list[Part]) -> int:
-    """Print and store what came of a group; return how many cases are wrong or hung."""
+def _told(group: str, parts: list[Part], keep: bool) -> int:
+    """Print what came of a group, and store it if it is kept; return how many cases are wrong or hung."""
     seconds = sum(spent for spent, _ in parts)
     found = [ended for _, cases in parts for ended in cases]
     counts = Counter(ended.outcome for ended in found)
     told = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
     print(f"{group}: {len(found)} in {seconds:.0f} s: {told}", flush=True)
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    kept = {"seconds": seconds, "cases": [asdict(item) for item in found]}
-    (FOLDER / f"{group}.json").write_text(json.dumps(kept, indent=1))
+    if keep:
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        kept = {"seconds": seconds, "cases": [asdict(item) for item in found]}
+        (FOLDER / f"{group}.json").write_text(json.dumps(kept, indent=1))
     return counts[WRONG] + counts[HUNG]
 
 

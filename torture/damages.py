@@ -14,7 +14,7 @@ from torture.laboratory import fresh, run, store_bytes, working_folder
 COUNT, WHOLE_RUNS = 500, 16
 
 
-def damages(seed: int = 0, count: int = COUNT) -> Iterator[Ended]:
+def damages(seed: int = 0, count: int = COUNT, whole_runs: int = WHOLE_RUNS) -> Iterator[Ended]:
     """Damage results one at a time: all are looked for, some are mended by a whole run."""
     rng = random.Random(seed)
     with working_folder() as folder:
@@ -35,7 +35,7 @@ def damages(seed: int = 0, count: int = COUNT) -> Iterator[Ended]:
                 yield Ended("damage", name, WRONG, "it was not seen")
             elif lines:
                 yield Ended("damage", name, WRONG, f"the line {clear(lines[0])}")
-            elif number < WHOLE_RUNS:
+            elif number < whole_runs:
                 yield _mended(folder, intact, name)
             else:
                 yield Ended("damage", name, REFUSED, next(iter(found.values())))

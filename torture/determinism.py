@@ -32,6 +32,8 @@ HEAD = """# Determinism
 Made by `python -m torture.determinism`: `surfexp run` in an empty results folder, again and again. *Stored files that
 are equal*: byte by byte, of all that the stages stored. *Energies beyond their gaps*: rows whose energy differs from
 that of the first run by more than the larger of both certified gaps, which no two results for one problem may do.
+With another Python every stored file has another name (a key holds the digest of the code as that Python parses it), so
+that only numbers can be compared.
 
 """
 

@@ -44,14 +44,14 @@ EXPERIMENTS = {
 }
 
 
-def strangers() -> Iterator[Ended]:
-    """Open, plan, run and show what is sent."""
+def strangers(every: int = 1) -> Iterator[Ended]:
+    """Open, plan, run and show what is sent, or one of so many of it."""
     with working_folder() as folder:
         run(folder, "run", "experiment=small")
         (folder / "evil.py").write_text("import pathlib\npathlib.Path('ran').touch()\ndef run(*a, **k):\n    pass\n")
         os.chdir(folder)
         sys.path.insert(0, str(folder))
-        for name, text in EXPERIMENTS.items():
+        for name, text in list(EXPERIMENTS.items())[::every]:
             # a key that is given again takes the place of the first
             keys = {line.split(":")[0] for line in text.splitlines() if not line.startswith(" ")}
             rows = [row for row in EXPERIMENT.splitlines() if row.split(":")[0] not in keys]
@@ -63,7 +63,7 @@ def strangers() -> Iterator[Ended]:
             yield _checked(ended, folder, before)
         sound = folder / "sound"
         shutil.copytree(folder / "results", sound)
-        for name, spoil in RESULTS.items():
+        for name, spoil in list(RESULTS.items())[::every]:
             shutil.rmtree(folder / "results")
             shutil.copytree(sound, folder / "results")
             spoil(folder / "results")
