@@ -39,7 +39,7 @@ def command(name: str, arguments: list[str]) -> int:
     try:
         plans = plan_and_act(arguments, _show if name == "plan" else action)
         if search:
-            _tell(plans[-1], doubtful)
+            _tell(plans[-1], doubtful, arguments)
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
@@ -113,17 +113,16 @@ def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
         run(plan, arguments)
     except StageFailure as error:
         failure = error
-    _tell(plan, doubtful)
+    _tell(plan, doubtful, arguments)
     if failure is not None:
         raise failure
 
 
-def _tell(plan: Plan, doubtful: list[str]) -> None:
-    """Print the tables of a plan that was run, its verdicts, and where its pages are."""
+def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
+    """Print the tables of a plan that was run with these arguments, its verdicts, and where its pages are."""
     from surfexp.commands.verdict_lines import print_verdicts
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.report.convergence import unconverged
-    from surfexp.report.origin import read_origin
     from surfexp.report.search import search_of
     from surfexp.report.table import comparisons, rows_of
 
@@ -132,8 +131,7 @@ def _tell(plan: Plan, doubtful: list[str]) -> None:
     groups = comparisons(rows)
     print_tables(groups, console, ROWS_PRINTED)
     print_verdicts(plan, rows, console)
-    command = read_origin(results / plan.settings.experiment).get("command", "")
-    if search := search_of(rows, plan.settings.objective, command):
+    if search := search_of(rows, plan.settings.objective, shlex.join(["surfexp", "run", *arguments])):
         console.print(f"search     {search.sentence}", soft_wrap=True)
         console.print(f"again      {search.command}", soft_wrap=True)
     console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
