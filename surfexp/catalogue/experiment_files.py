@@ -9,7 +9,6 @@ from typing import Any
 from surfexp.catalogue.folders import experiments
 from surfexp.catalogue.yaml_files import read_yaml
 from surfexp.language.lines import with_line
-from surfexp.language.written_out import written_out
 from surfexp.workflow.errors import unknown
 
 
@@ -21,6 +20,8 @@ def read_experiment(name: str) -> dict[str, Any]:
     UserError
         If there is no such experiment, or as `read_yaml` and `written_out`.
     """
+    from surfexp.language.written_out import written_out
+
     files = experiments()
     if name not in files:
         raise unknown("experiment", name, files)

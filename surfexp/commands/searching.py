@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from surfexp.workflow.plan import Plan
+if TYPE_CHECKING:
+    from surfexp.workflow.plan import Plan
 
 SEED = "hydra.sweeper.sampler.seed"
 
@@ -25,6 +27,8 @@ def repeatable(arguments: list[str]) -> list[str]:
 
 def joined(before: Plan, plan: Plan) -> Plan:
     """Return the plan of all trials so far: rows in the order in which they were asked for."""
+    from surfexp.workflow.plan import Plan
+
     known = {leaf.key for leaf in before.leaves}
     leaves = [*before.leaves, *(leaf for leaf in plan.leaves if leaf.key not in known)]
     return Plan(plan.settings, before.nodes | plan.nodes, leaves, before.requested + plan.requested)
