@@ -33,7 +33,7 @@ Made by `python -m torture.determinism`: `surfexp run` in an empty results folde
 are equal*: byte by byte, of all that the stages stored. *Energies beyond their gaps*: rows whose energy differs from
 that of the first run by more than the larger of both certified gaps, which no two results for one problem may do.
 With another Python every stored file has another name (a key holds the digest of the code as that Python parses it), so
-that only numbers can be compared.
+that only numbers can be compared. Seconds depend on what else the machine did.
 
 """
 
