@@ -12,8 +12,11 @@ from surfexp.workflow.errors import UserError
 from surfexp.workflow.kinds import KINDS
 
 Configuration = dict[str, Any]
-# what stands at the top of every composition, whatever the file says, and the setting of which Hydra reads another part
-OUTSIDE = ("results", "hydra")
+# what is no part of an experiment, and where it belongs
+OUTSIDE = {
+    "results": "give results=FOLDER to surfexp run",
+    "hydra": "a file that sets Hydra's own keys begins with the line # @package _global_",
+}
 # what stands below these keys, and how a refusal says it
 SHAPES: dict[str, tuple[type, str]] = {
     "parts": (Mapping, "names with stages are needed: NAME: {surface: ...}"),
@@ -42,9 +45,9 @@ def named(composed: Mapping[str, Any], name: str | None) -> Configuration:
     content = composed.get("experiment")
     if not isinstance(content, Mapping):
         return dict(composed)
-    for key in OUTSIDE:
+    for key, way_out in OUTSIDE.items():
         if key in content:
-            raise UserError(f"experiment {name}: {key!r} is no part of an experiment; give {key}=VALUE to surfexp run")
+            raise UserError(f"experiment {name}: {key!r} is no part of an experiment; {way_out}")
     if (own := content.get("experiment", name)) != name:
         raise UserError(f"experiment {name}: it calls itself {own!r}; leave the key out, its file's name is its name")
     given = {key: value for key, value in composed.items() if key != "experiment" and value is not None}

@@ -39,7 +39,7 @@ VALUES = st.recursive(
 DOCUMENTS = st.dictionaries(st.sampled_from(WORDS), VALUES, max_size=6)
 
 
-@settings(max_examples=400)
+@settings(max_examples=250)
 @given(DOCUMENTS)
 def test_a_document_is_written_out_or_refused_in_a_line(document: dict[str, Any]) -> None:
     before = copy.deepcopy(document)

@@ -162,6 +162,7 @@ def test_the_file_names_the_experiment() -> None:
 
 MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "results": ({"experiment": {"results": "/"}}, "'results' is no part of an experiment"),
+    "hydra": ({"experiment": {"hydra": {}}}, "'hydra' is no part of an experiment; .*@package _global_"),
     "name": ({"experiment": {"experiment": "other"}}, "it calls itself 'other'"),
     "parts": ({"parts": ["a"]}, "parts is .*names with stages"),
     "part": ({"parts": {"left": {}}, "distance": {"inputs": {"source": "lef"}}}, "'lef' is no part.*'left'"),
