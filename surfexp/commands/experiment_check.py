@@ -9,8 +9,6 @@ from surfexp.commands.run import plan_and_act
 from surfexp.workflow.errors import UserError
 from surfexp.workflow.plan import Plan
 
-SUFFIXES = (".yaml", ".yml")
-
 
 def check_experiment(file: Path) -> str:
     """Return a line on an experiment that can be planned.

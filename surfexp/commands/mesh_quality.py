@@ -10,19 +10,21 @@ from surfexp.commands.certificate import write_certificate
 from surfexp.commands.click_command import run_click, shown
 
 DEFECTIVE = 2
+EXPERIMENTS = (".yaml", ".yml")
 
 
 @click.command(**shown("check", "scan.ply", "conf/experiment/mine.yaml"))
 @click.argument("files", nargs=-1, required=True)
 def check(files: tuple[str, ...]) -> int:
     """Name every defect of mesh files, or the first mistake of experiments; exit code 2 where something is wrong."""
-    from surfexp.commands.experiment_check import SUFFIXES, check_experiment
     from surfexp.io.reading import read_mesh
     from surfexp.mesh.validate import validate
 
     sound = True
     for file in files:
-        if Path(file).suffix in SUFFIXES:
+        if Path(file).suffix in EXPERIMENTS:
+            from surfexp.commands.experiment_check import check_experiment
+
             click.echo(check_experiment(Path(file)))
             continue
         try:

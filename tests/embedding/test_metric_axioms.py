@@ -77,7 +77,7 @@ def test_triangle_metrics_by_hand() -> None:
     assert triangle_metrics(matrix[:2, :2]) == {"triangle_ratio": 0.0, "triangles_broken": 0.0}
 
 
-@pytest.mark.parametrize("method", ["hausdorff", "wasserstein", "sup_inf"])
+@pytest.mark.parametrize("method", ["hausdorff", "wasserstein", pytest.param("sup_inf", marks=pytest.mark.slow)])
 def test_random_triples_of_tori_obey_the_triangle(method: str) -> None:
     rng = np.random.default_rng(0)
     shapes = {str(k): torus_embedding(float(ratio), 3, 12) for k, ratio in enumerate(rng.uniform(1.1, 3.0, 16))}

@@ -270,6 +270,7 @@ def test_exchanging_sides_changes_the_sign_of_every_asymmetry(lengths) -> None:
     assert metrics["p, true"] < 1e-6 < 0.05 < metrics["least p elsewhere, true"]
 
 
+@pytest.mark.slow
 def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(lengths) -> None:
     power = power_study(lengths, [5, 10, 30], 400)
     assert (power["true"] >= power["rough"]).all() and power["rough"][0] < power["rough"][2]
@@ -289,6 +290,7 @@ def test_a_rough_estimator_needs_more_subjects_and_a_missing_one_is_left_out(len
         asymmetry_study({"true": two})
 
 
+@pytest.mark.slow
 def test_populations_without_a_common_subject() -> None:
     rng = np.random.default_rng(4)
     differences = rng.normal(0.0, 1.0, (1003, 4))
@@ -310,6 +312,7 @@ def test_populations_without_a_common_subject() -> None:
         fresh_tests(differences, 2)
 
 
+@pytest.mark.slow
 def test_fresh_populations_leave_out_an_estimator_that_measures_too_few_pairs() -> None:
     rng = np.random.default_rng(0)
     whole = {side: rng.normal(100.0, 5.0, (9, 2)) for side in ("left", "right")}

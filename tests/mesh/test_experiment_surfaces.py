@@ -43,6 +43,7 @@ def check(name: str, mesh: TriangleMesh) -> None:
         assert mesh.vertices[:, 2].min() == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, (_, count, published, *_) in SURFACES.items() if count < published])
 def test_count_topology_and_triangles(name: str) -> None:
     make, count = SURFACES[name][:2]
@@ -60,6 +61,7 @@ def test_surfaces_of_the_size_of_the_dissertation(name: str) -> None:
     check(name, mesh)
 
 
+@pytest.mark.slow
 def test_m2_is_folded_deeper_than_m1() -> None:
     smooth, folded = (cortex(form, 12000).mesh for form in ("smooth", "folded"))
     assert folded.area > 1.3 * smooth.area

@@ -47,7 +47,7 @@ def group(rows: list[Row]) -> Comparison:
 values = arrays(np.float64, st.tuples(st.integers(6, 9), st.integers(2, 4)), elements=st.integers(1, 6).map(float))
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=3, deadline=None)
 @given(values)
 def test_ranks_are_counted_and_higher_is_lower_of_the_negative(table: np.ndarray) -> None:
     found = rank(trials(table))
@@ -62,7 +62,7 @@ def test_ranks_are_counted_and_higher_is_lower_of_the_negative(table: np.ndarray
     assert np.allclose(mirrored.p, found.p) and np.allclose(mirrored.low, -found.high, equal_nan=True)
 
 
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=3, deadline=None)
 @given(values)
 def test_groups_are_the_longest_runs_that_no_test_tells_apart(table: np.ndarray) -> None:
     found = rank(trials(table))

@@ -134,6 +134,7 @@ def test_contours_of_each_level_agree_with_the_graph_on_relabelled_files(tmp_pat
     assert {1, 2} <= set(counted)
 
 
+@pytest.mark.slow
 def test_midlines_of_all_callosa_from_relabelled_bare_files(tmp_path):
     misses = []
     for seed in range(16):

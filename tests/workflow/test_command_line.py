@@ -202,6 +202,7 @@ def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim:
     assert store_bytes(laboratory) == undisturbed
 
 
+@pytest.mark.slow
 def test_two_runs_at_once_on_one_results_folder(laboratory: Path) -> None:
     command = [sys.executable, "-P", "-m", "surfexp.commands.command_line", "run", "experiment=chain"]
     both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
@@ -245,6 +246,7 @@ def test_a_broken_plugin_file_is_named_with_its_line_and_the_rest_works(laborato
     assert "crooked.py, line 2" in surfexp("run", "solver=crooked", code=2).stderr
 
 
+@pytest.mark.slow
 def test_two_plugins_of_one_name_are_refused_naming_both_files(laboratory: Path) -> None:
     (laboratory / "plugins" / "operator").mkdir()
     original = (ROOT / "plugins" / "operator" / "fem.py").read_text()
@@ -264,6 +266,7 @@ def test_help_and_catalogue(asked: Path) -> None:
     assert "chain" in surfexp("list", "experiment").stdout
 
 
+@pytest.mark.slow
 def test_a_new_plugin_is_listed(laboratory: Path) -> None:
     surfexp("new", "solver", "my_method")
     assert "my_method" in surfexp("list", "solver").stdout

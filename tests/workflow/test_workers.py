@@ -146,6 +146,7 @@ def run(experiment: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True)
 
 
+@pytest.mark.slow
 def test_a_run_names_what_died_and_keeps_the_rest(results: Path) -> None:
     (results.parent / "conf" / "experiment").mkdir(parents=True)
     stages = [{"name": "ending", "how": how, "size": size} for how, size in (*DEATHS, ("well", 1.0))]
