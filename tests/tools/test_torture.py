@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from torture import __main__ as torture_page
+from torture import groups as torture_page
 from torture.bad_files import contents, surfaces
 from torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear, in_a_child
 from torture.kills import _below

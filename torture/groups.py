@@ -1,4 +1,4 @@
-"""`python -m torture [GROUP ...]`: run what goes wrong, print what came of it, and write docs/reliability.md."""
+"""What goes wrong, in groups: each is run in processes of its own, told, and kept for docs/reliability.md."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ Files, requests and experiments have limits of time and memory.
 
 def main() -> None:
     """Run the groups that are named, all by default; end with 1 if anything is wrong or hung."""
-    parser = argparse.ArgumentParser(prog="torture", description=__doc__)
+    parser = argparse.ArgumentParser(prog="torture", description=main.__doc__)
     parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"all by default: {', '.join(GROUPS)}")
     parser.add_argument("--part", action="store_true", help="one case of many, in minutes; the page is left as it is")
     given = parser.parse_args()
@@ -141,7 +141,3 @@ def _write_page(page: Path) -> None:
 def _row(name: str, counts: Counter[str]) -> str:
     cells = [name, str(counts.total()), *(str(counts[outcome]) for outcome in OUTCOMES)]
     return f"| {' | '.join(cells)} |\n"
-
-
-if __name__ == "__main__":
-    main()
