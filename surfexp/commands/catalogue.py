@@ -14,6 +14,17 @@ from surfexp.commands.parser import Parser
 from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.kinds import KINDS
 
+START = "Where to start"
+CHAPTERS = {
+    1: "Operators (chapter 1)",
+    2: "Images on surfaces (chapter 2)",
+    3: "Laplace-Beltrami spectra (chapter 3)",
+    4: "Nodal counts and signatures (chapter 4)",
+    5: "Reeb graphs and skeletons (chapter 5)",
+    6: "Embeddings and their distance (chapter 6)",
+}
+OTHERS = "Others"
+
 
 def command(name: str, arguments: list[str]) -> int:
     """Print plugins or experiments, the options of one plugin, or what is known of one experiment."""
@@ -35,7 +46,7 @@ def command(name: str, arguments: list[str]) -> int:
     elif name == "info":
         _info(given.what, known, console)
     elif given.kind in ("experiment", "experiments"):
-        _rows(console, [(name, _title(file)) for name, file in experiments().items()])
+        _menu(console)
     elif given.kind is None:
         counts = Counter(kind for kind, _ in known.plugins)
         rows = [(kind, f"{counts[kind]} plugins") for kind in known.kinds]
@@ -47,10 +58,24 @@ def command(name: str, arguments: list[str]) -> int:
     return 0
 
 
-def _title(file: Path) -> str:
+def _menu(console: Console) -> None:
+    """Experiments by chapter: where to start, those of the dissertation, the rest, each once."""
     import yaml
 
-    return str((yaml.safe_load(file.read_text()) or {}).get("title", ""))
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *CHAPTERS.values(), OTHERS)}
+    for name, file in experiments().items():
+        known = yaml.load(file.read_bytes(), Loader=loader) or {}  # noqa: S506, one of the two safe ones
+        chapter, place = known.get("chapter") or (0, 0)
+        heading = START if "start" in known else CHAPTERS.get(chapter, OTHERS)
+        rows[heading].append((known.get("start", place), name, str(known.get("title", ""))))
+    width = max(len(name) for found in rows.values() for _, name, _ in found)
+    for heading, found in rows.items():
+        if found:
+            console.print(f"\n{heading}")
+            _rows(console, [(f"  {name:{width}}", title) for _, name, title in sorted(found)])
+    console.print()
+    console.print("surfexp run experiment=NAME computes one, surfexp info NAME tells what it is.")
 
 
 def _rows(console: Console, rows: list[tuple[str, str]]) -> None:

@@ -68,7 +68,8 @@ def _claim() -> Schema:
     body = {name: parts[name] for name in parts if name not in ("claim", "quantity", "metric", "rows", "over")}
     short = _closed(dict.fromkeys(QUANTITIES, quantity) | body)
     one = {"type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": short}
-    return {"anyOf": [_closed(parts), one]}
+    long = _closed({"claim": {"type": "string"}} | dict.fromkeys(QUANTITIES, quantity) | body)
+    return {"anyOf": [_closed(parts), one, long]}
 
 
 def _closed(properties: Mapping[str, Any]) -> Schema:

@@ -19,7 +19,8 @@ def claim_written_out(given: Any, number: int) -> Any:
     Parameters
     ----------
     given : object
-        {STATEMENT: {QUANTITY: {metric: ..., of: ..., to: ...}, between: [low, high], ...}}
+        {STATEMENT: {QUANTITY: {metric: ..., of: ..., to: ...}, between: [low, high], ...}}, or
+        {claim: STATEMENT, QUANTITY: {...}, between: [low, high], ...}.
     number : int
         The claim's place in the list, from 1.
 
@@ -33,9 +34,12 @@ def claim_written_out(given: Any, number: int) -> Any:
     >>> claim_written_out({"It is small": {"all": {"metric": "rmse"}, "between": [0, 3]}}, 1)["quantity"]
     'all'
     """
-    if not isinstance(given, Mapping) or "claim" in given or len(given) != 1:
+    if not isinstance(given, Mapping) or "quantity" in given or ("claim" not in given and len(given) != 1):
         return given
-    ((statement, body),) = given.items()
+    if "claim" in given:  # a statement that is too long for a key
+        statement, body = given["claim"], {key: value for key, value in given.items() if key != "claim"}
+    else:
+        ((statement, body),) = given.items()
     where = f"claim {number} ({str(statement)[:60]})"
     if not isinstance(body, Mapping):
         raise UserError(f"{where}: a quantity and an interval are needed below the statement, it has {body!r}")

@@ -81,7 +81,9 @@ def written_out(composed: Mapping[str, Any]) -> Configuration:
     _check_shapes(composed, "the experiment")
     check_variants(composed)
     parts = composed.get("parts") or {}
-    own = {name: _stages(part, {}) for name, part in parts.items()}
+    own: Configuration = {}
+    for name, part in parts.items():  # a part may be made of those before it
+        own[name] = _stages(part, own)
     found = _stages({key: value for key, value in composed.items() if key not in ("parts", "repeat")}, own)
     if seeds := _seeds(composed.get("repeat") or {}):
         found["grid"] = {**(found.get("grid") or {}), **seeds}
@@ -161,8 +163,10 @@ def _entry(key: str, value: Any, parts: Mapping[str, Any]) -> Any:
 
 
 def _members(members: Any, parts: Mapping[str, Any]) -> Any:
+    if isinstance(members, Mapping) and "product" in members:
+        return _stages(members, parts)
     if isinstance(members, Mapping):
-        return {label: _stages(facts, parts) if label != "product" else facts for label, facts in members.items()}
+        return {label: _stages(facts, parts) for label, facts in members.items()}
     return [_stages(facts, parts) for facts in members] if isinstance(members, list) else members
 
 

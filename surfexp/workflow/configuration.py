@@ -24,10 +24,10 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    experiment: str = Field(
-        "unnamed", pattern=NAME, max_length=100, description="its folder in results and in the dashboard"
-    )
+    experiment: str = Field("unnamed", pattern=NAME, max_length=100, description="folder of its pages")
     title: str = Field("", description="heading of the report page")
+    chapter: tuple[int, int] | None = Field(None, description="of the dissertation, and the place in its list")
+    start: int | None = Field(None, description="place among the experiments to begin with")
     description: str = Field("", description="paragraph below the heading")
     results: str = Field("results", description="folder of all output")
     cores: int | None = Field(None, ge=1, description="processors for Snakemake; default: all")

@@ -134,10 +134,56 @@ def test_an_axis_may_be_a_product() -> None:
     assert shapes["putamen 9861"] == {"class": "putamen", "group": "9861", "surface": surface}
 
 
+def test_stages_beside_a_product_hold_for_all_its_members() -> None:
+    axis = {"product": {"surface.pose": [1, 2]}, "surface": {"articulated": {"body": "heavy_biped"}}}
+    found = written_out({"surface": {"cup": {"vertices": 4000}}, "axes": {"poses": axis}})["axes"]["poses"]
+    assert found["pose 2"] == {"surface": {"name": "articulated", "body": "heavy_biped", "pose": 2}}
+    bodies = {"product": {"surface.body": ["heavy_biped"], "surface.pose": [1]}, "class": "surface.body"}
+    found = written_out({"surface": "articulated", "axes": {"bodies": bodies}})["axes"]["bodies"]
+    assert list(found) == ["heavy biped 1"] and found["heavy biped 1"]["class"] == "heavy biped"
+    assert found["heavy biped 1"]["surface"]["body"] == "heavy_biped"
+
+
+def test_an_axis_may_be_several_products_told_apart_by_a_word() -> None:
+    noise = {"product": {"image.noise": [10, 20]}, "level": "image.noise"}
+    axis = [noise | {"class": "linear", "operator": "fem"}, noise | {"class": "other", "operator": "libigl"}]
+    found = written_out({"image": "picture", "axes": {"noise": axis}})["axes"]["noise"]
+    assert list(found) == ["linear noise 10", "linear noise 20", "other noise 10", "other noise 20"]
+    member = {
+        "class": "other",
+        "level": 20.0,
+        "operator": {"name": "libigl"},
+        "image": {"name": "picture", "noise": 20},
+    }
+    assert found["other noise 20"] == member
+
+
+def test_values_of_a_product_may_be_a_range_with_both_ends() -> None:
+    axis = {"product": {"surface.seed": {"from": 100, "to": 115}}}
+    found = written_out({"surface": "callosum", "axes": {"group": axis}})["axes"]["group"]
+    assert [member["surface"]["seed"] for member in found.values()] == list(range(100, 116))
+
+
+def test_a_part_may_be_made_of_a_part_before_it() -> None:
+    parts = {
+        "right": {"surface": {"fsaverage5": {"hemisphere": "right"}}},
+        "hidden": {"surface": {"disguised": {"inputs": {"original": "right"}}}},
+    }
+    distance = {"embedding_map": {"inputs": {"target": "hidden"}}}
+    found = written_out({"parts": parts, "distance": distance})["distance"]["inputs"]["target"]
+    assert found["surface"]["inputs"]["original"] == {"surface": {"name": "fsaverage5", "hemisphere": "right"}}
+
+
 def test_an_axis_may_be_the_grid() -> None:
     given: dict[str, Any] = {"solver": "newton", "grid": {"model.weight": [0.5, 1]}}
     found = written_out(given | {"axes": {"weights": {"product": "grid", "level": "model.weight"}}})
     assert [member["level"] for member in found["axes"]["weights"].values()] == [0.5, 1.0]
+
+
+def test_a_statement_that_is_too_long_for_a_key_stands_beside_its_quantity() -> None:
+    body = {"max": {"metric": "rmse", "of": {"operator.name": "fem"}}, "between": [0, 3], "because": "It says so."}
+    long, short = written_out({"claims": [{"claim": "It is small", **body}, {"It is small": body}]})["claims"]
+    assert long == short and long["rows"] == {"operator.name": "fem"}
 
 
 def test_the_words_of_claims_are_those_that_claims_have() -> None:
@@ -181,6 +227,15 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "fact of": ({"axes": {"a": {"product": {"surface.x": [1]}, "class": "surface.y"}}}, "did you mean 'surface.x'"),
     "level": ({"axes": {"a": {"product": {"surface.x": ["b"]}, "level": "surface.x"}}}, "the level is 'b'"),
     "stage": ({"axes": {"a": {"product": {"surfaces.x": [1]}}}}, "did you mean 'surface'"),
+    "mixed": (
+        {"axes": {"a": [{"product": {"surface.x": [1]}}, {"surface": "cup"}]}},
+        "products and members do not mix",
+    ),
+    "labels": ({"axes": {"a": [{"product": {"surface.x": [1]}}] * 2}}, "two members are 'x 1'"),
+    "values": ({"axes": {"a": {"product": {"surface.x": [1, 1]}}}}, "leave one of two equal values out"),
+    "range": ({"axes": {"a": {"product": {"surface.x": {"from": 3, "to": 2}}}}}, "from 3 to 2 are 0 values"),
+    "fractions": ({"axes": {"a": {"product": {"surface.x": {"from": 0.5, "to": 2}}}}}, "options with lists of values"),
+    "level word": ({"axes": {"a": {"product": {"surface.x": [1]}, "level": "high"}}}, "the level is 'high'"),
     "quantities": ({"claims": [{"S": {"all": "x", "any": "x"}}]}, "all and any given"),
     "quantity": ({"claims": [{"S": {"between": [0, 1]}}]}, "no quantity given"),
     "key": ({"claims": [{"S": {"rato": "x"}}]}, "did you mean 'ratio'"),
