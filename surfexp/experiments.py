@@ -142,7 +142,7 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
         raise ValueError(str(error)) from None
     load_known_kinds(plan)  # a plugin may declare a stage kind of its own
     folder = root / experiment
-    figures = {file.stem: file for file in sorted((folder / "figures").glob("*.png"))}
+    figures = {file.stem: file for file in sorted((folder / "figures").glob("*.[ps][nv]g"))}
     kinds = {leaf.key: plan.nodes[leaf.key].kind for leaf in plan.leaves}
     return ExperimentRun(experiment, _frame(rows_of(plan, root)), figures, folder, kinds)
 

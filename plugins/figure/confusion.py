@@ -4,7 +4,7 @@ from pydantic import Field
 
 from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import INK, QUIET, canvas, drawn, points
+from surfexp.figures.typography import INK, QUIET, canvas, drawn, points, vector
 from surfexp.statistics.classification import Classification
 from surfexp.workflow.registry import Options, register
 
@@ -40,10 +40,10 @@ def confusion_figure(options: Confusion, *, classifier: Classification) -> Figur
         axes.set_xlabel("class given", fontsize=points(em))
         axes.set_ylabel("true class", fontsize=points(em))
         axes.set_title(title, fontsize=points(1.1 * em), fontweight="bold", pad=points(0.9 * em))
-        pixels = drawn(figure)
+        pixels, svg = drawn(figure), vector(figure)
     numbers = classifier.metrics
     caption = options.caption or (
         f"Accuracy {numbers['accuracy']:.2f} (95 % interval {numbers['accuracy_low']:.2f} to "
         f"{numbers['accuracy_high']:.2f}); groups never stand in training and test sets at once."
     )
-    return Figure(pixels, caption, title)
+    return Figure(pixels, caption, title, svg=svg)

@@ -6,7 +6,7 @@ from scipy.spatial.distance import squareform
 
 from surfexp.figures.axes import add_axes, class_style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn, points
+from surfexp.figures.typography import canvas, drawn, points, vector
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.workflow.registry import Options, register
 
@@ -44,6 +44,6 @@ def dendrogram_figure(options: Dendrogram, *, distance_matrix: DistanceMatrix) -
             axes.plot([0.0], [place], color=color, marker=marker, clip_on=False, zorder=3.0)
         box = axes.get_position()
         axes.set_position((0.03, box.y0, 0.955 - 0.013 * max(map(len, distance_matrix.labels)), box.height))
-        pixels = drawn(figure)
+        pixels, svg = drawn(figure), vector(figure)
     caption = options.caption or "Each leaf is a shape; clusters join at the mean distance of their members."
-    return Figure(pixels, caption, title)
+    return Figure(pixels, caption, title, svg=svg)

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from surfexp.figures.axes import FONT, SPACING, add_axes, class_style, spread
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn
+from surfexp.figures.typography import canvas, drawn, vector
 from surfexp.figures.typography import points as text_size
 from surfexp.metric import Metric
 from surfexp.statistics.point_embedding import PointEmbedding
@@ -50,9 +50,9 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
         if options.names:
             _write_labels(axes, embedding, points)
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
-        pixels = drawn(figure)
+        pixels, svg = drawn(figure), vector(figure)
     caption = options.caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
-    return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)})
+    return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)}, svg=svg)
 
 
 def _write_labels(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:

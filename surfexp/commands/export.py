@@ -48,7 +48,7 @@ def export(
 
     Surfaces become .vtp, which carries the maps exported with it, and .surf.gii where they are half of a brain; maps
     .shape.gii, labels .label.gii; eigenpairs, distances and solutions .npz; matrices SciPy's .npz; skeletons .vtk and
-    .graphml; figures .png; all else .csv. Beside each FILE stands its certificate FILE.json; index.csv lists all files.
+    .graphml; plots .svg too; all else .csv. Beside each FILE stands its certificate FILE.json; index.csv lists all files.
     """
     from rich.console import Console
     from rich.progress import track

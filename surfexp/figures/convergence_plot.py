@@ -10,7 +10,7 @@ import numpy as np
 from surfexp.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import QUIET, canvas, drawn
+from surfexp.figures.typography import QUIET, canvas, drawn, vector
 
 
 def convergence_plot(
@@ -52,8 +52,10 @@ def convergence_plot(
         logarithmic(axes)
         _draw_rates(axes, kept, rates)
         label_lines(axes, labels)
-        pixels = drawn(figure)
-    return Figure(pixels, caption, title, notes=(f"{lost} points that are not positive are left out.",) if lost else ())
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(
+        pixels, caption, title, notes=(f"{lost} points that are not positive are left out.",) if lost else (), svg=svg
+    )
 
 
 def _positive(x: Floats, y: Floats) -> tuple[Floats, Floats]:

@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn
+from surfexp.figures.typography import canvas, drawn, vector
 
 
 def cost_plot(
@@ -49,5 +49,5 @@ def cost_plot(
             labels.append((name, float(x[-1]), float(y[-1]), style(k)["color"]))
         logarithmic(axes)
         label_lines(axes, labels)
-        pixels = drawn(figure)
-    return Figure(pixels, caption, title)
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(pixels, caption, title, svg=svg)

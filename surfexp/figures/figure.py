@@ -1,4 +1,4 @@
-"""A finished picture and its caption."""
+"""A finished picture, or drawing, and its caption."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ class Figure:
     metrics : dict of str to float
     notes : tuple of str
         As in `Surface`.
+    svg : str
+        The same in lines and letters, where it is a plot; empty where surfaces are seen.
     """
 
     pixels: NDArray[np.uint8]
@@ -28,6 +30,7 @@ class Figure:
     title: str = ""
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    svg: str = ""
 
 
 def compare(reference: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from surfexp.arrays import Floats
 from surfexp.figures.axes import COLORS, FONT, add_axes
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import QUIET, canvas, drawn, points
+from surfexp.figures.typography import QUIET, canvas, drawn, points, vector
 
 ROW = 2.2
 
@@ -53,5 +53,5 @@ def interval_plot(
         box = axes.get_position()
         left = max(label.get_window_extent().width for label in axes.get_yticklabels()) / width + box.x0
         axes.set_position([left, box.y0, box.x1 - left, box.height])
-        pixels = drawn(figure)
-    return Figure(pixels, caption, title)
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(pixels, caption, title, svg=svg)

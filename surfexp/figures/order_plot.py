@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn
+from surfexp.figures.typography import canvas, drawn, vector
 
 
 def order_plot(
@@ -55,8 +55,8 @@ def order_plot(
         logarithmic(axes)
         axes.invert_xaxis()
         label_lines(axes, labels)
-        pixels = drawn(figure)
-    return Figure(pixels, caption, title, {f"order {name}": order for name, order in orders.items()})
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(pixels, caption, title, {f"order {name}": order for name, order in orders.items()}, svg=svg)
 
 
 def convergence_order(mesh_sizes: Floats, errors: Floats) -> float:

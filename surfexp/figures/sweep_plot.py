@@ -10,7 +10,7 @@ import numpy as np
 from surfexp.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn
+from surfexp.figures.typography import canvas, drawn, vector
 
 # up to so many values of the option are written under the axis, and each marked on the lines
 MOST_TICKS, MOST_MARKERS = 9, 60
@@ -67,8 +67,8 @@ def sweep_plot(
         if len(x) <= MOST_TICKS:
             axes.set_xticks(x, [f"{value:g}" for value in x])
         label_lines(axes, labels)
-        pixels = drawn(figure)
-    return Figure(pixels, caption, title)
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(pixels, caption, title, svg=svg)
 
 
 def _turns(series: Mapping[str, Floats], k: int) -> dict[str, Any]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import StringIO
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,8 @@ from numpy.typing import NDArray
 DOTS_PER_INCH = 100
 INK = "#222222"
 QUIET = "#777777"
+# of a plot in characters: one of many thousand marks is lighter in pixels
+LONGEST_DRAWING = 1_000_000
 
 STYLE = {
     # bundled with matplotlib, therefore the same everywhere
@@ -59,3 +63,17 @@ def drawn(figure: Any) -> NDArray[np.uint8]:
     """(height, width, 3) pixels of a matplotlib figure."""
     figure.canvas.draw()
     return np.array(figure.canvas.buffer_rgba())[..., :3]
+
+
+def vector(figure: Any, outlines: bool = True) -> str:
+    """A matplotlib figure as SVG, the same bytes for the same figure; empty where it would be too long.
+
+    Letters are outlines, so that they stand where they were measured on machines without the font too, or text.
+    """
+    import matplotlib as mpl
+
+    sink = StringIO()
+    with mpl.rc_context({"svg.hashsalt": "surfexp", "svg.fonttype": "path" if outlines else "none"}):
+        figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    text = re.sub(r"<!--.*?-->\s*", "", sink.getvalue(), flags=re.DOTALL)
+    return text[text.index("<svg") :] if len(text) <= LONGEST_DRAWING else ""

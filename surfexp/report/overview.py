@@ -21,7 +21,7 @@ from surfexp.workflow import store
 from surfexp.workflow.plan import Plan
 
 FILE = "summary.json"
-PICTURE = re.compile(r"[\w-]+\.png")
+PICTURE = re.compile(r"[\w-]+\.(png|svg)")
 # an index.html without this is somebody else's
 MARK = '<meta name="generator" content="surfexp">'
 LARGEST = 10**9

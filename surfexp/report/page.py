@@ -15,6 +15,7 @@ from surfexp.figures.figure import Figure
 from surfexp.report.claim import read_claims
 from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
+from surfexp.report.drawing import is_still
 from surfexp.report.origin import read_origin
 from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
@@ -120,29 +121,35 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
             except DamagedResult as error:
                 print(f"surfexp: {error}; the next run computes it again", file=sys.stderr)
                 continue
-            name = f"{plan.nodes[key].plugin}-{key[:8]}.png"
+            name = f"{plan.nodes[key].plugin}-{key[:8]}{_suffix(figure)}"
             if not (folder / name).exists():
                 _write(figure, folder / name)
             wanted[key] = {"key": key, **_shown(name, figure)}
     names = {item["file"] for item in wanted.values()}
-    for file in folder.glob("*.png"):
+    for file in [*folder.glob("*.png"), *folder.glob(f"*-{8 * '[0-9a-f]'}.svg")]:
         if file.name not in names:
             file.unlink()
     return wanted
 
 
 def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, Any]]:
-    figure, name = cost_figure(group), f"cost-{number}.png"
+    figure = cost_figure(group)
     if figure is None:
         return []
+    name = f"cost-{number}{_suffix(figure)}"
     _write(figure, folder / name)
     return [_shown(name, figure)]
 
 
 def _write(figure: Figure, file: Path) -> None:
     temporary = file.with_name(f".{file.name}.{os.getpid()}")
-    temporary.write_bytes(encode_png(figure.pixels))
+    temporary.write_bytes(figure.svg.encode() if file.suffix == ".svg" else encode_png(figure.pixels))
     temporary.rename(file)
+
+
+def _suffix(figure: Figure) -> str:
+    """.svg where a figure has a drawing; what a stranger's results call one may be anything, then its pixels are shown."""
+    return ".svg" if figure.svg and is_still(figure.svg) else ".png"
 
 
 def _shown(name: str, figure: Figure) -> dict[str, Any]:

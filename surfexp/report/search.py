@@ -6,7 +6,6 @@ import math
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -123,19 +122,15 @@ def write_search(search: Search, folder: Path) -> str:
 
 def draw(search: Search) -> str:
     """Return a search as SVG text: its history with the best so far, and the objective against each option."""
-    import matplotlib as mpl
-
-    from surfexp.figures.typography import canvas
+    from surfexp.figures.typography import canvas, vector
 
     names = list(search.trials[0].options)[:OPTIONS_DRAWN]
-    sink = StringIO()
-    with canvas(WIDTH, HEIGHT) as figure, mpl.rc_context({"svg.hashsalt": "surfexp", "svg.fonttype": "none"}):
+    with canvas(WIDTH, HEIGHT) as figure:
         width = (0.92 - 0.05 * len(names)) / (len(names) + 1)
         for place, name in enumerate(["", *names]):
             axes = figure.add_axes((0.07 + place * (width + 0.05), 0.17, width, 0.7))
             _draw_panel(axes, search, name, place == 0)
-        figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None})
-    return sink.getvalue()
+        return vector(figure, outlines=False)
 
 
 def _draw_panel(axes: Any, search: Search, name: str, first: bool) -> None:

@@ -34,7 +34,7 @@ class Picture:
     figure: Figure
 
     def save(self, path: Path | str) -> None:
-        """Write the picture as .png, or as .svg that carries it.
+        """Write the picture as .png or .svg: in lines and letters where it is a plot, else with its pixels inside.
 
         Parameters
         ----------
@@ -64,6 +64,8 @@ class Picture:
 def _as_svg(figure: Figure) -> str:
     import base64
 
+    if figure.svg:
+        return figure.svg
     height, width = figure.pixels.shape[:2]
     data = base64.b64encode(encode_png(figure.pixels)).decode()
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">'

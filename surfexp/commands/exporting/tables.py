@@ -1,4 +1,4 @@
-"""Signatures, distance matrices, embeddings, classifications and statistics as .csv, figures as .png."""
+"""Signatures, distance matrices, embeddings, classifications and statistics as .csv, figures as .png and .svg."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from surfexp.commands.exporting.writers import Place, write, write_csv, write_metrics
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
+from surfexp.report.drawing import is_still
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.classification import Classification
 from surfexp.statistics.distance_matrix import DistanceMatrix
@@ -77,7 +78,9 @@ def _statistic(statistic: Statistic, place: Place) -> None:
 
 @write.register
 def _figure(figure: Figure, place: Place) -> None:
-    """The picture of the report where there is one, which has the same bytes; encoding takes seconds."""
+    """The pixels, and the drawing of a plot; the picture of the report where that has the same bytes."""
+    if figure.svg and is_still(figure.svg):
+        place.file(".svg").write_text(figure.svg, encoding="utf-8")
     target = place.file(".png")
     if place.picture is not None:
         shutil.copyfile(place.picture, target)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from io import StringIO
 from typing import Any
 
 import numpy as np
 
 from surfexp.figures.axes import COLORS, FONT, Label, label_lines, logarithmic, style
-from surfexp.figures.typography import INK, QUIET, canvas, points
+from surfexp.figures.typography import INK, QUIET, canvas, points, vector
 from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import Ranking
 
@@ -22,19 +21,15 @@ def draw(ranking: Ranking) -> str:
 
     Text stays text, so that it can be searched and read aloud; the same ranking gives the same bytes.
     """
-    import matplotlib as mpl
-
     rows = len(ranking.methods) + len(ranking.groups)
     top = LINE * (rows + 4)
     profile = has_profile(ranking.trials) and profiles(ranking.trials)[0][-1] >= LEAST_FACTOR
     height = top + (PLOT_HEIGHT if profile else 0)
-    sink = StringIO()
-    with canvas(WIDTH, height) as figure, mpl.rc_context({"svg.hashsalt": "surfexp", "svg.fonttype": "none"}):
+    with canvas(WIDTH, height) as figure:
         _draw_ranks(figure, ranking, 1.0 - top / height, top / height)
         if profile:
             _draw_profile(figure, ranking, PLOT_HEIGHT / height)
-        figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None})
-    return sink.getvalue()
+        return vector(figure, outlines=False)
 
 
 def _draw_ranks(figure: Any, ranking: Ranking, bottom: float, height: float) -> None:
