@@ -9,34 +9,51 @@ import signal
 import subprocess
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from torture.case import HUNG, MENDED, RIGHT, WRONG, Ended
 from torture.laboratory import end, run, start, store_bytes, working_folder
 
 COUNT, ROUNDS, DRIVERS = 200, 20, 8
+CHAIN = 3
 VICTIMS = ("driver", "snakemake", "worker", "any")
 
 
 def kills(seed: int = 0, count: int = COUNT) -> Iterator[Ended]:
-    """Kill the driver, Snakemake, a worker or any process of a run, from its first moment to its last."""
+    """Kill the driver, Snakemake, a worker or any process of a run, from its first moment to its last.
+
+    Every third run that continues a killed one may end, and has to end with the bytes of a run that nobody killed.
+    """
     rng = random.Random(seed)
     with working_folder() as folder:
         begin = time.monotonic()
         run(folder, "run", "experiment=small")
         length, intact = time.monotonic() - begin, store_bytes(folder / "results")
-        for number in range(count):
+        done = 0
+        while done < count:
             shutil.rmtree(folder / "results", ignore_errors=True)
-            victim = VICTIMS[number % len(VICTIMS)]
-            moment = rng.uniform(0.1, 1.0) * length
-            process = start(folder, "run", "experiment=small")
-            time.sleep(moment)
-            killed = _kill(process, victim, rng)
-            first = end(process)
-            name = f"{killed} after {moment:.1f} s"
-            left = _left(folder)
+            killed = [_killed(folder, rng, length) for _ in range(min(CHAIN, count - done))]
             again = run(folder, "run", "experiment=small")
-            yield _judged(name, first.code, left, again.code, again.error, store_bytes(folder / "results") == intact)
+            same = store_bytes(folder / "results") == intact
+            for name, first, left in filter(None, killed):
+                done += 1
+                yield _judged(name, first, left, again.code, again.error, same)
+
+
+def _killed(folder: Path, rng: random.Random, length: float) -> tuple[str, int | None, list[str]] | None:
+    """Begin or continue a run and kill one of its processes: what was killed, the exit code, what is left behind.
+
+    None where the run, which may have had little left to do, ended before.
+    """
+    process = start(folder, "run", "experiment=small")
+    moment = rng.uniform(0.1, 1.0) * length
+    with suppress(subprocess.TimeoutExpired):
+        process.wait(moment)
+        end(process)
+        return None
+    found = _kill(process, rng)
+    return f"{found} after {moment:.1f} s", end(process).code, _left(folder)
 
 
 def _judged(name: str, first: int | None, left: list[str], code: int | None, error: str, same: bool) -> Ended:
@@ -51,16 +68,14 @@ def _judged(name: str, first: int | None, left: list[str], code: int | None, err
     return Ended("kill", name, MENDED, "")
 
 
-def _kill(process: subprocess.Popen[str], victim: str, rng: random.Random) -> str:
+def _kill(process: subprocess.Popen[str], rng: random.Random) -> str:
     """Send SIGKILL to the driver, or to a process below it; what was killed."""
-    below = _below(process.pid)
+    victim, below = rng.choice(VICTIMS), _below(process.pid)
     wanted = {"snakemake": "snakemake", "worker": "stage_server", "any": ""}.get(victim)
     found = [pid for pid, command in below.items() if wanted is not None and wanted in command]
     chosen = rng.choice(found) if found else process.pid
-    try:
+    with suppress(ProcessLookupError):
         os.kill(chosen, signal.SIGKILL)
-    except ProcessLookupError:
-        return "nothing (it had ended)"
     return victim if found else "driver"
 
 

@@ -92,7 +92,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     rules = Path(store.__file__).with_name("rules.smk")
     profile = str(_profile(plan.settings.profile or "default"))
     cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
-    command = [sys.executable, "-P", "-m", "surfexp.workers.snakemake"]
+    command = [sys.executable, "-P", "-m", "surfexp.workers.snakemake", str(os.getpid())]
     command += ["--snakefile", str(rules), "--workflow-profile", profile, "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]

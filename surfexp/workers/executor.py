@@ -6,6 +6,7 @@ Nothing is polled: a thread for each warm process waits for its replies and call
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import threading
@@ -36,7 +37,7 @@ class WarmProcess:
         self.jobs: dict[str, SubmittedJobInfo] = {}
         self.lost = False
         self.turn = threading.Lock()
-        command = [sys.executable, "-P", "-m", "surfexp.workers.stage_server", str(plan_path), state]
+        command = [sys.executable, "-P", "-m", "surfexp.workers.stage_server", str(plan_path), state, str(os.getpid())]
         self.process = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import json
 import os
 import resource
@@ -17,6 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from surfexp.workers.lifetime import die_with_parent
 from surfexp.workflow import stage, store
 from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Node, Plan, read_plan
@@ -85,14 +85,6 @@ def write_death(results: Path, node: Node, reason: str, seconds: float = 0.0, me
     event_path(results, node.kind, node.key).with_suffix(".progress").unlink(missing_ok=True)
     measured = {"seconds": seconds, "peak_memory_mb": memory, "warnings": []}
     store.write_text(event_path(results, node.kind, node.key), json.dumps(event | measured, indent=1))
-
-
-def die_with_parent(parent: int) -> None:
-    """Ask the kernel to kill this process when its parent dies (Linux), and end it if that has happened already."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
-    if os.getppid() != parent:
-        os._exit(1)
 
 
 def _write_to(log: Path) -> None:

@@ -18,7 +18,8 @@ import time
 from pathlib import Path
 
 from surfexp.workers import compiled_code
-from surfexp.workers.stage_process import die_with_parent, finished, fork_stage
+from surfexp.workers.lifetime import die_with_parent
+from surfexp.workers.stage_process import finished, fork_stage
 from surfexp.workflow import registry, store
 from surfexp.workflow.plan import Plan, read_plan
 
@@ -65,9 +66,9 @@ class Server:
             os.write(self.replies, json.dumps(reply).encode() + b"\n")
 
 
-def main(plan_path: Path, state: str) -> None:
-    """Serve until standard input ends."""
-    die_with_parent(os.getppid())
+def main(plan_path: Path, state: str, parent: int) -> None:
+    """Serve until standard input ends, or its parent does."""
+    die_with_parent(parent)
     replies = os.dup(1)
     os.set_inheritable(replies, False)
     os.dup2(2, 1)  # what a plugin prints is no reply
@@ -92,4 +93,4 @@ def main(plan_path: Path, state: str) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), sys.argv[2])
+    main(Path(sys.argv[1]), sys.argv[2], int(sys.argv[3]))

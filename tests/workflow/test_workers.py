@@ -73,7 +73,7 @@ class Server:
     def __init__(self, plan: Plan, path: Path) -> None:
         self.logs = path.parent.parent / "logs"
         state = next(iter(plan.nodes.values())).cache
-        command = [sys.executable, "-m", "surfexp.workers.stage_server", str(path), state]
+        command = [sys.executable, "-m", "surfexp.workers.stage_server", str(path), state, str(os.getpid())]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def ask(self, keys: list[str]) -> dict[str, dict[str, Any]]:
