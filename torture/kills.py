@@ -16,14 +16,14 @@ from torture.case import HUNG, MENDED, RIGHT, WRONG, Ended
 from torture.laboratory import end, run, start, store_bytes, working_folder
 
 COUNT, ROUNDS, DRIVERS = 200, 20, 8
-CHAIN = 3
+CHAIN = 5
 VICTIMS = ("driver", "snakemake", "worker", "any")
 
 
 def kills(seed: int = 0, count: int = COUNT) -> Iterator[Ended]:
     """Kill the driver, Snakemake, a worker or any process of a run, from its first moment to its last.
 
-    Every third run that continues a killed one may end, and has to end with the bytes of a run that nobody killed.
+    Every fifth run that continues a killed one may end, and has to end with the bytes of a run that nobody killed.
     """
     rng = random.Random(seed)
     with working_folder() as folder:
