@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-import yaml
-
 from mutation import ROOT
 from mutation.claims import OUTCOMES, ClaimFault, Trial, faults, recorded_trials
+from surfexp.language.statements import claims_of
 
 PAGE = ROOT / "docs" / "claim_faults.md"
 NOT_RUN = "not run"
@@ -65,8 +64,7 @@ def _rank(found: tuple[str, str]) -> int:
 def _stated() -> list[tuple[str, str]]:
     """Return (experiment, claim) of every claim."""
     files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
-    stated = [(file.stem, yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []) for file in files]
-    return [(name, entry["claim"]) for name, entries in stated for entry in entries]
+    return [(file.stem, entry["claim"]) for file in files for entry in claims_of(file)]
 
 
 def _row(name: str, claim: str, trials: list[Trial]) -> tuple[str, str]:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
+
+import yaml
 
 from surfexp.workflow.errors import UserError, check_known
 
@@ -11,6 +14,12 @@ QUANTITIES = ("all", "any", "mean", "min", "max", "ratio")
 BELOW = ("between", "because", "published", "reference", "unconverged", "moved", "otherwise", "cause")
 PARTS = {"metric": "metric", "of": "rows", "to": "over"}
 UNEXPLAINED = "No reason is given."
+
+
+def claims_of(file: Path) -> list[Any]:
+    """Return the claims of an experiment's file, each written out."""
+    claims = yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []
+    return [claim_written_out(claim, number) for number, claim in enumerate(claims, 1)]
 
 
 def claim_written_out(given: Any, number: int) -> Any:

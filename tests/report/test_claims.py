@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
+from surfexp.language.statements import claims_of
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
@@ -200,11 +200,11 @@ def test_a_key_that_is_missing_is_named(key: str) -> None:
 
 @pytest.mark.parametrize("file", sorted(EXPERIMENTS.glob("*.yaml")), ids=lambda file: file.stem)
 def test_the_claims_of_every_experiment_are_well_formed(file: Path) -> None:
-    read_claims(yaml.safe_load(file.read_text()).get("claims") or [])
+    read_claims(claims_of(file))
 
 
 def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
-    claims = yaml.safe_load((EXPERIMENTS / "operator_convergence.yaml").read_text())["claims"]
+    claims = claims_of(EXPERIMENTS / "operator_convergence.yaml")
     claim = next(claim for claim in claims if claim["claim"].startswith("The face-based divergence"))
     assert judged(claim, measured()).verdict == "holds"
     right = diagnostics.divergence

@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 import yaml
 
+from surfexp.language.statements import claims_of
+
 ROOT = Path(__file__).resolve().parents[2]
 STATEMENTS: list[dict[str, Any]] = yaml.safe_load((ROOT / "docs" / "claims.yaml").read_text(encoding="utf-8"))[
     "statements"
@@ -27,11 +29,7 @@ NUMBERED = (
 
 def claims() -> list[tuple[str, dict[str, Any]]]:
     files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
-    return [
-        (file.stem, claim)
-        for file in files
-        for claim in yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []
-    ]
+    return [(file.stem, claim) for file in files for claim in claims_of(file)]
 
 
 def citation(claim: dict[str, Any]) -> str:

