@@ -17,6 +17,7 @@ from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
+from surfexp.io.single_precision import check_single_precision_maps
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.mesh.label_map import LabelMap
 
@@ -163,7 +164,7 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     Raises
     ------
     ValueError
-        If the format is unknown, takes a single map, or cannot say NaN where there is one.
+        If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -173,15 +174,15 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     elif suffix in TEXT:
         write_table(path, maps)
     elif is_cifti(path):
-        write_cifti_maps(path, maps, hemisphere)
+        write_cifti_maps(path, check_single_precision_maps(maps), hemisphere)
     elif is_gifti(path):
-        write_gifti_maps(path, maps, hemisphere)
+        write_gifti_maps(path, check_single_precision_maps(maps), hemisphere)
     elif suffix == ".npy":
         np.save(path, _single(path, maps))
     elif suffix in VOLUMES:
-        freesurfer.write_volume_map(path, _single(path, maps))
+        freesurfer.write_volume_map(path, _single(path, check_single_precision_maps(maps)))
     elif suffix in (".curv", ".sulc", ".thickness", ".area") or freesurfer.hemisphere_of(path):
-        freesurfer.write_curvature(path, _single(path, maps))
+        freesurfer.write_curvature(path, _single(path, check_single_precision_maps(maps)))
     else:
         raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
 

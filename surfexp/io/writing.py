@@ -12,6 +12,7 @@ from surfexp.io.npz import write_npz_mesh
 from surfexp.io.obj import write_obj
 from surfexp.io.off import write_off
 from surfexp.io.ply import write_ply
+from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.stl import write_stl
 from surfexp.io.vtk import write_vtk
 from surfexp.io.vtp import write_vtp
@@ -21,6 +22,7 @@ Writer = Callable[[Path, TriangleMesh], None]
 WriterOfMaps = Callable[[Path, TriangleMesh, dict[str, Floats]], None]
 WITH_MAPS: dict[str, WriterOfMaps] = {".ply": write_ply, ".vtk": write_vtk, ".vtp": write_vtp, ".npz": write_npz_mesh}
 WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".gii": write_gifti, ".stl": write_stl}
+SINGLE_PRECISION = (".gii", ".stl")
 FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness")
 
 
@@ -32,7 +34,8 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
     Raises
     ------
     ValueError
-        If the format is unknown or cannot carry scalar maps, or a map has another length than the mesh.
+        If the format is unknown or cannot carry scalar maps, a map has another length than the mesh, or single precision
+        cannot hold the mesh.
     """
     path, maps = Path(path), scalars or {}
     for name, values in maps.items():
@@ -49,7 +52,8 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
         raise ValueError(f"{path} has an unknown format, choose one of {known}")
     elif maps:
         raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(WITH_MAPS)}")
-    elif freesurfer:
-        write_freesurfer_geometry(path, mesh)
+    elif freesurfer or suffix in SINGLE_PRECISION:
+        check_single_precision_points(mesh.vertices, mesh.faces)
+        (write_freesurfer_geometry if freesurfer else WITHOUT_MAPS[suffix])(path, mesh)
     else:
         WITHOUT_MAPS[suffix](path, mesh)

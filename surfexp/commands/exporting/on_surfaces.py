@@ -10,8 +10,10 @@ import numpy as np
 from surfexp.arrays import Floats, Integers
 from surfexp.commands.exporting.names import slug
 from surfexp.commands.exporting.writers import Place, arrays_of, maps_of, write, write_arrays, write_csv
-from surfexp.io.gifti import write_gifti, write_gifti_labels, write_gifti_maps
+from surfexp.io.gifti import write_gifti, write_gifti_labels
 from surfexp.io.label_files import label_colors
+from surfexp.io.map_files import write_maps
+from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.vtk import scalar_channels
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.surface import Surface
@@ -33,6 +35,7 @@ def _surface(surface: Surface, place: Place) -> None:
     parcellations = {name: table.keys.astype(np.float64) for name, table in surface.labels.items()}
     write_mesh(place.file(".vtp"), surface.mesh, {**parcellations, **own, **place.carried})
     if surface.hemisphere:
+        check_single_precision_points(surface.mesh.vertices, surface.mesh.faces)
         write_gifti(place.file(".surf.gii"), surface.mesh, surface.hemisphere)
     for name, table in surface.labels.items():
         _write_labels(place, name, table.keys, table.names)
@@ -84,10 +87,10 @@ def _write_maps(place: Place, maps: Mapping[str, Floats], name: str) -> None:
     """Write maps as one .shape.gii, and where the surface was cut out of another, as one more for the whole of that."""
     named = scalar_channels({f"{name} {part}".rstrip(): values for part, values in maps.items()})
     surface = place.surface
-    write_gifti_maps(place.file(".shape.gii"), named, surface.hemisphere if surface else "")
+    write_maps(place.file(".shape.gii"), named, surface.hemisphere if surface else "")
     if surface is not None and surface.part is not None and not surface.part.is_whole:
         whole = {key: surface.part.extend(values) for key, values in named.items()}
-        write_gifti_maps(place.file("-whole.shape.gii"), whole, surface.hemisphere)
+        write_maps(place.file("-whole.shape.gii"), whole, surface.hemisphere)
 
 
 def _write_labels(place: Place, name: str, keys: Integers, names: Mapping[Any, str]) -> None:
