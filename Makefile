@@ -18,12 +18,12 @@ test: .venv/ready
 test-all: .venv/ready
 	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
 
-optional: .venv/ready # open3d, cvxpy: their tests are skipped without
+optional: .venv/ready # open3d, cvxpy, svglib: their tests are skipped without
 	$(BIN)/python -m pip install --quiet --no-deps --no-compile --require-hashes -r requirements-optional.lock
 
 test-optional: optional
 	$(BIN)/python tests/check_licences.py requirements-optional.lock
-	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic" tests/io tests/mesh tests/variational tests/test_plugins.py
+	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic or print" tests/io tests/mesh tests/variational tests/test_plugins.py tests/report/test_drawing.py
 
 lint: .venv/ready
 	$(BIN)/ruff check .
@@ -89,7 +89,7 @@ lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
-		pyproject.toml --extra dev --extra open3d --extra conic --extra bench --extra site -c requirements.lock -o requirements-optional.lock
+		pyproject.toml --extra dev --extra open3d --extra conic --extra print --extra bench --extra site -c requirements.lock -o requirements-optional.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		--group release -o requirements-release.lock
 

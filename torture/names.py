@@ -40,7 +40,7 @@ def _judged(name: str, folder: Path, code: int | None, error: str, stray: list[s
     if stray:
         return Ended("name", label, WRONG, f"left {stray[:3]}")
     if code == 0:
-        there = (folder / name / "small" / "report.html").exists()
+        there = ((folder / name).resolve() / "small" / "report.html").exists()
         return Ended("name", label, RIGHT if there else WRONG, "" if there else "the report is not in the folder")
     wrong = f"exit {code}: {error[-200:]}" if code != 2 else clear(error.strip())
     return Ended("name", label, WRONG if wrong else REFUSED, wrong or error.strip())

@@ -169,10 +169,15 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
     with _told("the report is not written"):
         if computed:
             write_origin(views, arguments) if arguments is not None else forget_origin(views)
+        recording = None
+        with _told("runs are not recorded in MLflow"):  # before the page, which leads to them
+            recording = record(plan, results)
+            _warn(recording.said)
         folder = write_report(plan, results)
-        with _told("runs are not recorded in MLflow"):
-            _warn(record(plan, results, folder))
-            store.write_text(done, state)
+        with _told("the report is not kept in MLflow"):
+            if recording:
+                recording.attach(folder)
+                store.write_text(done, state)
 
 
 @contextmanager

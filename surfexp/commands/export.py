@@ -37,9 +37,21 @@ def _kinds(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> l
     help="only stages of this kind, wherever they stand; repeatable",
 )
 @click.option("--matrix-market", is_flag=True, help="write the matrices of operators as .mtx too")
+@click.option(
+    "--print",
+    "for_print",
+    is_flag=True,
+    help="write plots as .pdf and as .png of 300 dots an inch too (surfexp[print])",
+)
 @click.option("--results", type=click.Path(path_type=Path), default="results", show_default=True, help="results folder")
 def export(
-    target: str, folder: Path, everything: bool, kinds: tuple[str, ...], matrix_market: bool, results: Path
+    target: str,
+    folder: Path,
+    everything: bool,
+    kinds: tuple[str, ...],
+    matrix_market: bool,
+    for_print: bool,
+    results: Path,
 ) -> int:
     """Write finished results as files: what the rows of the tables are, their figures, surfaces and images.
 
@@ -56,11 +68,14 @@ def export(
     from surfexp.commands.exporting.folder import ExportFolder
     from surfexp.commands.exporting.selection import chosen_stages, find
     from surfexp.commands.exporting.stages import Export
+    from surfexp.report.printing import require_printing
 
+    if for_print:
+        require_printing()
     plan, key = find(results, target)
     nodes = chosen_stages(plan, key, everything, kinds)
     with ExportFolder(folder) as destination:
-        export = Export(plan, results, destination, matrix_market)
+        export = Export(plan, results, destination, matrix_market, for_print)
         console = Console(stderr=True)
         steps = track(
             export.stages(nodes), "export", len(nodes), console=console, disable=not console.is_terminal, transient=True

@@ -21,6 +21,7 @@ from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.repeats import Repeats, repeats_of
+from surfexp.report.run_addresses import run_addresses
 from surfexp.report.search import search_of, write_search
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.turning.turning import Turning
@@ -82,6 +83,7 @@ def write_report(plan: Plan, results: Path) -> Path:
         searched=write_search(search, folder / "figures") if search else "",
         arrays=turning.payload.arrays,
         scripts=turning.scripts,
+        runs=run_addresses(results / "mlflow.db", plan.settings.experiment),
     )
     store.write_text(folder / "report.html", page)
     pictures = [item["file"] for section in sections for item in section.figures]

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from surfexp.report.run_database import KnownRun, RunContent
 
 DATABASE = "mlflow.db"
+NOTE = "mlflow.note.content"
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
 
@@ -29,11 +30,34 @@ def tracking_uri(results: Path) -> str:
     return f"sqlite:///{results.resolve() / DATABASE}"
 
 
-def record(plan: Plan, results: Path, views: Path) -> list[str]:
+@dataclass(frozen=True)
+class Recording:
+    """What a plan's runs are recorded below; `said` is what was wrong with the database, a line each."""
+
+    client: Any
+    parent: str
+    parent_tags: Mapping[str, str]
+    own_tags: Mapping[str, str]
+    state: tuple[Any, ...]
+    failed: bool
+    said: tuple[str, ...]
+
+    def attach(self, views: Path) -> None:
+        """Keep the pages of the experiment as artifacts of its parent run, and end that; nothing if it has them."""
+        state = digest([*self.state, (views / "metrics.csv").read_text()])
+        if self.parent_tags.get("state") == state:
+            return
+        for tag, value in {**self.own_tags, "state": state}.items():
+            self.client.set_tag(self.parent, tag, value)
+        self.client.log_artifacts(self.parent, str(views))
+        self.client.set_terminated(self.parent, "FAILED" if self.failed else "FINISHED")
+
+
+def record(plan: Plan, results: Path) -> Recording:
     """Create or update one run a leaf, below one parent run for the experiment; a second call changes nothing.
 
     A run belongs to (experiment, leaf key). A leaf whose earlier run failed takes that run over; a run of the same
-    configuration under older code keeps a tag `current=false`. What was wrong with the database is returned, a line each.
+    configuration under older code keeps a tag `current=false`.
     """
     os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
     os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
@@ -45,7 +69,7 @@ def record(plan: Plan, results: Path, views: Path) -> list[str]:
     from surfexp.report.database_file import prepare
     from surfexp.report.run_database import known_runs, set_tag, write_runs
 
-    said = [prepare(results / DATABASE)]
+    said: tuple[str, ...] = (prepare(results / DATABASE),)
     client = MlflowClient(tracking_uri(results))
     name = plan.settings.experiment
     location = (results / "mlflow-artifacts").resolve().as_uri()
@@ -54,7 +78,7 @@ def record(plan: Plan, results: Path, views: Path) -> list[str]:
     )
     if experiment.lifecycle_stage == "deleted":
         client.restore_experiment(experiment.experiment_id)
-        said.append(f"experiment {name!r} was deleted in MLflow: it is restored")
+        said += (f"experiment {name!r} was deleted in MLflow: it is restored",)
     database = SqlAlchemyStore(tracking_uri(results), location)
     runs = known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
     parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
@@ -63,21 +87,19 @@ def record(plan: Plan, results: Path, views: Path) -> list[str]:
     versions = _versions()
     changes = _changes(plan, outcomes, runs)
     tags = {**versions, "mlflow.parentRunId": parent_id}
+    page = f"#/experiments/{experiment.experiment_id}/runs/{parent_id}/artifacts/report.html"
     names = _names(plan) if changes else {}
     write_runs(
         database,
         experiment,
-        ((change.run, _content(plan, results, change, outcomes, names, tags)) for change in changes),
+        ((change.run, _content(plan, results, change, outcomes, names, tags, page)) for change in changes),
     )
     set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
-    state = digest([sorted(leaf.key for leaf in plan.leaves), failed, (views / "metrics.csv").read_text()])
-    if parent is None or parent.tags.get("state") != state:
-        for tag, value in {"plan": plan.identity, "state": state, **versions}.items():
-            client.set_tag(parent_id, tag, value)
-        client.log_artifacts(parent_id, str(views))
-        client.set_terminated(parent_id, "FAILED" if failed else "FINISHED")
-    return [line for line in said if line]
+    state = (sorted(leaf.key for leaf in plan.leaves), failed)
+    own_tags = {"plan": plan.identity, **versions}
+    known = parent.tags if parent else {}
+    return Recording(client, parent_id, known, own_tags, state, failed, tuple(line for line in said if line))
 
 
 def _new_parent(client: Any, experiment: str, name: str) -> str:
@@ -124,8 +146,12 @@ def _content(
     outcomes: Mapping[str, Outcome],
     names: Mapping[str, str],
     tags: Mapping[str, str],
+    page: str,
 ) -> RunContent:
-    """What the run of a leaf shows: its options, its numbers and history, what the stages before it took."""
+    """What the run of a leaf shows: its options, its numbers and history, what the stages before it took.
+
+    A new run leads to the page with its row; after that its note is a person's.
+    """
     from surfexp.report.run_database import RunContent
 
     leaf, own = change.leaf, outcomes[change.leaf.key]
@@ -149,7 +175,10 @@ def _content(
     own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
     parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
     status = "FAILED" if own.failure else "FINISHED"
-    all_tags = {**tags, **own_tags, "failure": "; ".join(failures)}
+    note = (
+        {} if change.run else {NOTE: f"A row of [report.html]({page}): `{leaf.key}` in the column leaf of metrics.csv."}
+    )
+    all_tags = {**tags, **own_tags, **note, "failure": "; ".join(failures)}
     return RunContent(names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags)
 
 

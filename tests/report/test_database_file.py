@@ -101,6 +101,12 @@ def of_another_version(file: Path) -> None:
         connection.commit()
 
 
+def told(plan: Plan, results: Path) -> tuple[str, ...]:
+    recording = tracking.record(plan, results)
+    recording.attach(results / "views")
+    return recording.said
+
+
 @pytest.mark.parametrize(
     ("damage", "reason"),
     [
@@ -116,13 +122,13 @@ def test_what_cannot_be_used_is_set_aside_and_recorded_again(
     database: Path, tmp_path: Path, damage: Callable[[Path], None], reason: str
 ) -> None:
     plan = plan_with_results(tmp_path)
-    assert tracking.record(plan, tmp_path, tmp_path / "views") == []
+    assert told(plan, tmp_path) == ()
     damage(database)
     bytes_before = database.read_bytes()
-    (line,) = tracking.record(plan, tmp_path, tmp_path / "views")
+    (line,) = told(plan, tmp_path)
     assert reason in line and "kept as mlflow.db.set-aside-1" in line and "\n" not in line
     assert (tmp_path / "mlflow.db.set-aside-1").read_bytes() == bytes_before
-    assert tracking.record(plan, tmp_path, tmp_path / "views") == []
+    assert told(plan, tmp_path) == ()
     with closing(sqlite3.connect(database)) as connection:
         assert connection.execute("SELECT count(*) FROM runs").fetchone() == (3,)
 
@@ -195,12 +201,12 @@ def test_a_deleted_experiment_is_restored(database: Path, tmp_path: Path) -> Non
     from mlflow.tracking import MlflowClient
 
     plan = plan_with_results(tmp_path)
-    tracking.record(plan, tmp_path, tmp_path / "views")
+    told(plan, tmp_path)
     client = MlflowClient(tracking.tracking_uri(tmp_path))
     experiment = client.get_experiment_by_name(plan.settings.experiment)
     assert experiment is not None
     client.delete_experiment(experiment.experiment_id)
-    (line,) = tracking.record(plan, tmp_path, tmp_path / "views")
+    (line,) = told(plan, tmp_path)
     assert line == f"experiment {plan.settings.experiment!r} was deleted in MLflow: it is restored"
     assert len(client.search_runs([experiment.experiment_id])) == 3
 
@@ -214,7 +220,7 @@ def test_neither_the_report_nor_mlflow_stops_a_run(
     with monkeypatch.context() as patch:
         patch.setattr(part, lambda *_: 1 / 0)
         execution.finish(path, plan)
-    (line,) = capsys.readouterr().err.splitlines()
+    (line,) = [line for line in capsys.readouterr().err.splitlines() if line.startswith("surfexp:")]
     assert "(ZeroDivisionError: division by zero); the results are whole, the same command tries again" in line
     execution.finish(path, plan)
     assert "surfexp:" not in capsys.readouterr().err and (tmp_path / "mlflow.db").exists()

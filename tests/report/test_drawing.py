@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from io import BytesIO
 from xml.etree import ElementTree
 
 import numpy as np
@@ -76,3 +78,21 @@ def test_what_runs_loads_or_links_is_no_drawing(body: str) -> None:
 )
 def test_what_is_no_drawing_is_none(text: str) -> None:
     assert not is_still(text)
+
+
+def test_a_plot_for_print_has_its_size_and_no_pixels_in_its_lines() -> None:
+    pytest.importorskip("svglib", reason="needs svglib: make optional")
+    pytest.importorskip("resvg_py", reason="needs resvg-py: make optional")
+    image_file = pytest.importorskip("PIL.Image")
+    from surfexp.report.printing import as_pdf, as_png
+
+    svg = plot().svg
+    root = ElementTree.fromstring(svg)  # noqa: S314, our own
+    inches = [float(root.attrib[side].removesuffix("pt")) / 72 for side in ("width", "height")]
+    pixels = image_file.open(BytesIO(as_png(svg)))
+    assert np.abs(np.array(pixels.size) - 300 * np.array(inches)).max() <= 1.0
+    assert np.asarray(pixels.convert("L")).min() < 64  # letters are there
+    page = as_pdf(svg)
+    (box,) = re.findall(rb"/MediaBox\s*\[\s*0 0 ([\d.]+) ([\d.]+)\s*\]", page)
+    assert np.abs(np.array(box, dtype=float) - 72 * np.array(inches)).max() <= 0.1
+    assert b"/Subtype /Image" not in page

@@ -16,6 +16,8 @@ import sqlalchemy
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.report import run_database, tracking
+from surfexp.report.page import write_report
+from surfexp.report.run_addresses import run_addresses
 from surfexp.workflow import store
 from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Plan
@@ -49,7 +51,7 @@ def recorded(plan: Plan, results: Path) -> dict[str, Any]:
     views = results / "views"
     views.mkdir(exist_ok=True)
     (views / "metrics.csv").write_text("leaf\n")
-    tracking.record(plan, results, views)
+    tracking.record(plan, results).attach(views)
     return runs(results, plan.settings.experiment)
 
 
@@ -161,7 +163,7 @@ def test_statements_do_not_grow_with_the_runs_and_an_unchanged_rerun_asks_once(
         with statements() as first:
             recorded(plan, results)
         with statements() as again:
-            tracking.record(plan, results, results / "views")
+            tracking.record(plan, results).attach(results / "views")
         assert not [text for text in again if not text.startswith("SELECT")]
         assert sum("FROM runs" in text for text in again) == 1, again
         counts[leaves] = len(first), len(again)
@@ -194,6 +196,27 @@ def test_a_failed_run_is_taken_over_and_a_changed_one_replaced(results: Path) ->
     assert again[leaf].data.metrics.keys() == after[leaf].data.metrics.keys()
     assert again[leaf].info.end_time - again[leaf].info.start_time == 125
     assert again[leaf].info.start_time == before[leaf].info.start_time
+
+
+def test_a_row_leads_to_its_run_and_a_new_run_to_its_page(results: Path) -> None:
+    plan = finished(2, results)
+    database, name = results / "mlflow.db", plan.settings.experiment
+    found = recorded(plan, results)
+    addresses = run_addresses(database, name)
+    number = found["plan"].info.experiment_id
+    for leaf in plan.leaves:
+        run = found[leaf.key]
+        assert addresses[leaf.key] == f"http://127.0.0.1:5000/#/experiments/{number}/runs/{run.info.run_id}"
+        page = f"(#/experiments/{number}/runs/{found['plan'].info.run_id}/artifacts/report.html)"
+        assert page in run.data.tags["mlflow.note.content"] and leaf.key in run.data.tags["mlflow.note.content"]
+    write_report(plan, results)
+    text = (results / name / "report.html").read_text()
+    assert all(f'<a href="{addresses[leaf.key]}"' in text for leaf in plan.leaves)
+    assert run_addresses(database, "another") == {}
+    database.write_bytes(b"no database")
+    assert run_addresses(database, name) == run_addresses(results / "none.db", name) == {}
+    write_report(plan, results)
+    assert "127.0.0.1" not in (results / name / "report.html").read_text()
 
 
 def test_names_tell_runs_apart_and_durations_are_those_of_the_computation(results: Path) -> None:

@@ -452,7 +452,7 @@ def test_a_run_of_the_dashboard_is_exported_by_its_id(laboratory: Laboratory, sp
     surface = laboratory.stage("surface", "ball", sphere)
     laboratory.leaf(surface, surface__name="ball")
     laboratory.plan.write(laboratory.results)
-    record(laboratory.plan, laboratory.results, write_report(laboratory.plan, laboratory.results))
+    record(laboratory.plan, laboratory.results).attach(write_report(laboratory.plan, laboratory.results))
     client = MlflowClient(f"sqlite:///{laboratory.results / 'mlflow.db'}")
     experiment = client.get_experiment_by_name("hand")
     assert experiment is not None

@@ -36,10 +36,15 @@ class Export:
         Entered.
     matrix_market : bool
         Whether matrices are written as .mtx too.
+    for_print : bool
+        Whether plots are written as .pdf and at 300 dots an inch too.
     """
 
-    def __init__(self, plan: Plan, results: Path, folder: ExportFolder, matrix_market: bool = False) -> None:
-        self.plan, self.results, self.folder, self.matrix_market = plan, results, folder, matrix_market
+    def __init__(
+        self, plan: Plan, results: Path, folder: ExportFolder, matrix_market: bool = False, for_print: bool = False
+    ) -> None:
+        self.plan, self.results, self.folder = plan, results, folder
+        self.matrix_market, self.for_print = matrix_market, for_print
         self.names = names_of(plan, results)
         self.carried: dict[str, dict[str, Any]] = {}
         self.rows: list[dict[str, Any]] = []
@@ -70,6 +75,7 @@ class Export:
             carried=self.carried.get(node.key, {}),
             picture=picture if node.kind == "figure" and picture.exists() else None,
             matrix_market=self.matrix_market,
+            for_print=self.for_print,
         )
 
     def _write(self, node: Node, found: Outcome, place: Place) -> str:

@@ -1,4 +1,4 @@
-"""Signatures, distance matrices, embeddings, classifications and statistics as .csv, figures as .png and .svg."""
+"""Signatures, distance matrices, embeddings, classifications and statistics as .csv, figures as .png, plots as .svg too."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from surfexp.commands.exporting.writers import Place, write, write_csv, write_me
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.report.drawing import is_still
+from surfexp.report.printing import DOTS_PER_INCH, as_pdf, as_png
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.classification import Classification
 from surfexp.statistics.distance_matrix import DistanceMatrix
@@ -81,6 +82,9 @@ def _figure(figure: Figure, place: Place) -> None:
     """The pixels, and the drawing of a plot; the picture of the report where that has the same bytes."""
     if figure.svg and is_still(figure.svg):
         place.file(".svg").write_text(figure.svg, encoding="utf-8")
+        if place.for_print:
+            place.file(".pdf").write_bytes(as_pdf(figure.svg))
+            place.file(f"-{DOTS_PER_INCH}dpi.png").write_bytes(as_png(figure.svg))
     target = place.file(".png")
     if place.picture is not None:
         shutil.copyfile(place.picture, target)

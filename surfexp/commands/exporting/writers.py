@@ -38,6 +38,8 @@ class Place:
         The finished picture, where the result is a figure and its report was written.
     matrix_market : bool
         Whether matrices are written as .mtx too.
+    for_print : bool
+        Whether plots are written as .pdf and at 300 dots an inch too.
     files : list of Path
         What was written.
     """
@@ -48,6 +50,7 @@ class Place:
     carried: Mapping[str, Floats] = field(default_factory=dict)
     picture: Path | None = None
     matrix_market: bool = False
+    for_print: bool = False
     files: list[Path] = field(default_factory=list)
 
     def file(self, suffix: str, stem: str = "") -> Path:
