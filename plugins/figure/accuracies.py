@@ -31,7 +31,10 @@ def accuracies_figure(options: Accuracies, *, classifiers: dict[str, Classificat
         caption += " Without an error in the sample an interval has no width; it does not prove that there is none."
     methods = {found.method.replace("_", " ") for found in classifiers.values()}
     title = options.title or (methods.pop() if len(methods) == 1 else "")
-    return interval_plot(intervals, x_label=name.replace("_", " "), reference=reference, title=title, caption=caption)
+    shown = name.replace("_", " ")
+    return interval_plot(
+        intervals, x_label=shown, reference=reference, reference_name="chance", title=title, caption=caption
+    )
 
 
 def _interval(metrics: dict[str, float], name: str, label: str) -> tuple[float, float, float]:

@@ -13,6 +13,8 @@ from surfexp.arrays import Floats
 DIVERGING = frozenset(
     ["PiYG", "PRGn", "BrBG", "PuOr", "RdGy", "RdBu", "RdYlBu", "RdYlGn", "Spectral", "coolwarm", "bwr", "seismic"]
 ).union(["berlin", "managua", "vanimo"])
+# takes the place of a diverging map where the values have one sign
+SEQUENTIAL = "viridis"
 MISSING = (0.62, 0.62, 0.62)
 
 
@@ -67,18 +69,20 @@ class ColorScale:
     def fitted(self, values: Floats) -> ColorScale:
         """The same scale with limits: its own, or the percentiles of the finite values, symmetric if diverging.
 
-        Values that are all the same, or none at all, get limits 0.5 to either side.
+        Of values with one sign no colour may mean zero: they get a sequential map in place of a diverging one. Values that
+        are all the same, or none at all, get limits 0.5 to either side.
         """
         if self.limits is not None:
             return self
         finite = values[np.isfinite(values)]
         low, high = np.percentile(finite, self.percentiles) if finite.size else (0.0, 0.0)
-        if self.diverging:
+        colormap = SEQUENTIAL if self.diverging and (low > 0.0 or high < 0.0) else self.colormap
+        if colormap == self.colormap and self.diverging:
             high = max(abs(low), abs(high))
             low = -high
         if not low < high:
             low, high = low - 0.5, high + 0.5
-        return replace(self, limits=(float(low), float(high)))
+        return replace(self, colormap=colormap, limits=(float(low), float(high)))
 
     def position(self, values: Floats) -> Floats:
         """Where values lie between the limits, 0 to 1; outside beyond them, NaN stays."""

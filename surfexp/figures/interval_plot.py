@@ -17,6 +17,7 @@ def interval_plot(
     *,
     x_label: str,
     reference: float | None = None,
+    reference_name: str = "",
     title: str = "",
     caption: str = "",
     width: int = 1000,
@@ -28,6 +29,8 @@ def interval_plot(
     intervals : mapping of label to (value, lower, upper)
     reference : float, optional
         Where a dashed line stands: no effect, chance, the exact value.
+    reference_name : str
+        What is written at its lower end.
 
     Raises
     ------
@@ -47,6 +50,8 @@ def interval_plot(
             axes.plot([value], [k], color=COLORS[0], marker="o", markersize=points(0.6 * em))
         if reference is not None:
             axes.axvline(reference, color=QUIET, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1.5)
+            beside = axes.get_xaxis_transform()
+            axes.text(reference, 0.0, f" {reference_name}", transform=beside, color=QUIET, ha="left", va="bottom")
         axes.set_yticks(range(len(intervals)), list(intervals))
         axes.tick_params(axis="y", length=0.0)
         axes.set_ylim(len(intervals) - 0.5, -0.5)

@@ -26,6 +26,16 @@ def test_zero_is_the_middle_of_a_diverging_map() -> None:
     assert np.allclose(scale.rgb(np.array(0.0)), matplotlib.colormaps["RdBu_r"](0.5)[:3])
 
 
+def test_values_of_one_sign_have_no_color_that_means_zero() -> None:
+    thickness = np.linspace(1.0, 4.0, 50)
+    for values, ends in ((thickness, (1.0, 4.0)), (-thickness, (-4.0, -1.0))):
+        found = ColorScale(colormap="PuOr_r", percentiles=(0.0, 100.0)).fitted(values)
+        assert not found.diverging and found.limits == ends
+        assert found.position(values).min() == 0.0 and found.position(values).max() == 1.0
+    assert ColorScale(colormap="PuOr_r").fitted(thickness - 1.5).diverging
+    assert ColorScale(colormap="PuOr_r", limits=(1.0, 4.0)).fitted(thickness).diverging
+
+
 def test_every_diverging_map_of_matplotlib_is_known() -> None:
     # white, black or grey in the middle, and two hues at the ends
     for name in ("RdBu", "coolwarm", "seismic", "PuOr_r", "vanimo"):
