@@ -119,13 +119,14 @@ def _told(group: str, parts: list[Part], keep: bool) -> int:
 def _write_page(page: Path) -> None:
     """Write the table of what has been run, and say which groups have not."""
     missing = [group for group in GROUPS if not (FOLDER / f"{group}.json").exists()]
-    rows, bad = [], []
+    rows, bad, took = [], [], {}
     total: Counter[str] = Counter()
     for group in GROUPS:
         if group in missing:
             continue
         known = json.loads((FOLDER / f"{group}.json").read_text())
         cases = [Ended(**case) for case in known["cases"]]
+        took[group] = known["seconds"] / 60.0
         for kind in dict.fromkeys(case.kind for case in cases):
             counts = Counter(case.outcome for case in cases if case.kind == kind)
             total += counts
@@ -134,8 +135,10 @@ def _write_page(page: Path) -> None:
     head = f"| kind of fault | tried | {' | '.join(OUTCOMES)} |\n|{'---|' * (len(OUTCOMES) + 2)}\n"
     listed = "".join(f"- {case.outcome}: {case.kind}, {case.name}: {case.said}\n" for case in bad)
     rest = f"\n## What is wrong\n\n{listed}" if bad else ""
+    times = ", ".join(f"{group} {minutes:.1f}" for group, minutes in took.items())
+    told = f"\nMinutes, {AT_ONCE} parts side by side: {times}; all {sum(took.values()) / AT_ONCE:.0f}.\n"
     unknown = f"**Not run here: {', '.join(missing)}.**\n\n" if missing else ""
-    page.write_text(HEAD + unknown + head + "".join(rows) + _row("**all**", total) + rest, encoding="utf-8")
+    page.write_text(HEAD + unknown + head + "".join(rows) + _row("**all**", total) + told + rest, encoding="utf-8")
 
 
 def _row(name: str, counts: Counter[str]) -> str:

@@ -33,27 +33,37 @@ def kills(seed: int = 0, count: int = COUNT) -> Iterator[Ended]:
         done = 0
         while done < count:
             shutil.rmtree(folder / "results", ignore_errors=True)
-            killed = [_killed(folder, rng, length) for _ in range(min(CHAIN, count - done))]
+            killed, reach = [], length
+            for _ in range(min(CHAIN, count - done)):
+                found, seconds = _killed(folder, rng, reach)
+                if found:
+                    killed.append(found)
+                else:  # what is left to do takes no longer
+                    reach = seconds
             again = run(folder, "run", "experiment=small")
             same = store_bytes(folder / "results") == intact
-            for name, first, left in filter(None, killed):
+            for name, first, left in killed:
                 done += 1
                 yield _judged(name, first, left, again.code, again.error, same)
 
 
-def _killed(folder: Path, rng: random.Random, length: float) -> tuple[str, int | None, list[str]] | None:
+Killed = tuple[str, int | None, list[str]]
+
+
+def _killed(folder: Path, rng: random.Random, length: float) -> tuple[Killed | None, float]:
     """Begin or continue a run and kill one of its processes: what was killed, the exit code, what is left behind.
 
-    None where the run, which may have had little left to do, ended before.
+    None where the run, which may have had little left to do, ended before; and the seconds that it took.
     """
+    begin = time.monotonic()
     process = start(folder, "run", "experiment=small")
     moment = rng.uniform(0.1, 1.0) * length
     with suppress(subprocess.TimeoutExpired):
         process.wait(moment)
         end(process)
-        return None
+        return None, time.monotonic() - begin
     found = _kill(process, rng)
-    return f"{found} after {moment:.1f} s", end(process).code, _left(folder)
+    return (f"{found} after {moment:.1f} s", end(process).code, _left(folder)), time.monotonic() - begin
 
 
 def _judged(name: str, first: int | None, left: list[str], code: int | None, error: str, same: bool) -> Ended:
