@@ -27,6 +27,7 @@ test-optional: optional
 
 lint: .venv/ready
 	$(BIN)/ruff check .
+	$(BIN)/typos --quiet docs conf surfexp plugins examples benchmarks *.md
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
