@@ -32,8 +32,6 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "robust_laplacian": ("robust_laplacian", "robust"),
     "clarabel": ("clarabel", "conic"),
     "cvxpy": ("cvxpy", "conic"),
-    "resvg_py": ("resvg-py", "print"),
-    "svglib": ("svglib", "print"),
     "lapy": ("lapy", "peers"),
     "pooch": ("pooch", "peers"),
     "pyamg": ("pyamg", "peers"),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from io import BytesIO
 
-from surfexp.extras import require_installed
+from surfexp.extras import MissingExtra
 
 DOTS_PER_INCH = 300
+PACKAGES = {"reportlab": "reportlab", "resvg_py": "resvg-py", "svglib": "svglib"}
 
 
 def require_printing() -> None:
@@ -17,7 +19,12 @@ def require_printing() -> None:
     MissingExtra
         Naming what to install.
     """
-    require_installed("--print", "resvg_py", "svglib")
+    missing = [package for module, package in PACKAGES.items() if find_spec(module) is None]
+    if missing:
+        verb = "is" if len(missing) == 1 else "are"
+        raise MissingExtra(
+            f"--print needs {', '.join(missing)}, which {verb} not installed: pip install 'surfexp[print]'"
+        )
 
 
 def as_pdf(svg: str) -> bytes:
