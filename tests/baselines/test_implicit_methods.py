@@ -48,6 +48,7 @@ def rof_error(method):
     return OPERATOR.mass @ np.abs(solution.values - exact_cap(8.0)) / OPERATOR.mass.sum()
 
 
+@pytest.mark.slow
 def test_rof_by_closest_points_approaches_the_exact_solution():
     errors = [rof_error(replace(closest_point(MESH, step), tolerance=1e-3)) for step in (0.2, 0.1, 0.05)]
     assert errors[2] < 0.8 * errors[1] < 0.64 * errors[0], errors
@@ -129,6 +130,7 @@ def test_the_energy_of_a_start_within_the_bounds_is_finite_though_interpolation_
     assert np.isfinite(replace(method, **limit)(FIDELITY, OPERATOR, start).history["energy"]).all()
 
 
+@pytest.mark.slow
 def test_non_convex_chan_vese_moves_a_small_curve_to_the_cap():
     height = MESH.vertices[:, 2]
     initial = 0.5 - np.arccos(np.clip(height, -1, 1))

@@ -339,6 +339,7 @@ def test_the_planted_difference_is_found(template) -> None:
     assert metrics["effect, carried ends"] > 0 and metrics["p, carried ends"] < 0.05
 
 
+@pytest.mark.slow
 def test_paired_tests_agree_with_scipy_and_holm_by_hand() -> None:
     rng = np.random.default_rng(2)
     left = {name: rng.normal(10.0 + shift, 1.0, 40) for name, shift in (("a", 1.0), ("b", 0.5), ("c", 0.0))}

@@ -123,12 +123,14 @@ def test_split_is_limited_and_keeps_area(irregular: TriangleMesh) -> None:
     assert TriangleMesh(vertices, faces).area == pytest.approx(irregular.area, rel=1e-13)
 
 
+@pytest.mark.slow
 def test_collapse_is_limited_and_respects_its_bounds(irregular: TriangleMesh) -> None:
     vertices, _ = collapse_edges(irregular.vertices, irregular.faces, np.inf, np.inf, 9)
     assert len(vertices) == len(irregular.vertices) - 9
     assert len(collapse_edges(irregular.vertices, irregular.faces, 0.0, np.inf, 10**6)[0]) == len(irregular.vertices)
 
 
+@pytest.mark.slow
 def test_flips_make_a_flat_triangulation_delaunay() -> None:
     flat = disk(8).mesh
     inside = np.linalg.norm(flat.vertices, axis=1) < 0.95

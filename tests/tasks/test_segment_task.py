@@ -72,6 +72,7 @@ def test_masking_equals_cutting_and_outside_changes_nothing() -> None:
     assert any("these are the mask" in note for note in by_nan.notes)
 
 
+@pytest.mark.slow
 def test_without_a_map_the_clipped_mean_curvature_is_taken() -> None:
     torus = sx.shape("torus")
     alone = sx.segment(torus)

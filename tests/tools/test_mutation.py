@@ -65,6 +65,7 @@ def test_every_fault_of_the_numerics_is_a_program_that_differs() -> None:
             assert ast.dump(ast.parse(change.mutated)) != tree, (change.path, change.texts)
 
 
+@pytest.mark.slow
 def test_a_sample_repeats_and_gives_each_file_its_share() -> None:
     drawn = sample(300, 3)
     assert [change.identity for change in drawn] == [change.identity for change in sample(300, 3)]
@@ -97,6 +98,7 @@ def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain
     assert {name for _, name in stale_functions(heap)} == {"_rise", "_march"}
 
 
+@pytest.mark.slow
 def test_tests_are_chosen_by_imports_and_seconds() -> None:
     path = ROOT / "surfexp" / "studies" / "skeletons" / "positionwise_comparison.py"
     near = ROOT / "tests" / "skeleton" / "test_width_test.py"

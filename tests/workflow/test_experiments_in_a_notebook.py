@@ -37,6 +37,7 @@ def laboratory(working_folder: Path) -> Path:
     return working_folder
 
 
+@pytest.mark.slow
 def test_a_run_comes_back_as_a_table_with_its_results(laboratory: Path) -> None:
     found = sx.run("chain", cores=1)
     (key,) = found.table.index

@@ -164,6 +164,7 @@ def test_a_run_names_what_died_and_keeps_the_rest(results: Path) -> None:
     assert float(values[header.index("max_rss")]) == pytest.approx(event["peak_memory_mb"], rel=0.02)
 
 
+@pytest.mark.slow
 def test_stages_have_limits_of_time_and_memory_where_asked_for(results: Path) -> None:
     (results.parent / "conf" / "experiment").mkdir(parents=True)
     stages = [
