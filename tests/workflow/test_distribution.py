@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tomllib
 import venv
 from pathlib import Path
 
@@ -24,6 +25,25 @@ def call(*command: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
+def test_every_folder_of_code_and_every_file_beside_it_is_in_the_wheel() -> None:
+    setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
+    package = ROOT / "surfexp"
+    folders = {file.parent.relative_to(ROOT) for file in package.rglob("*.py")}
+    mapped = {"surfexp.plugins", "surfexp.conf", "surfexp.profiles", "snakemake_executor_plugin_surfexp"}
+    code = {".".join(folder.parts) for folder in folders if "templates" not in folder.parts}
+    assert set(setup["packages"]) == code | mapped
+    kept = [
+        file
+        for name, patterns in setup["package-data"].items()
+        for pattern in patterns
+        for file in (package.joinpath(*name.split(".")[1:]) if name != "*" else package).rglob(pattern)
+    ]
+    beside = {file for file in package.rglob("*") if file.is_file() and "__pycache__" not in file.parts}
+    beside = {file for file in beside if file.suffix != ".py"}
+    assert beside <= set(kept), sorted(beside - set(kept))
+
+
+@pytest.mark.slow
 @pytest.mark.timeout(3600)  # for what never ends: some forty processes start here, and a busy machine delays each
 def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: Path) -> None:
     source = tmp_path / "source"
