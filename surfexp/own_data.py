@@ -6,7 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surfexp.workflow.errors import UserError, check_known
+from hydra.core.object_type import ObjectType
+from omegaconf import OmegaConf
+
+from surfexp.language.collections import AXIS, collection_of_files, is_of_files
+from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.kinds import KINDS
 
 DATA = {"surface", "image", "axes", "variants", "grid"}
@@ -52,6 +56,31 @@ def _data_named(overrides: Sequence[str]) -> str:
             words = parts[0] if len(parts) == 1 else f"{parts[0]} and {len(parts) - 1} more"
             named[kind] = named[kind] if not option and kind in named else words
     return ", ".join(named[kind] for kind in ("axes", "image", "surface") if kind in named)
+
+
+def collection(name: str, repository: Any) -> dict[str, Any]:
+    """Return the axes of a collection: those of `axes/NAME.yaml` among Hydra's files, or one of files that are named.
+
+    Parameters
+    ----------
+    name : str
+        As written behind `axes=`: of a file of axes, or a folder, a table, a pattern of paths.
+    repository
+        Hydra's, of configuration files.
+
+    Raises
+    ------
+    UserError
+        If there is no such collection, or no member in it.
+    """
+    if found := repository.load_config(f"axes/{name}"):
+        axes: Any = OmegaConf.to_container(found.config, resolve=True)
+        return dict(axes)
+    if is_of_files(name):
+        return {AXIS: collection_of_files(Path(name))}
+    known = repository.get_group_options("axes", ObjectType.CONFIG)
+    said = unknown("collection", name, known)
+    raise UserError(f"{said}; a folder, a table (.csv) or a pattern such as 'shapes/*.off' is one as well")
 
 
 def with_collections(axes: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -12,7 +12,6 @@ from typing import Any
 
 from hydra.core.config_search_path import ConfigSearchPath
 from hydra.core.config_store import ConfigStore
-from hydra.core.object_type import ObjectType
 from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.utils import JobReturn, JobStatus
 from hydra.plugins.launcher import Launcher
@@ -22,10 +21,10 @@ from omegaconf import DictConfig, OmegaConf
 from surfexp.catalogue.planned import place, remembered
 from surfexp.hydra_guard import refuse_code
 from surfexp.language.written_out import named, written_out
-from surfexp.own_data import with_collections, without_foreign_words
+from surfexp.own_data import collection, with_collections, without_foreign_words
 from surfexp.workflow import registry
 from surfexp.workflow.configuration import Settings, expand
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.workflow.errors import UserError
 from surfexp.workflow.fingerprint import file_digest
 from surfexp.workflow.kinds import KINDS
 from surfexp.workflow.outcome import outcome
@@ -168,7 +167,7 @@ def split_overrides(
     for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
         key = override.key_or_group
         if re.fullmatch(r"axes(\.[^.]+)?", key) and isinstance(override.value(), str):
-            collections["" if key == "axes._" else key[5:]] = _collection(str(override.value()), repository)
+            collections["" if key == "axes._" else key[5:]] = collection(str(override.value()), repository)
         elif key.partition(".")[0] not in (*KINDS, *SETTABLE):
             rest.append(text)
         elif "." in key or key in SETTABLE:
@@ -179,12 +178,6 @@ def split_overrides(
                 raise registry.unknown_plugin(key, key, str(override.value()))
             stages[key] = _plain(found.config)
     return stages, collections, rest
-
-
-def _collection(name: str, repository: Any) -> dict[str, Any]:
-    if found := repository.load_config(f"axes/{name}"):
-        return _plain(found.config)
-    raise unknown("collection", name, repository.get_group_options("axes", ObjectType.CONFIG))
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:
