@@ -52,6 +52,10 @@ def command(name: str, arguments: list[str]) -> int:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
         print(f"written: {file}")
+    if given.kind == "solver":
+        print("try it:  surfexp new experiment trial")
+        print(f"         surfexp run experiment=trial operator=fem solver={given.name},newton")
+    print(f"test it: python -m pytest {test}")
     return 0
 
 
@@ -67,6 +71,7 @@ def _new_experiment(name: str) -> int:
         _filled("experiment", {"name": name, "title": name.replace("_", " ").capitalize()}), encoding="utf-8"
     )
     print(f"written: {file}")
+    print(f"try it:  surfexp run experiment={name}")
     return 0
 
 

@@ -54,7 +54,7 @@ def named(composed: Mapping[str, Any], name: str | None) -> Configuration:
     return {**composed, **content, **given, "experiment": str(name)}
 
 
-def written_out(composed: Mapping[str, Any]) -> Configuration:
+def written_out(composed: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> Configuration:
     """Return a composed configuration without short forms; one that has none is returned as it is.
 
     Parameters
@@ -63,6 +63,9 @@ def written_out(composed: Mapping[str, Any]) -> Configuration:
         May hold, beside what the planner reads: `parts`, by name, which inputs then name; `repeat`, options with the number
         of seeds; a plugin's name as the only key above its options; a claim's statement as the only key above its body;
         axes as a `product`; figures as {sweep: METRIC, against: OPTION}.
+    given : mapping, optional
+        What the command line says of stages, as `expand` takes it: it stands in the grid in place of the grid's own values, so
+        that what is drawn over the whole grid follows it.
 
     Returns
     -------
@@ -87,6 +90,8 @@ def written_out(composed: Mapping[str, Any]) -> Configuration:
     found = _stages({key: value for key, value in composed.items() if key not in ("parts", "repeat")}, own)
     if seeds := _seeds(composed.get("repeat") or {}):
         found["grid"] = {**(found.get("grid") or {}), **seeds}
+    if given and (grid := found.get("grid")):
+        found["grid"] = {option: [given[option]] if option in given else values for option, values in grid.items()}
     if found.get("claims"):
         found["claims"] = [claim_written_out(claim, number) for number, claim in enumerate(found["claims"], 1)]
     found = with_sweeps(axes_written_out(found))

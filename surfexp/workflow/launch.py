@@ -147,7 +147,7 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
 def _leaves(
     composed: dict[str, Any], overrides: Sequence[str], stages: Mapping[str, Any], collections: Mapping[str, Any]
 ) -> list[dict[str, Any]]:
-    composed = written_out(composed)
+    composed = written_out(composed, stages)
     composed["axes"] = with_collections(composed.get("axes") or {}, collections)
     return expand(without_foreign_words(composed, overrides), stages)
 

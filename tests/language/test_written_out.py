@@ -206,6 +206,44 @@ def test_the_file_names_the_experiment() -> None:
     assert named({"experiment": "old", "title": "T"}, "new") == {"experiment": "old", "title": "T"}
 
 
+SWEEP = """\
+title: A sweep?
+surface: {icosphere: {levels: 1}}
+image: {two_phase: {noise: 10.0}}
+model: rof
+solver: primal_dual
+grid: {image.noise: [10.0, 20.0, 40.0], operator: [fem, vertex_averaged]}
+repeat: {image.seed: 3}
+figures: [{sweep: rmse, against: image.noise}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("override", "kind", "left"),
+    [
+        ("operator=fem", "operator", {"fem"}),
+        ("image.noise=20", "image", {20.0}),
+        ("image.seed=5", "image", {10.0, 20.0, 40.0}),
+        ("solver=newton", "operator", None),
+    ],
+)
+def test_what_is_drawn_over_the_grid_follows_the_command_line(
+    working_folder: Path, override: str, kind: str, left: set[Any] | None
+) -> None:
+    planned(working_folder, "sweep", SWEEP)
+    if left is None:
+        with pytest.raises(UserError, match="'newton' does not solve model 'rof' with a vertex-averaged operator"):
+            plan_and_act(["experiment=sweep", override], [].append)
+        return
+    plans: list[Plan] = []
+    plan_and_act(["experiment=sweep", override], plans.append)
+    nodes = [node for node in plans[0].nodes.values() if node.kind == kind]
+    assert {node.plugin if kind == "operator" else node.options["noise"] for node in nodes} == left
+    assert any(node.kind == "figure" for node in plans[0].nodes.values())
+    if override == "image.seed=5":
+        assert {node.options["seed"] for node in nodes} == {5}
+
+
 MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "results": ({"experiment": {"results": "/"}}, "'results' is no part of an experiment"),
     "hydra": ({"experiment": {"hydra": {}}}, "'hydra' is no part of an experiment; .*@package _global_"),

@@ -23,7 +23,8 @@ def called(*arguments: str) -> subprocess.CompletedProcess[str]:
 def test_whatever_is_new_is_formatted(working_folder: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
     for kind in [*OWN, "kind"]:
         assert command("new", [kind, name]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 2 * (len(OWN) + 1)
+    said = capsys.readouterr().out
+    assert said.count("written: ") == 2 * (len(OWN) + 1) == 2 * said.count("test it: python -m pytest tests/")
     for length in ("88", "120"):
         done = called("ruff", "format", "--isolated", "--check", "--diff", "--line-length", length, "plugins", "tests")
         assert done.returncode == 0, done.stderr + done.stdout
