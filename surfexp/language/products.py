@@ -67,7 +67,10 @@ def with_sweeps(configuration: Configuration) -> Configuration:
         words = {key: value for key, value in sweep.items() if key not in ("sweep", "against")}
         axis = f"{AXIS}, against {sweep['against']}"
         lines = [option for option in grid if option != sweep["against"] and not option.endswith(".seed")]
-        axes[axis] = _combinations(axis, grid, {"class": lines, "level": [sweep["against"]]}, configuration)
+        members = _combinations(axis, grid, {"class": lines, "level": [sweep["against"]]}, configuration)
+        # one line where nothing but seeds is left; without a class each member would be a line of its own
+        one = {} if lines else {"class": _word(str(sweep["sweep"]))}
+        axes[axis] = {label: one | member for label, member in members.items()}
         label = _word(sweep["against"])
         drawn.append(
             {"name": "sweep", "metric": sweep["sweep"], "x_label": label, "inputs": {"solvers": {"over": axis}}} | words

@@ -218,6 +218,17 @@ figures: [{sweep: rmse, against: image.noise}]
 """
 
 
+def test_a_sweep_over_a_grid_of_one_option_is_one_line() -> None:
+    """With seeds repeated: mean and range at each place, not a line for each member."""
+    given = {"grid": {"image.noise": [10.0, 20.0]}, "repeat": {"image.seed": 3}, "image": "two_phase"}
+    for more, lines in (({}, {"rmse"}), ({"operator": ["fem", "libigl"]}, {"fem", "libigl"})):
+        grid = given["grid"] | more
+        found = written_out(given | {"grid": grid, "figures": [{"sweep": "rmse", "against": "image.noise"}]})
+        (members,) = found["axes"].values()
+        assert {member["class"] for member in members.values()} == lines
+        assert {member["level"] for member in members.values()} == {10.0, 20.0}
+
+
 @pytest.mark.parametrize(
     ("override", "kind", "left"),
     [
