@@ -6,9 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hydra.core.object_type import ObjectType
-from omegaconf import OmegaConf
-
 from surfexp.language.collections import AXIS, collection_of_files, is_of_files
 from surfexp.workflow.errors import UserError, check_known, unknown
 from surfexp.workflow.kinds import KINDS
@@ -73,6 +70,9 @@ def collection(name: str, repository: Any) -> dict[str, Any]:
     UserError
         If there is no such collection, or no member in it.
     """
+    from hydra.core.object_type import ObjectType
+    from omegaconf import OmegaConf
+
     if found := repository.load_config(f"axes/{name}"):
         axes: Any = OmegaConf.to_container(found.config, resolve=True)
         return dict(axes)

@@ -58,7 +58,7 @@ def test_long_lists_are_cut_whatever_introduces_them(way: str) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["collect", "--nothing"], "the following arguments are required: folder"),
+        (["collect", "--nothing"], "the following arguments are required: source"),
         (["report", "x", "--to", "y"], "unrecognized arguments: --to y; surfexp report --help"),
         (["completion"], "Missing argument '{bash|zsh|fish}'. Choose from: bash, zsh, fish"),
         (["noteleks"], "unknown command 'noteleks'; choose from: align, "),
