@@ -21,7 +21,7 @@ SECTIONS = {
     "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "nodal_domains", "assembly"),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
-    "What a user waits for": ("waiting",),
+    "What a user waits for": ("waiting", "commands", "cohort"),
 }
 
 

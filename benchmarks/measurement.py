@@ -96,6 +96,14 @@ def median_cost(costs: list[tuple[float, float]]) -> Cost:
     return Cost(median(cpu for cpu, _ in costs), median(wall for _, wall in costs), len(costs))
 
 
+def cost_of_children(work: Callable[[], object]) -> Cost:
+    """Return what the processes that one piece of work starts, and waits for, take together."""
+    before, wall = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    work()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return Cost(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, time.perf_counter() - wall)
+
+
 class IterationClock:
     """Seconds from the start of each solve to its last iteration, so that an audit of the result is not counted.
 

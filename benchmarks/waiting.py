@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import resource
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from benchmarks.line import Line
-from benchmarks.measurement import Cost, apart, measure, peak_memory
+from benchmarks.measurement import Cost, apart, cost_of_children, measure, median_cost, peak_memory
 from benchmarks.synthetic_results import fill, fill_experiment, plan_of, sweep
 from surfexp.report.page import write_report
 from surfexp.report.tracking import record
@@ -110,13 +108,6 @@ def _nothing_to_do(results: Path) -> list[Line]:
 
 
 def _cost_of_command(command: list[str]) -> Cost:
-    costs = sorted(_once(partial(subprocess.run, command, capture_output=True, check=True)) for _ in range(3))
-    return Cost(*costs[1], 3)
-
-
-def _once(work: Callable[[], object]) -> tuple[float, float]:
-    """Processor seconds of the children of this process, and wall seconds."""
-    before, wall = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    work()
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, time.perf_counter() - wall
+    run = partial(subprocess.run, command, capture_output=True, check=True)
+    costs = [cost_of_children(run) for _ in range(3)]
+    return median_cost([(cost.cpu, cost.wall) for cost in costs])

@@ -12,7 +12,7 @@ import resource
 import signal
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +22,13 @@ from surfexp.workflow.outcome import event_path
 from surfexp.workflow.plan import Node, Plan, read_plan
 
 
-def fork_stage(plan_path: Path, plan: Plan, key: str, log: Path | None = None) -> int:
-    """Make one result in a child of this process; return its process id. Its output goes to `log` where one is given."""
+def fork_stage(
+    plan_path: Path, plan: Plan, key: str, log: Path | None = None, tell: Callable[[], None] = lambda: None
+) -> int:
+    """Make one result in a child of this process; return its process id.
+
+    Its output goes to `log` where one is given, and `tell` is called there when the result is stored.
+    """
     node = plan.nodes[key]
     event_path(plan_path.resolve().parent.parent, node.kind, key).unlink(missing_ok=True)
     sys.stdout.flush()
@@ -40,6 +45,7 @@ def fork_stage(plan_path: Path, plan: Plan, key: str, log: Path | None = None) -
             _write_to(log)
         _limit(plan.settings.resources)
         code = stage.run_stage(plan_path, key, plan)
+        tell()
     except BaseException:  # a plugin that calls sys.exit ends here as well
         traceback.print_exc()
     finally:

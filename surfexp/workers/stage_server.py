@@ -16,6 +16,7 @@ import signal
 import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from surfexp.workers import compiled_code
 from surfexp.workers.lifetime import die_with_parent
@@ -23,10 +24,13 @@ from surfexp.workers.stage_process import finished, fork_stage
 from surfexp.workflow import registry, store
 from surfexp.workflow.plan import Plan, read_plan
 
+if TYPE_CHECKING:
+    from surfexp.workers.recall import Recall
+
 NUMERICS = ("numpy", "scipy.sparse.linalg", "numba")
 
 
-def preload(plan: Plan, results: Path, state: str) -> None:
+def preload(plan: Plan, results: Path, state: str) -> Recall:
     """Import what the missing stages of one state of the code need: their plugins' files and those of their inputs."""
     compiled_code.use(state)
     missing = [node for node in plan.nodes.values() if not store.is_done(results, node.kind, node.key)]
@@ -36,21 +40,25 @@ def preload(plan: Plan, results: Path, state: str) -> None:
     for file in sorted(files):
         with contextlib.suppress(Exception):  # the stage that needs it fails with the reason
             registry.load_file(Path(file))
+    from surfexp.workers.recall import Recall  # which takes numba, whose settings were made here
+
+    recall = Recall()
     gc.collect()
     gc.freeze()  # pages that no collection touches stay shared
+    return recall
 
 
 class Server:
     """The stages that run, by process id, and where to tell that one has ended."""
 
-    def __init__(self, plan_path: Path, plan: Plan, replies: int) -> None:
-        self.plan_path, self.plan, self.replies = plan_path, plan, replies
+    def __init__(self, plan_path: Path, plan: Plan, replies: int, recall: Recall) -> None:
+        self.plan_path, self.plan, self.replies, self.recall = plan_path, plan, replies, recall
         self.running: dict[int, tuple[str, float]] = {}
 
     def start(self, request: bytes) -> None:
         """Fork one stage."""
         wanted = json.loads(request)
-        child = fork_stage(self.plan_path, self.plan, wanted["key"], Path(wanted["log"]))
+        child = fork_stage(self.plan_path, self.plan, wanted["key"], Path(wanted["log"]), self.recall.tell)
         self.running[child] = wanted["key"], time.monotonic()
 
     def reap(self) -> None:
@@ -64,6 +72,7 @@ class Server:
             reply = {"key": key, "code": code, "seconds": time.monotonic() - started}
             reply |= {"processor": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024.0}
             os.write(self.replies, json.dumps(reply).encode() + b"\n")
+            self.recall.learn()
 
 
 def main(plan_path: Path, state: str, parent: int) -> None:
@@ -73,8 +82,8 @@ def main(plan_path: Path, state: str, parent: int) -> None:
     os.set_inheritable(replies, False)
     os.dup2(2, 1)  # what a plugin prints is no reply
     plan = read_plan(plan_path)
-    preload(plan, plan_path.resolve().parent.parent, state)
-    server, waiting = Server(plan_path, plan, replies), b""
+    recall = preload(plan, plan_path.resolve().parent.parent, state)
+    server, waiting = Server(plan_path, plan, replies, recall), b""
     ended, tell = os.pipe2(os.O_NONBLOCK)
     signal.signal(signal.SIGCHLD, lambda number, frame: None)
     signal.set_wakeup_fd(tell, warn_on_full_buffer=False)

@@ -31,6 +31,8 @@ GROUPS = (
     "assembly",
     "skeleton",
     "waiting",
+    "commands",
+    "cohort",
 )
 
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from surfexp.workers.recall import Recall
 from surfexp.workers.stage_process import death
 from surfexp.workflow import registry, store
 from surfexp.workflow.outcome import read_event
@@ -23,7 +24,12 @@ import os, signal, sys
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.workflow.registry import Options, register
+import numba
 import numpy as np
+
+@numba.njit(cache=True)
+def twice(size):
+    return 2.0 * size
 
 class End(Options):
     how: str = "well"
@@ -46,6 +52,11 @@ def ending(options: End) -> Surface:
     if options.how == "threads":
         threads = open("/proc/self/status").read().split("Threads:")[1].split()[0]
         raise ValueError(f"threads {threads}, loaded {'numba' in sys.modules}, parent {os.getppid()}")
+    if options.how == "compiled":
+        before = len(twice.overloads)
+        twice(options.size)
+        compiled, read = (sum(count.values()) for count in (twice.stats.cache_misses, twice.stats.cache_hits))
+        raise ValueError(f"{before} before, {compiled} compiled, {read} read, by {twice(options.size):g}")
     return Surface(TriangleMesh(options.size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
 """
 
@@ -119,6 +130,31 @@ def test_a_stage_alone_is_named_as_well(results: Path) -> None:
     command = [sys.executable, "-m", "surfexp.workers.stage_process", str(path), leaf.key]
     assert subprocess.run(command, capture_output=True).returncode == 1
     assert "signal 11 (SIGSEGV)" in read_event(results, "surface", leaf.key)["failure"]
+
+
+def test_what_a_stage_has_compiled_later_ones_have_from_birth(
+    results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    plan, path = plan_of(results, ("compiled", 1.0), ("compiled", 2.0), ("compiled", 3.0))
+    server = Server(plan, path)
+    for leaf in plan.leaves:
+        server.ask([leaf.key])
+    said = [read_event(results, "surface", leaf.key)["failure"].partition(": ")[2] for leaf in plan.leaves]
+    assert said[0] == "0 before, 1 compiled, 0 read, by 2"
+    assert said[1:] == ["1 before, 0 compiled, 0 read, by 4", "1 before, 0 compiled, 0 read, by 6"]
+    server.end()
+
+
+def test_a_message_that_no_stage_sends_is_passed_over() -> None:
+    recall = Recall()
+    for message in (b"\xff", b"{}", b"[1, 2]", b'[["os", "system", "ls"]]', b'[[[], "f", "()"]]', b""):
+        recall.there.send(message)
+    recall.there.send(json.dumps([["surfexp.no_such_module", "f", "()"]]).encode())
+    recall.learn()
+    assert ("surfexp.no_such_module", "f", "()") in recall.known
+    with pytest.raises(BlockingIOError):
+        recall.here.recv(1)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
