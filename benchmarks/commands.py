@@ -59,11 +59,14 @@ def lines(quick: bool) -> list[Line]:
 def _experiment(name: str, runs: int) -> list[Line]:
     """A whole experiment in a new results folder, and without its results in one that was used, beside its stages."""
     fresh, again, alone = [], [], []
-    for _ in range(runs):
+    for number in range(runs + 1):
         with TemporaryDirectory() as folder:
             results = Path(folder) / "results"
             run = [*SURFEXP, "run", f"experiment={name}", f"results={results}"]
-            fresh.append(_cost(run))
+            first = _cost(run)
+            if not number:  # which compiles
+                continue
+            fresh.append(first)
             _without_results(results)
             again.append(_cost(run))
             _without_results(results)

@@ -18,6 +18,36 @@ examples:
   surfexp run surface=file surface.path=mesh.ply   your own surface
   surfexp info solver/primal_dual                  the options of a plugin"""
 
+# Hydra's own parser takes a second to import, and answers a wrong one with its whole usage.
+FLAGS = frozenset(
+    [
+        "--help",
+        "-h",
+        "--hydra-help",
+        "--version",
+        "--cfg",
+        "-c",
+        "--resolve",
+        "--package",
+        "-p",
+        "--run",
+        "-r",
+        "--multirun",
+        "-m",
+        "--shell-completion",
+        "-sc",
+        "--config-path",
+        "-cp",
+        "--config-name",
+        "-cn",
+        "--config-dir",
+        "-cd",
+        "--experimental-rerun",
+        "--info",
+        "-i",
+    ]
+)
+
 
 def usage(command: str) -> str:
     """The help text of `surfexp run --help`."""
@@ -36,6 +66,8 @@ def check_arguments(arguments: list[str]) -> None:
     for argument in arguments:
         key, given, value = argument.partition("=")
         head, _, option = key.lstrip("+~").partition(".")
+        if key.startswith("--") and key not in FLAGS:
+            raise unknown("option", key, sorted(FLAGS))
         if not given or argument.startswith("-") or head.startswith("hydra"):
             continue
         if head not in (*known.kinds, *Settings.model_fields):

@@ -1,12 +1,14 @@
-"""Compiled code that stages have loaded, loaded once more by the process that forks them: later stages have it from birth.
+"""What stages have imported and compiled, loaded by the process that forks them: later stages have it from birth.
 
-A stage tells the names of what it has loaded, and nothing else: the code is read from the checked files of `numba_cache`,
-and never compiled here, where a stage would wait for it.
+A stage tells names, and nothing else: compiled code is read from the checked files of `numba_cache`, and never compiled
+here, where a stage would wait for it.
 """
 
 from __future__ import annotations
 
 import contextlib
+import gc
+import importlib
 import json
 import socket
 import sys
@@ -20,6 +22,8 @@ from numba.core.registry import cpu_target
 from numba.core.sigutils import normalize_signature
 
 LONGEST = 1 << 17
+# what starts no thread when it is imported: a process that forks has one
+PACKAGES = frozenset({"surfexp", "numpy", "scipy", "matplotlib", "PIL"})
 
 
 class Recall:
@@ -30,14 +34,16 @@ class Recall:
         self.here.setblocking(False)
         self.there.setblocking(False)
         cpu_target.target_context.refresh()  # a third of a second, which each stage would take by itself
-        self.modules = set(sys.modules)
-        self.dispatchers = list(_dispatchers(self.modules))  # a stage that looked through all modules would copy them
-        self.known: set[tuple[str, ...]] = set(_names(self.dispatchers))
+        self.modules: set[str] = set()
+        self.dispatchers: list[Any] = []  # a stage that looked through all modules would copy them
+        self.known: set[tuple[str, ...]] = set()
+        self._settle()
 
     def tell(self) -> None:
         """In a stage: name what it has loaded and this process had not."""
-        new = _dispatchers(sys.modules.keys() - self.modules)
-        names = [name for name in _names([*self.dispatchers, *new]) if name not in self.known]
+        modules = [name for name in sys.modules if name not in self.modules]
+        names: list[tuple[str, ...]] = [(name,) for name in modules]
+        names += [name for name in _names([*self.dispatchers, *_dispatchers(modules)]) if name not in self.known]
         if names:
             with contextlib.suppress(OSError):  # what is not told is loaded again by the next stage
                 self.there.send(json.dumps(names).encode())
@@ -55,12 +61,21 @@ class Recall:
                 if name not in self.known:
                     self.known.add(name)
                     with contextlib.suppress(Exception):  # what cannot be loaded here, stages load or compile again
-                        load(*name)
+                        _load(*name)
+            self._settle()
+
+    def _settle(self) -> None:
+        new = [name for name in sys.modules if name not in self.modules]
+        self.modules.update(new)
+        self.dispatchers.extend(_dispatchers(new))
+        self.known.update(_names(self.dispatchers))
+        gc.collect()
+        gc.freeze()  # pages that no collection touches stay shared
 
 
 def _dispatchers(modules: Iterable[str]) -> Iterator[Any]:
     """The functions that are compiled on demand and stand in one of these modules by their own names."""
-    for name in sorted(modules):
+    for name in modules:
         for value in list(getattr(sys.modules[name], "__dict__", {}).values()):
             if isinstance(value, Dispatcher) and value.py_func.__module__ == name:
                 yield value
@@ -73,8 +88,12 @@ def _names(dispatchers: Iterable[Any]) -> Iterator[tuple[str, str, str]]:
             yield dispatcher.py_func.__module__, dispatcher.py_func.__qualname__, str(signature)
 
 
-def load(module: str, function: str, signature: str) -> None:
-    """Load one function for one signature from its file, as numba does before it compiles; nothing if it is not there."""
+def _load(module: str, function: str = "", signature: str = "") -> None:
+    """Import a module, or load a function of one for one signature from its file as numba does before it compiles."""
+    if not function:
+        if module.partition(".")[0] in PACKAGES:
+            importlib.import_module(module)
+        return
     dispatcher: Any = getattr(sys.modules.get(module), function, None)
     cache = getattr(dispatcher, "_cache", None)
     if not isinstance(cache, FunctionCache):

@@ -13,13 +13,23 @@ from surfexp.workers.lifetime import die_with_parent
 
 def run(arguments: list[str]) -> None:
     """Run Snakemake's command line."""
-    from snakemake.cli import main
+    from snakemake import cli
+    from snakemake.exceptions import print_exception
     from snakemake_interface_executor_plugins.registry import ExecutorPluginRegistry
 
     from surfexp.workers import executor
 
     ExecutorPluginRegistry().register_plugin("snakemake_executor_plugin_surfexp", executor)
-    main(arguments)
+    try:
+        parser, options = cli.parse_args(arguments)
+        if options.executor == "surfexp":
+            # meant for submissions to a cluster: its timers, a thread and a look at all jobs for each that has ended, add up
+            options.max_jobs_per_timespan = None
+        done = cli.args_to_api(options, parser)
+    except Exception as error:
+        print_exception(error)
+        done = False
+    sys.exit(0 if done else 1)
 
 
 if __name__ == "__main__":

@@ -8,13 +8,13 @@ a fork holds no lock of another, and it ends with its standard input, and all st
 from __future__ import annotations
 
 import contextlib
-import gc
 import json
 import os
 import select
 import signal
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +22,7 @@ from surfexp.workers import compiled_code
 from surfexp.workers.lifetime import die_with_parent
 from surfexp.workers.stage_process import finished, fork_stage
 from surfexp.workflow import registry, store
-from surfexp.workflow.plan import Plan, read_plan
+from surfexp.workflow.plan import Node, Plan, read_plan
 
 if TYPE_CHECKING:
     from surfexp.workers.recall import Recall
@@ -30,11 +30,10 @@ if TYPE_CHECKING:
 NUMERICS = ("numpy", "scipy.sparse.linalg", "numba")
 
 
-def preload(plan: Plan, results: Path, state: str) -> Recall:
+def preload(plan: Plan, missing: list[Node], state: str) -> Recall:
     """Import what the missing stages of one state of the code need: their plugins' files and those of their inputs."""
     compiled_code.use(state)
-    missing = [node for node in plan.nodes.values() if not store.is_done(results, node.kind, node.key)]
-    files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children) if node.cache == state}
+    files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children)}
     for module in NUMERICS:
         __import__(module)
     for file in sorted(files):
@@ -42,17 +41,15 @@ def preload(plan: Plan, results: Path, state: str) -> Recall:
             registry.load_file(Path(file))
     from surfexp.workers.recall import Recall  # which takes numba, whose settings were made here
 
-    recall = Recall()
-    gc.collect()
-    gc.freeze()  # pages that no collection touches stay shared
-    return recall
+    return Recall()
 
 
 class Server:
     """The stages that run, by process id, and where to tell that one has ended."""
 
-    def __init__(self, plan_path: Path, plan: Plan, replies: int, recall: Recall) -> None:
+    def __init__(self, plan_path: Path, plan: Plan, replies: int, missing: list[Node], recall: Recall) -> None:
         self.plan_path, self.plan, self.replies, self.recall = plan_path, plan, replies, recall
+        self.awaited = Counter(node.kind for node in missing)
         self.running: dict[int, tuple[str, float]] = {}
 
     def start(self, request: bytes) -> None:
@@ -60,6 +57,7 @@ class Server:
         wanted = json.loads(request)
         child = fork_stage(self.plan_path, self.plan, wanted["key"], Path(wanted["log"]), self.recall.tell)
         self.running[child] = wanted["key"], time.monotonic()
+        self.awaited[self.plan.nodes[wanted["key"]].kind] -= 1
 
     def reap(self) -> None:
         """Tell of every stage that has ended."""
@@ -72,7 +70,8 @@ class Server:
             reply = {"key": key, "code": code, "seconds": time.monotonic() - started}
             reply |= {"processor": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024.0}
             os.write(self.replies, json.dumps(reply).encode() + b"\n")
-            self.recall.learn()
+            if self.awaited[self.plan.nodes[key].kind] > 0:
+                self.recall.learn()
 
 
 def main(plan_path: Path, state: str, parent: int) -> None:
@@ -82,8 +81,10 @@ def main(plan_path: Path, state: str, parent: int) -> None:
     os.set_inheritable(replies, False)
     os.dup2(2, 1)  # what a plugin prints is no reply
     plan = read_plan(plan_path)
-    recall = preload(plan, plan_path.resolve().parent.parent, state)
-    server, waiting = Server(plan_path, plan, replies, recall), b""
+    results = plan_path.resolve().parent.parent
+    missing = [node for node in plan.nodes.values() if node.cache == state]
+    missing = [node for node in missing if not store.is_done(results, node.kind, node.key)]
+    server, waiting = Server(plan_path, plan, replies, missing, preload(plan, missing, state)), b""
     ended, tell = os.pipe2(os.O_NONBLOCK)
     signal.signal(signal.SIGCHLD, lambda number, frame: None)
     signal.set_wakeup_fd(tell, warn_on_full_buffer=False)

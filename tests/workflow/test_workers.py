@@ -150,9 +150,13 @@ def test_a_message_that_no_stage_sends_is_passed_over() -> None:
     recall = Recall()
     for message in (b"\xff", b"{}", b"[1, 2]", b'[["os", "system", "ls"]]', b'[[[], "f", "()"]]', b""):
         recall.there.send(message)
-    recall.there.send(json.dumps([["surfexp.no_such_module", "f", "()"]]).encode())
+    unheard, ours = "antigravity", "surfexp.spectrum.heat_kernel"
+    assert not {unheard, ours} & sys.modules.keys()
+    recall.there.send(
+        json.dumps([["surfexp.no_such_module", "f", "()"], [unheard], ["surfexp.no_such"], [ours]]).encode()
+    )
     recall.learn()
-    assert ("surfexp.no_such_module", "f", "()") in recall.known
+    assert ours in sys.modules and ours in recall.modules and unheard not in sys.modules
     with pytest.raises(BlockingIOError):
         recall.here.recv(1)
 
