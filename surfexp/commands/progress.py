@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import time
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from statistics import fmean
@@ -119,15 +119,24 @@ class Progress:
         return ", ".join(parts + ([f"about {clock(left)} more"] if left is not None else []))
 
 
-def follow(process: subprocess.Popen[bytes], nodes: Mapping[str, Node], shown: list[Node], results: Path) -> None:
-    """Show the stages of a running Snakemake process until it ends: live in a terminal, else a line a finished stage."""
+def follow(
+    process: subprocess.Popen[bytes],
+    nodes: Mapping[str, Node],
+    shown: list[Node],
+    results: Path,
+    notices: Callable[[], list[str]] = list,
+) -> None:
+    """Show the stages of a running Snakemake process until it ends: live in a terminal, else a line a finished stage.
+
+    `notices` gives lines to print besides; it is asked again and again.
+    """
     progress = Progress(nodes, shown, results)
     if console.is_terminal:
         with Live(console=console, refresh_per_second=5, transient=True) as live:
             while process.poll() is None:
                 began = time.process_time()
                 progress.ended()
-                for line in progress.silent():
+                for line in [*progress.silent(), *notices()]:
                     live.console.print(line, markup=False, highlight=False, soft_wrap=True)
                 live.update(_view(progress))
                 _pause(0.2, began)
@@ -135,7 +144,7 @@ def follow(process: subprocess.Popen[bytes], nodes: Mapping[str, Node], shown: l
     running = True
     while running:
         running, began = process.poll() is None, time.process_time()
-        for line in [*progress.ended(), *progress.silent()]:
+        for line in [*progress.ended(), *progress.silent(), *notices()]:
             console.print(line, markup=False, highlight=False, soft_wrap=True)
         if running:
             _pause(0.1, began)
