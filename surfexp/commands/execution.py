@@ -157,6 +157,8 @@ def hold_results(results: Path, wait: bool = False) -> None:
             raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
         print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
         fcntl.flock(descriptor, fcntl.LOCK_EX)
+    except OSError as error:  # of a file system without locks
+        _warn([f"{results} cannot be locked ({error.strerror}): let one run at a time work there"])
     _locks.append(descriptor)
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from surfexp.result_tree import decoded, encoded
 from surfexp.workflow.errors import DamagedResult
 
+HOST = os.uname().nodename  # processes of two machines that share a folder may have one number
 RECORD, ARRAYS = "record.json", "arrays.npz"
 SEAL = ',\n "sha256": "{}"\n}}\n'
 SEAL_LENGTH = len(SEAL.format("0" * 64))
@@ -38,7 +39,7 @@ def is_done(results: Path, kind: str, key: str) -> bool:
 def write_text(path: Path, text: str) -> None:
     """Write a file under a temporary name and rename it, so that nobody reads half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary = path.with_name(f".{path.name}.{HOST}.{os.getpid()}")
     temporary.write_text(text)
     temporary.rename(path)
 
@@ -49,7 +50,7 @@ def save(results: Path, kind: str, key: str, result: Any) -> None:
     tree = encoded(result, "", arrays)
     folder = result_folder(results, kind, key)
     folder.mkdir(parents=True, exist_ok=True)
-    temporary = folder / f".arrays.{os.getpid()}.npz"
+    temporary = folder / f".arrays.{HOST}.{os.getpid()}.npz"
     np.savez(temporary, **arrays)
     record = {"arrays": _sha256(temporary), "key": key, "kind": kind, "result": tree}
     temporary.rename(folder / ARRAYS)
