@@ -5,22 +5,34 @@ from __future__ import annotations
 import argparse
 import importlib
 import time
+from collections.abc import Sequence
 from datetime import UTC, datetime
+
+import numpy as np
 
 from benchmarks import ROOT
 from benchmarks.gap_curves import gap_curves
+from benchmarks.line import Line
 from benchmarks.record import Record, load, save
 from benchmarks.table import conditions, describe, page
+from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.encode import encode_png
+from surfexp.figures.figure import Figure
 from surfexp.report.stamp import state_of_code
 
 PICTURE = ROOT / "docs" / "gap_against_time.png"
+# heading of a section, the figure of its lines that have points, and its horizontal axis
+FIGURES = {
+    "Growth": (ROOT / "docs" / "seconds_against_vertices.png", "vertices"),
+    "What a user waits for": (ROOT / "docs" / "seconds_against_stages.png", "stages"),
+}
 
 SECTIONS = {
     "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling", "threads"),
-    "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "nodal_domains", "assembly"),
+    "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "brain_modes", "nodal_domains", "assembly"),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
+    "Growth": ("growth",),
     "What a user waits for": ("waiting", "commands", "cohort"),
 }
 
@@ -57,7 +69,17 @@ def _write_page(names: list[str]) -> None:
         return
     PICTURE.write_bytes(encode_png(gap_curves().pixels))
     sections = {heading: {name: known[name] for name in groups} for heading, groups in SECTIONS.items()}
+    for heading, (file, axis) in FIGURES.items():
+        found = [line for record in sections[heading].values() for line in record.lines if line.points]
+        file.write_bytes(encode_png(growth_plot(found, axis).pixels))
     (ROOT / "BENCHMARKS.md").write_text(page(sections), encoding="utf-8")
+
+
+def growth_plot(lines: Sequence[Line], axis: str) -> Figure:
+    """Draw how the seconds of lines grow."""
+    columns = {line.work.partition(",")[0]: np.array(line.points).T for line in lines}
+    curves = {name: (sizes, seconds) for name, (sizes, seconds) in columns.items()}
+    return convergence_plot(curves, x_label=axis, y_label="seconds", title=f"Seconds against {axis}")
 
 
 if __name__ == "__main__":

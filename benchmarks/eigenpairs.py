@@ -22,8 +22,8 @@ def warm_up() -> None:
 def lines(quick: bool) -> list[Line]:
     """Return a line for each size on one thread, and the middle one on two."""
     if quick:
-        return [_line(10000, 40, 1, 7.0)]
-    return [*(_line(size, COUNT, 1, 7.0) for size in SIZES), _line(TWO_THREADS, COUNT, 2, 6.0)]
+        return [_line(10000, 40, 1, 15.0)]
+    return [*(_line(size, COUNT, 1, 15.0) for size in SIZES), _line(TWO_THREADS, COUNT, 2, 6.0)]
 
 
 def _line(size: int, count: int, threads: int, least: float) -> Line:

@@ -20,8 +20,8 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 
 # vertices, pairs, least ratio to LaPy, least ratio to the tuned eigsh
-RACES = ((39994, 50, 2.5, 1.5), (160000, 50, 2.5, 1.5), (39994, 1000, 15.0, None))
-MILLION, MEMORY = (1600, 625), 12.0
+RACES = ((39994, 50, 4.0, 1.5), (160000, 50, 4.0, 1.5), (39994, 1000, 25.0, None))
+MILLION, MEMORY, SECONDS = (1600, 625), 2.5, 20.0
 
 
 def warm_up() -> None:
@@ -53,6 +53,14 @@ def _large(rows: int, columns: int) -> Line:
     mesh = torus(rows, columns).mesh
     found = ours(mesh, 50, runs=1)
     gigabytes = found.memory / 2**30
-    met = gigabytes < MEMORY and found.complete and found.residual <= RESIDUAL
-    work, wanted = f"first 50 eigenpairs, torus of {len(mesh.vertices):,} V", f"under {MEMORY:g} GiB"
-    return Line(work, "memory", wanted, f"{gigabytes:.1f} GiB", met, found.cost, accuracy=describe(found))
+    met = gigabytes <= MEMORY and found.cost.cpu <= SECONDS and found.complete and found.residual <= RESIDUAL
+    work, wanted = f"first 50 eigenpairs, torus of {len(mesh.vertices):,} V", f"≤ {SECONDS:g} s, ≤ {MEMORY:g} GiB"
+    return Line(
+        work,
+        "a limit",
+        wanted,
+        f"{found.cost.cpu:.3g} s, {gigabytes:.2f} GiB",
+        met,
+        found.cost,
+        accuracy=describe(found),
+    )

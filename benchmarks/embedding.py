@@ -45,7 +45,7 @@ def lines(quick: bool) -> list[Line]:
     systems = _system(left, 121), _system(right, 121)
     pair = Pair(left, right, *systems)
     found = [_prefix_line(pair, 6 if quick else 10)]
-    for n, target in ((10, 2.0), (20, 8.0)):
+    for n, target in ((10, 2.0), (20, 1.2)):
         exact, cost = measure(lambda n=n: spectral_distance(*_embedded(pair, n)))
         accuracy = f"{exact.value:.4f}, optimal: {'yes' if exact.optimal else 'no'}, {exact.evaluations} evaluations"
         found.append(within(f"exact d_{n}, fsaverage5 left-right, 10k x 10k", target, cost, accuracy, exact.optimal))
@@ -125,7 +125,7 @@ def _zoomout_line(vertices: int, first: int = 10, last: int = 80, step: int = 2)
     """
     work = f"ZoomOut {first} to {last}, posed bodies of {vertices:,} V"
     if find_spec("pyFM") is None:
-        return not_installed(work, "pyFM", 1.0, "pyfmaps")
+        return not_installed(work, "pyFM", 4.0, "pyfmaps")
     from pyFM.refine import zoomout_refine
     from pyFM.spectral import p2p_to_FM
 
@@ -158,7 +158,7 @@ def _zoomout_line(vertices: int, first: int = 10, last: int = 80, step: int = 2)
     total = [Cost(sum(c.cpu for c in side), sum(c.wall for c in side), 3) for side in zip(*costs, strict=True)]
     accuracy = f"geodesic errors {np.mean(ours_mean):.4f} and {np.mean(theirs_mean):.4f} of the root of the area"
     fair = bool(np.mean(ours_mean) <= 1.05 * np.mean(theirs_mean))
-    return race(work, "pyFM", 1.0, total[0], total[1], accuracy, fair=fair)
+    return race(work, "pyFM", 4.0, total[0], total[1], accuracy, fair=fair)
 
 
 def _true_start(pair: Pair, origin: Integers, n: int) -> Integers:

@@ -23,6 +23,8 @@ class Line:
     accuracy : str
         Tolerances and the accuracy that both sides reached.
     note : str
+    points : tuple of (float, float)
+        How the seconds grow, for a figure: size and seconds.
     """
 
     work: str
@@ -34,6 +36,7 @@ class Line:
     theirs: Cost | None = None
     accuracy: str = ""
     note: str = ""
+    points: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse medians of unequal numbers of runs."""

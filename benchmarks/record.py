@@ -59,4 +59,5 @@ def _number(value: Any) -> Any:
 
 def _line(fields: dict[str, Any]) -> Line:
     costs = {side: Cost(**fields[side]) if fields[side] else None for side in ("ours", "theirs")}
-    return Line(**fields | costs)
+    points = tuple((size, seconds) for size, seconds in fields.get("points", ()))
+    return Line(**fields | costs | {"points": points})

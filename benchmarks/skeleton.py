@@ -84,13 +84,13 @@ def _exact_graph(size: int) -> Line:
     height = mesh.vertices[:, 2].copy()
     module = _module("vtk")
     if module is None:
-        return not_installed(work, rival, 10, "vtk")
+        return not_installed(work, rival, 77, "vtk")
     (ours, cost), (theirs, their_cost) = measure_both(
         lambda: exact_reeb_graph(TriangleMesh(mesh.vertices, mesh.faces), height), lambda: _vtk(module, mesh, height)
     )
     same = _like(simplified(ours, 0.02 * float(np.ptp(height))), simplified(theirs, 0.02 * float(np.ptp(height))))
     accuracy = f"isomorphic after simplification: {'yes' if same else 'no'}; {len(ours.vertices)} critical points"
-    return race(work, rival, 10, cost, their_cost, accuracy, fair=same)
+    return race(work, rival, 77, cost, their_cost, accuracy, fair=same)
 
 
 def _vtk(vtk: Any, mesh: TriangleMesh, height: Floats) -> ReebGraph:

@@ -65,6 +65,10 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
         parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|", *rows]) + "\n")
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
     parts.append(
+        "## Seconds against size\n\n![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.png)\n"
+        "\n![Wall seconds of whole runs against their stages](docs/seconds_against_stages.png)\n"
+    )
+    parts.append(
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
     told = (

@@ -30,6 +30,8 @@ GROUPS = (
     "nodal_domains",
     "assembly",
     "skeleton",
+    "growth",
+    "brain_modes",
     "waiting",
     "commands",
     "cohort",
