@@ -16,7 +16,6 @@ from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
 from surfexp.workers import compiled_code
-from surfexp.workers.stage_process import write_death
 from surfexp.workflow import registry, store
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 from surfexp.workflow.fingerprint import digest
@@ -95,13 +94,12 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     profile = _profile(plan.settings.profile or "default")
     settings = slurm_jobs.settings_of(profile) if plan.settings.profile else {}
     slurm = settings.get("executor") == "slurm"
-    cores = 1 if plan.settings.timing else plan.settings.cores or os.cpu_count() or 1
+    cores = 1 if plan.settings.timing else plan.settings.cores or settings.get("cores") or os.cpu_count() or 1
     command = [sys.executable, "-P", "-m", "surfexp.workers.snakemake", str(os.getpid())]
     command += ["--snakefile", str(rules), "--workflow-profile", str(profile), "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
-    if slurm and "set-resources" not in settings:
-        command += slurm_jobs.requests(results, (node.kind for node in missing))
+    command += slurm_jobs.requests(plan.nodes, missing, results, settings) if slurm else []
     log = results / "logs" / f"{path.stem}.snakemake.log"
     environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
@@ -114,10 +112,8 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
         env=environment,
         pass_fds=_locks,
     )
-    ended = slurm_jobs.ended_jobs(log.read_text()) if slurm else {}
-    for node in missing:
-        if node.key in ended and not read_event(results, node.kind, node.key):
-            write_death(results, node, ended[node.key])
+    if slurm:
+        slurm_jobs.tell_of_ended(log.read_text(), missing, results)
     if code and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
         tail = [line for line in log.read_text().splitlines() if line.strip()]
         reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"

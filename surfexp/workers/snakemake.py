@@ -19,7 +19,12 @@ def run(arguments: list[str]) -> None:
 
     from surfexp.workers import executor
 
-    ExecutorPluginRegistry().register_plugin("snakemake_executor_plugin_surfexp", executor)
+    registry = ExecutorPluginRegistry()
+    registry.register_plugin("snakemake_executor_plugin_surfexp", executor)
+    if registry.is_installed("slurm"):
+        from surfexp.workers import slurm
+
+        registry.plugins["slurm"] = registry.load_plugin("slurm", slurm)
     try:
         parser, options = cli.parse_args(arguments)
         if options.executor == "surfexp":

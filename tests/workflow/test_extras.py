@@ -16,9 +16,13 @@ from surfexp import extras
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-MODULES = {"cholespy": "cholespy", "libigl": "igl", "scikit-learn": "sklearn", "resvg-py": "resvg_py"} | {
-    package: module for module, (package, _) in extras.EXTRAS.items()
-}
+MODULES = {
+    "cholespy": "cholespy",
+    "libigl": "igl",
+    "scikit-learn": "sklearn",
+    "resvg-py": "resvg_py",
+    "snakemake-executor-plugin-slurm": "snakemake_executor_plugin_slurm",
+} | {package: module for module, (package, _) in extras.EXTRAS.items()}
 # loaded by Hydra and by Snakemake, which find them by the name that stands in these files
 FOUND_BY_NAME = {
     "hydra-optuna-sweeper": ("docs/guide.md", "hydra/sweeper=optuna"),
@@ -68,6 +72,7 @@ def imports(file: Path) -> set[tuple[str, bool]]:
         elif isinstance(node, ast.List):
             texts = [getattr(item, "value", None) for item in node.elts]
             found = [str(texts[texts.index("-m") + 1])] if "-m" in texts[:-1] else []
+            found = [name for name in found if not name.startswith("-")]  # a list of options, no command
         eager = id(node) not in lazy and id(node) not in typed
         names |= {(name.split(".")[0], eager) for name in found}
     known = sys.stdlib_module_names | {"surfexp", "hydra_plugins"}

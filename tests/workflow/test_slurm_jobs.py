@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 from pathlib import Path
 
 import pytest
 
 from surfexp.commands import slurm_jobs
+from surfexp.workers.stage_process import death
+from surfexp.workflow.plan import Node
 from surfexp.workflow.registry import package_folder
 
 LOG = """\
@@ -40,18 +43,76 @@ def test_jobs_that_ended_without_a_word_are_found_alone_and_in_groups(monkeypatc
     assert len(found) == 3
 
 
+def node(key: str, kind: str, *inputs: str) -> Node:
+    return Node(key, kind, "plugin", "f", "c", "", {}, {str(place): one for place, one in enumerate(inputs)})
+
+
+def measure(results: Path, kind: str, *taken: tuple[float, float]) -> None:
+    folder = results / "logs" / kind
+    folder.mkdir(parents=True)
+    for number, (seconds, memory) in enumerate(taken):
+        row = f"{seconds}\t0:00:00\t{memory}\t1"
+        (folder / f"{number}.benchmark.tsv").write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{row}\n")
+    (folder / "short.benchmark.tsv").write_text("s\th:m:s\tmax_rss\tcpu_time\n0.1\t0:00:00\tNA\tNA\n")
+    (folder / "empty.benchmark.tsv").write_text("")
+
+
+CHAIN = {
+    one.key: one
+    for one in (
+        node("a", "surface"), node("b", "operator", "a"), node("c", "solver", "a", "b"), node("d", "figure", "c"),
+        node("e", "image", "a"),
+    )
+}  # fmt: skip
+PREPARATION = {"groups": {"surface": "preparation", "operator": "preparation"}}
+
+
+def requests(results: Path, nodes: dict[str, Node], **settings: object) -> dict[str, list[str]]:
+    """Return what is asked for, by the name of Snakemake's option."""
+    found: dict[str, list[str]] = {}
+    for word in slurm_jobs.requests(nodes, list(nodes.values()), results, settings):
+        if word.startswith("--"):
+            found[word] = []
+        else:
+            found[list(found)[-1]].append(word)
+    return found
+
+
 def test_requests_follow_what_was_measured_and_leave_room(tmp_path: Path) -> None:
-    header = "s\th:m:s\tmax_rss\tcpu_time"
-    for kind, seconds, memory in (("solver", 1200.0, 3000.4), ("surface", 1.0, 200.0)):
-        folder = tmp_path / "logs" / kind
-        folder.mkdir(parents=True)
-        (folder / "a.benchmark.tsv").write_text(f"{header}\n{seconds}\t0:20:00\t{memory}\t1\n")
-        (folder / "b.benchmark.tsv").write_text(f"{header}\n0.1\t0:00:00\tNA\tNA\n")
-        (folder / "c.benchmark.tsv").write_text("")
-    asked = slurm_jobs.requests(tmp_path, ["solver", "surface", "solver", "image"])
-    assert asked == ["--set-resources", "solver:mem_mb=6001", "solver:runtime=60", "surface:mem_mb=2000",
-                     "surface:runtime=10"]  # fmt: skip
-    assert slurm_jobs.requests(tmp_path, ["image"]) == []
+    assert requests(tmp_path, CHAIN, **PREPARATION) == {}
+    measure(tmp_path, "solver", (1200.0, 3000.4), (1.0, 200.0))
+    measure(tmp_path, "figure", (30.0, 200.0))
+    measure(tmp_path, "eigensolver", (30.0, 200.0))
+    asked = ["figure:mem_mb=2000", "figure:runtime=10", "solver:mem_mb=6001", "solver:runtime=60"]
+    assert requests(tmp_path, CHAIN, **PREPARATION) == {"--set-resources": asked}
+    assert requests(tmp_path, CHAIN, **{"set-resources": ["solver:mem_mb=1"]}) == {}
+
+
+def test_kinds_that_took_seconds_are_put_together(tmp_path: Path) -> None:
+    measure(tmp_path, "solver", (5.0, 200.0), (7.0, 200.0))
+    asked = requests(tmp_path, CHAIN, **PREPARATION)
+    assert asked["--set-resources"] == ["solver:mem_mb=2000", "solver:runtime=1"]
+    assert asked["--groups"] == ["surface=preparation", "operator=preparation", "solver=solver"]
+    assert asked["--group-components"] == ["solver=20"]
+    measure(tmp_path, "surface", (0.01, 200.0))
+    measure(tmp_path, "operator", (0.02, 200.0))
+    assert requests(tmp_path, CHAIN, **PREPARATION)["--group-components"] == ["preparation=100", "solver=20"]
+    kept = requests(tmp_path, CHAIN, **PREPARATION, **{"group-components": ["preparation=3"]})
+    assert set(kept) == {"--set-resources"}
+
+
+def test_kinds_that_wait_for_each_other_are_not_put_together(tmp_path: Path) -> None:
+    for kind in ("surface", "operator", "solver", "figure"):
+        measure(tmp_path, kind, (1.0, 200.0))
+    again = CHAIN | {"f": node("f", "surface", "c"), "g": node("g", "figure", "f")}  # a surface made from a solution
+    assert requests(tmp_path, again, **PREPARATION)["--group-components"] == ["figure=100"]
+
+
+def test_a_signal_is_no_word_of_a_stage() -> None:
+    assert slurm_jobs.unexplained({})
+    assert slurm_jobs.unexplained({"failure": f"surface/file: {death(-signal.SIGTERM)}"})
+    assert not slurm_jobs.unexplained({"failure": "surface/file: no such file"})
+    assert not slurm_jobs.unexplained({"seconds": 1.0})
 
 
 def test_a_reason_to_wait_is_said_once_and_names_the_node(monkeypatch: pytest.MonkeyPatch) -> None:
