@@ -146,7 +146,8 @@ def test_what_a_stage_has_compiled_later_ones_have_from_birth(
     server.end()
 
 
-def test_a_message_that_no_stage_sends_is_passed_over() -> None:
+def test_a_message_that_no_stage_sends_is_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "surfexp.spectrum.heat_kernel", raising=False)
     recall = Recall()
     for message in (b"\xff", b"{}", b"[1, 2]", b'[["os", "system", "ls"]]', b'[[[], "f", "()"]]', b""):
         recall.there.send(message)
