@@ -46,6 +46,11 @@ class Line:
             )
 
     @property
+    def name(self) -> str:
+        """Work and rival."""
+        return f"{self.work}, {self.rival}"
+
+    @property
     def verdict(self) -> str:
         """ "met" or "not met"."""
         return "met" if self.met else "not met"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +28,8 @@ class Record:
     numerics : str
         Digest of the code that was measured.
     date : str
+    earlier : dict of str to str
+        What the lines of the run before gave, on the same code, by their work and rival.
     """
 
     lines: tuple[Line, ...]
@@ -35,11 +37,15 @@ class Record:
     conditions: str
     numerics: str
     date: str
+    earlier: dict[str, str] = field(default_factory=dict)
 
 
 def save(group: str, record: Record, folder: Path = FOLDER) -> None:
-    """Keep the record of a group in place of its last one."""
+    """Keep the record of a group in place of its last one, with what that one gave."""
     folder.mkdir(parents=True, exist_ok=True)
+    before = load(group, folder)
+    if before and before.numerics == record.numerics:
+        record = replace(record, earlier={line.name: line.result for line in before.lines})
     (folder / f"{group}.json").write_text(json.dumps(asdict(record), indent=1, default=_number), encoding="utf-8")
 
 

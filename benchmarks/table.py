@@ -32,9 +32,10 @@ where the rival takes more than 40 s. One thread, unless the line says two (then
 side reached, and on which scale a gap is taken, stands below its table, and what of the set-up is counted. Compilation
 is excluded and listed at the end. Packages run on their own operators and factorisations; the methods as published, the
 conformal and the level-set methods were written here and run on ours. A rival that is not installed
-(`pip install 'surfexp[bench]'`) counts as not met.
+(`pip install 'surfexp[bench]'`) counts as not met. Beside what was seen stands what the run before gave on the same code:
+how far figures spread.
 """
-COLUMNS = "| work | rival | asked | seen | verdict | ours, CPU (wall) s | rival, CPU (wall) s | runs |"
+COLUMNS = "| work | rival | asked | seen | run before | verdict | ours, CPU (wall) s | rival, CPU (wall) s | runs |"
 
 
 def conditions() -> str:
@@ -61,8 +62,8 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
     parts = [HEAD, *(f"{line}\n" for line in conditions)]
     for heading, records in sections.items():
         lines = [line for record in records.values() for line in record.lines]
-        rows = [_row(line) for line in lines]
-        parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|", *rows]) + "\n")
+        rows = [_row(line, record.earlier) for record in records.values() for line in record.lines]
+        parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|---|", *rows]) + "\n")
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
     parts.append(
         "## Seconds against size\n\n![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.png)\n"
@@ -72,7 +73,7 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
     told = (
-        "Each group is one run; ratios hold, seconds vary with the machine and the hour. Compilation is that of the "
+        "Ratios hold, seconds vary with the machine and the hour. Compilation is that of the "
         "first call on a small case,"
     )
     rows = [
@@ -89,14 +90,15 @@ def describe(line: Line) -> str:
     return f"{line.work} | {line.rival}\n    {line.result}, asked {line.target}: {line.verdict}; {costs}\n    {_facts(line)}"
 
 
-def _row(line: Line) -> str:
+def _row(line: Line, earlier: Mapping[str, str]) -> str:
     costs = (_cost(line.ours), _cost(line.theirs), str(line.ours.runs) if line.ours else "–")
-    cells = (line.work, line.rival, line.target, line.result, line.verdict, *costs)
+    before = earlier.get(line.name, "–")
+    cells = (line.work, line.rival, line.target, line.result, before, line.verdict, *costs)
     return f"| {' | '.join(cells)} |"
 
 
 def _detail(line: Line) -> str:
-    return f"- {line.work}, {line.rival}: {_facts(line)}." if _facts(line) else ""
+    return f"- {line.name}: {_facts(line)}." if _facts(line) else ""
 
 
 def _facts(line: Line) -> str:

@@ -77,10 +77,24 @@ def test_the_page_says_how_many_runs_and_of_which_state(tmp_path: Path) -> None:
     assert load("group", tmp_path) == record and load("another", tmp_path) is None
     text = page({"Heading": {"group": record}})
     assert f"| group | 2020-01-01 | {'0' * 20} | 1.0 |" in text
-    assert "| work | rival | 2× | 4× | met | 1 (1.5) | 4 (4.5) | 3 |" in text
+    assert "| work | rival | 2× | 4× | – | met | 1 (1.5) | 4 (4.5) | 3 |" in text
     assert "- work, rival: alike." in text
     columns = {row.count("|") for row in text.split("## When")[0].splitlines() if row.startswith("|")}
     assert len(columns) == 1
+
+
+def test_the_run_before_stands_beside_the_last_one_of_the_same_code(tmp_path: Path) -> None:
+    def run(result: str, numerics: str) -> str:
+        line = Line("work", "rival", "2×", result, True)
+        save("group", Record((line,), 1.0, "Python 3", numerics, "2020-01-01"), tmp_path)
+        record = load("group", tmp_path)
+        assert record is not None
+        return page({"Heading": {"group": record}})
+
+    assert "| 4× | – | met |" in run("4×", "a")
+    assert "| 3× | 4× | met |" in run("3×", "a")
+    assert "| 5× | 3× | met |" in run("5×", "a")
+    assert "| 6× | – | met |" in run("6×", "b")
 
 
 def test_the_clock_adds_iterations_and_leaves_out_what_lies_between() -> None:
