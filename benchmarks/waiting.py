@@ -78,9 +78,8 @@ def _report(rows: int, seconds: float, results: Path) -> Line:
 
 def _records(runs: int, results: Path) -> list[Line]:
     plan = plan_of(sweep(runs), results)
-    views = results / plan.settings.experiment
-    _, first = measure(partial(record, plan, results, views), 1)
-    _, again = measure(partial(record, plan, results, views), 1)
+    _, first = measure(partial(record, plan, results), 1)
+    _, again = measure(partial(record, plan, results), 1)
     return [
         _limit(f"MLflow: {runs:,} runs recorded", 60.0, first, "the database is made anew"),
         _limit(f"MLflow: {runs:,} runs recorded, nothing new", 3.0, again),

@@ -6,10 +6,11 @@ from functools import partial
 import numpy as np
 import pytest
 
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.variational.duality_gap import certify
+from surfexp.variational.duality_gap import certify, recertify
 from surfexp.variational.image import Image
 from surfexp.variational.published.averaged_iterations import averaged_primal_dual
 from surfexp.variational.published.chambolle import published_chambolle
@@ -91,6 +92,20 @@ def test_error_bound_holds(surface: Surface, image: Image) -> None:
     for limit in (10, 30, 100):
         solution = primal_dual(fidelity, operator, iteration_limit=limit, tolerance=0.0)
         assert np.sqrt(operator.mass @ (solution.values - exact) ** 2) <= solution.error_bound
+
+
+@pytest.mark.parametrize("seed", [11, 26])
+def test_newton_leaves_the_boundary_of_its_cones_again(seed: int) -> None:
+    """After long first steps some faces lie on |p| = 1 to rounding, and steps that keep them inside have no length."""
+    mesh = torus(40, 40).mesh
+    operator, points = fem(mesh), mesh.vertices
+    noise = (10 + seed % 4 * 20) * np.random.default_rng(seed).standard_normal(len(points))
+    picture = 255.0 * ((np.sin(7.0 * points[:, 0] + seed) > 0) & (points[:, 2] > 0)) + noise
+    solution = newton(rof(operator.mass, picture, 0.3 / (40.0 * operator.edge_length)), operator)
+    assert solution.converged and solution.iterations <= 20
+    again = recertify(solution, rof(operator.mass, picture, 0.3 / (40.0 * operator.edge_length)), operator)
+    assert again.relative_gap == pytest.approx(solution.relative_gap, rel=1e-3)
+    assert np.linalg.norm(solution.dual, axis=1).max() <= 1.0
 
 
 def test_gradient_descent_is_biased_by_its_smoothing(surface: Surface, image: Image) -> None:

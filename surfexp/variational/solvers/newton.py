@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from surfexp.arrays import Floats
 from surfexp.operators.calculus import adjoint_gradient, gradient, total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
@@ -87,7 +88,7 @@ def _iterates(
     system = NewtonSystem(operator, weight)
     grad = gradient(operator, values)
     nu = 0.1 * (total_variation(operator, values) + fidelity.value(values)) / areas.sum()
-    slack = 0.5 * (nu + np.sqrt(nu * nu + 4.0 * np.einsum("fa,fa->f", grad, grad))) + np.finfo(float).tiny
+    slack = _central_slack(nu, grad)
     near = start.dual is not None and start.relative_gap is not None and start.relative_gap <= 2.0 * WARM_UP
     dual = INSIDE * start.dual if near and start.dual is not None else grad / slack[:, None]
     still = (np.zeros_like(slack), np.zeros_like(grad), np.zeros_like(dual))
@@ -114,4 +115,11 @@ def _iterates(
         values = values + primal_step * move
         slack, grad = slack + primal_step * slack_move, gradient(operator, values)
         dual = dual + dual_step * dual_move
+        if longest < SHORT_STEP:
+            slack, dual = _central_slack(complementarity(areas, slack, grad, dual), grad), INSIDE * dual
         yield Iterate(iteration, values, dual, adjoint_gradient(operator, dual))
+
+
+def _central_slack(nu: float, grad: Floats) -> Floats:
+    """Return the t of the central path, t^2 - nu t = |G phi|^2 on every face."""
+    return 0.5 * (nu + np.sqrt(nu * nu + 4.0 * np.einsum("fa,fa->f", grad, grad))) + np.finfo(float).tiny
