@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import click
 
@@ -50,13 +50,29 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
 @click.command(**shown("denoise", *EXAMPLES["denoise"]))
 @click.argument("path")
 @click.argument("map_name", metavar="MAP")
+@click.option(
+    "--method",
+    type=click.Choice(["rof", "tgv"]),
+    default="rof",
+    show_default=True,
+    help="total variation, or total generalised variation, which makes no stairs of slopes",
+)
 @click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
+@click.option("--ratio", default=2.0, show_default=True, help="of tgv: over how many edge lengths a slope may turn")
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
 @click.option("--tolerance", default=1e-4, show_default=True, help="largest relative duality gap")
 @surface_options
 @result_option()
 def denoise(
-    path: str, map_name: str, weight: float, noise: float | None, tolerance: float, target: Path, **given: Any
+    path: str,
+    map_name: str,
+    method: Literal["rof", "tgv"],
+    weight: float,
+    ratio: float,
+    noise: float | None,
+    tolerance: float,
+    target: Path,
+    **given: Any,
 ) -> None:
     """Remove the noise of a map by total variation, which keeps its edges. MAP is a file, or a map that the surface carries."""
     from surfexp.tasks.denoising import denoise as task
@@ -65,9 +81,10 @@ def denoise(
     values = map_of(surface, map_name, files)
     started = time.perf_counter()
     with progress_line("denoise") as progress:
-        clean = task(surface, values, weight=weight, noise=noise, tolerance=tolerance, progress=progress)
+        options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
+        clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
-    finish(target, clean, surface, "rof", {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
+    finish(target, clean, surface, method, {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
 
 
 def millimetres(text: str) -> float:

@@ -14,9 +14,11 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 from surfexp.variational.fidelity import Progress
+from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.separable_quadratic import rof
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.generalised_splitting import generalised_splitting
 from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
@@ -34,9 +36,9 @@ class DenoisedMap(Summarized):
     values : (n,) or (n, c) float64
         NaN outside the mask.
     method : str
-        "rof" or "heat".
+        "rof", "tgv" or "heat".
     certificate : dict
-        What is proved and with which parameters: `relative_gap` and `error_bound` for ROF.
+        What is proved and with which parameters: `relative_gap` and `error_bound` for ROF and TGV.
     notes : tuple of str
     """
 
@@ -60,7 +62,9 @@ def denoise(
     surface: SurfaceLike,
     values: MapLike,
     *,
+    method: Literal["rof", "tgv"] = "rof",
     weight: float = 0.9,
+    ratio: float = 2.0,
     noise: float | None = None,
     tolerance: float = 1e-4,
     progress: Progress | None = None,
@@ -69,7 +73,8 @@ def denoise(
 
     Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle
     of mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor
-    leave: the condition at its boundary is natural.
+    leave: the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
+    generalised variation of second order in place of TV, which makes no stairs of slopes.
 
     Parameters
     ----------
@@ -77,8 +82,12 @@ def denoise(
         Its mask, or else the finite values of the map, is where the map is denoised.
     values : str or (n,) or (n, c) float64
         Name of a map of the surface, or the map; NaN where nothing is known.
+    method : {"rof", "tgv"}
+        "tgv" takes one channel.
     weight : float
         Without unit; smaller is smoother. The error is least near 1.
+    ratio : float
+        Of "tgv": the length over which a slope may turn, in edge lengths h; large ones do as "rof".
     noise : float, optional
         Standard deviation of the noise, in the unit of the map; estimated from the map if not given.
     tolerance : float
@@ -117,11 +126,19 @@ def denoise(
             f"noise is {sigma:g} and weight {weight:g}, both must be positive: a constant map has no noise"
         )
     mu = weight / (sigma * operator.edge_length)
-    solver = newton if tolerance < NEWTON_BELOW and image.ndim == 1 else primal_dual
-    solution = solver(rof(operator.mass, image, mu), operator, tolerance=tolerance, progress=progress)
-    certificate = {"noise": sigma, "noise_estimated": noise is None, "weight": weight, **_proof(solution, operator)}
+    data = rof(operator.mass, image, mu)
+    facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
+    if method == "tgv":
+        problem = GeneralisedVariation(data, operator, ratio * operator.edge_length)
+        solution = generalised_splitting(problem, tolerance=tolerance, progress=progress).solution
+        facts["ratio"] = ratio
+    elif method == "rof":
+        solver = newton if tolerance < NEWTON_BELOW and image.ndim == 1 else primal_dual
+        solution = solver(data, operator, tolerance=tolerance, progress=progress)
+    else:
+        raise ValueError(f"method is {method!r}, choose rof or tgv")
     notes = mask_notes(owner, part) + tuple(solution.notes)
-    return DenoisedMap(part.extend(solution.values), "rof", certificate, notes)
+    return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes)
 
 
 def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:

@@ -14,6 +14,8 @@ SOLVABLE_MODELS: dict[str, frozenset[str]] = {
     "conic": frozenset({"rof", "inpainting", "convex_chan_vese"}),
     "published_split_bregman": frozenset({"rof", "convex_chan_vese"}),
     "published_chambolle": frozenset({"rof", "convex_chan_vese"}),
+    "generalised_splitting": frozenset({"tgv"}),
+    "generalised_primal_dual": frozenset({"tgv"}),
 }
 PUBLISHED = frozenset({"rof", "convex_chan_vese"})
 AVERAGED_MODELS: dict[str, frozenset[str]] = {

@@ -28,10 +28,11 @@ def on_whole(values: np.ndarray) -> np.ndarray:
     "task",
     [
         lambda s, f: sx.denoise(s, f).values,
+        lambda s, f: sx.denoise(s, f, method="tgv").values,
         lambda s, f: sx.smooth(s, f, 0.3).values,
         lambda s, f: sx.eigenpairs(s, 12).vectors,
     ],
-    ids=["denoise", "smooth", "eigenpairs"],
+    ids=["denoise", "tgv", "smooth", "eigenpairs"],
 )
 def test_masking_equals_cutting(task) -> None:
     masked, cut = task(MASKED, NOISY), task(CUT, NOISY[PART.vertices])

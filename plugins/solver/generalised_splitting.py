@@ -1,0 +1,30 @@
+"""Split Bregman iterations for total generalised variation."""
+
+from functools import partial
+
+from pydantic import Field
+
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.image import Image
+from surfexp.variational.models.tgv import TGV
+from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.generalised_splitting import generalised_splitting
+from surfexp.workflow.registry import Options, register
+from surfexp.workflow.stage import report_progress
+
+
+class GeneralisedSplitting(Options):
+    """When to stop, and the penalty."""
+
+    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
+    iteration_limit: int = Field(20000, ge=1, description="most iterations")
+    penalty: float | None = Field(None, gt=0, description="of grad u - w; default: 10 mu h^2")
+    relaxation: float = Field(1.8, gt=0, lt=2, description="over-relaxation")
+
+
+@register("solver", "generalised_splitting", accepts={"model": ("tgv",)})
+def generalised_splitting_solver(
+    options: GeneralisedSplitting, *, image: Image, operator: SurfaceOperator, model: TGV
+) -> Solution:
+    """Split Bregman iterations with one factorisation for u and w together, certified."""
+    return model.run(image, operator, partial(generalised_splitting, **dict(options), progress=report_progress))
