@@ -77,7 +77,7 @@ def _write_page(names: list[str]) -> None:
 
 def growth_plot(lines: Sequence[Line], axis: str) -> Figure:
     """Draw how the seconds of lines grow."""
-    columns = {line.work.partition(",")[0]: np.array(line.points).T for line in lines}
+    columns = {line.curve: np.array(line.points).T for line in lines}
     curves = {name: (sizes, seconds) for name, (sizes, seconds) in columns.items()}
     return convergence_plot(curves, x_label=axis, y_label="seconds", title=f"Seconds against {axis}")
 

@@ -59,8 +59,9 @@ def lines(quick: bool) -> list[Line]:
     seconds = (first.wall + rest.wall) / surfaces
     growth = float(np.median(peaks[-len(peaks) // 10 :]) - np.median(peaks[: len(peaks) // 10 + 1]))
     told = f"{spectra:,} of {surfaces:,} spectra of {MODES} modes proved complete, largest residual {residual:.1e}; "
-    told += f"killed with {kept:,} spectra done and resumed, all of it counted; processor seconds a surface "
-    told += f"{(first.cpu + rest.cpu) / surfaces:.2f}; median peak memory of a stage {np.median(peaks):.0f} MB, "
+    told += f"killed with {kept:,} spectra done and resumed, all of it counted; after that "
+    told += f"{rest.cpu / (surfaces - kept):.2f} processor seconds a surface; "
+    told += f"median peak memory of a stage {np.median(peaks):.0f} MB, "
     told += f"{growth:+.0f} MB from the first tenth to the last"
     met = seconds <= LIMIT_SECONDS and spectra == surfaces and growth <= LIMIT_GROWTH
     work = f"cohort: {surfaces:,} surfaces of {VERTICES:,} V, {MODES} modes each, from a table, wall seconds a surface"

@@ -121,7 +121,8 @@ def _tiny_stages(counts: Sequence[int]) -> Line:
     work, limit = f"a tiny stage, over {most:,} of them", f"≤ {TINY:g} s"
     points = _points(counts, costs)
     met = seconds <= TINY
-    return Line(work, "a limit", limit, f"{seconds:.3f} s", met, cost, accuracy=told, points=points)
+    limits = ("a limit", limit, f"{seconds:.3f} s", met)
+    return Line(work, *limits, cost, accuracy=told, points=points, curve="surfexp run")
 
 
 def _plain_snakemake(counts: Sequence[int]) -> Line:
@@ -133,7 +134,8 @@ def _plain_snakemake(counts: Sequence[int]) -> Line:
     work = f"a tiny stage under plain snakemake, over {counts[-1]:,} of them"
     points = _points(counts, costs)
     told = f"a process for each stage; wall: {rates}"
-    return Line(work, "no limit", "–", f"{seconds:.2f} s", True, costs[-1], accuracy=told, points=points)
+    seen = ("no limit", "–", f"{seconds:.2f} s", True)
+    return Line(work, *seen, costs[-1], accuracy=told, points=points, curve="plain snakemake")
 
 
 def _points(counts: Sequence[int], costs: Sequence[Cost]) -> tuple[tuple[float, float], ...]:

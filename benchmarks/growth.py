@@ -52,6 +52,7 @@ def _line(name: str, sides: tuple[int, ...]) -> Line:
         accuracy=told,
         note="memory: growth of the peak at the largest size, mesh and picture included",
         points=tuple(zip(map(float, counts), map(float, seconds), strict=True)),
+        curve=name,
     )
 
 

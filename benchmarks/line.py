@@ -25,6 +25,8 @@ class Line:
     note : str
     points : tuple of (float, float)
         How the seconds grow, for a figure: size and seconds.
+    curve : str
+        What the figure calls them.
     """
 
     work: str
@@ -37,6 +39,7 @@ class Line:
     accuracy: str = ""
     note: str = ""
     points: tuple[tuple[float, float], ...] = ()
+    curve: str = ""
 
     def __post_init__(self) -> None:
         """Refuse medians of unequal numbers of runs."""
