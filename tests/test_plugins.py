@@ -150,6 +150,13 @@ SMALL = {
         "inputs": {"weights": {"over": "alphas"}, "features": {"over": "alphas"}, "skeletons": {"over": "alphas"}}
     },
     ("surface", "clover"): {"levels": 2},
+    ("surface", "coarse"): {"count": 300, "inputs": {"original": {"surface": SPHERE}}},
+    ("surface", "side_by_side"): {"inputs": {"original": {"surface": SPHERE}}},
+    ("surface", "slivers"): {"inputs": {"original": {"surface": SPHERE}}},
+    ("statistic", "missing_pairs"): {"counts": [10]},
+    ("statistic", "missing_by_kind"): {
+        "inputs": {"statistics": {"over": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
+    },
     ("surface", "disguised"): {"remeshed": True, "inputs": {"original": {"surface": SPHERE}}},
     ("surface", "sulcal_regions"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "pial"}}}},
     ("figure", "embedded_regions"): {

@@ -148,7 +148,7 @@ def flat_parameters(nodes: Mapping[str, Node], key: str, root: str = "") -> dict
             for name in dict.fromkeys(name for part in parts for name in part):
                 values = list(dict.fromkeys(json.dumps(part.get(name)) for part in parts))
                 varied = f"{len(values)} values ({digest(values)[:6]})"
-                flat.setdefault(name, parts[0][name] if len(values) == 1 else varied)
+                flat.setdefault(name, parts[0].get(name) if len(values) == 1 else varied)
 
     visit(key, root or nodes[key].kind, "")
     return flat

@@ -20,6 +20,8 @@ CHAIN = {
     "scalar": "toy_eigenfunction",
     "weighted": {"name": "toy_flux", "inputs": {"weight": {"scalar": {"name": "toy_boundary", "shift": 1.0}}}},
 }
+DOUBLED = {"name": "toy_doubled", "inputs": {"original": {"surface": {"name": "toy_triangle", "size": 3.0}}}}
+TWICE = {"name": "toy_doubled", "inputs": {"original": {"surface": DOUBLED}}}
 DISTANCE = {
     "target": "pairing",
     "surface": {"name": "toy_triangle", "size": 2.0},
@@ -77,6 +79,14 @@ def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
     assert sum(node.kind == "scalar" for node in plan.nodes.values()) == 2
     with pytest.raises(UserError, match=r"'sujet'.*did you mean 'subject'"):
         make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "sujet"}}}}])
+
+
+def test_members_may_differ_in_options_that_others_do_not_have() -> None:
+    members = {"small": {"surface": "toy_triangle"}, "again": {"surface": DOUBLED}, "twice": {"surface": TWICE}}
+    configuration = collection() | {"axes": {"subject": members}}
+    plan = make_plan(expand(configuration))
+    parameters = plan.parameters(plan.leaves[0])
+    assert parameters["surface.turned"] is None and parameters["surface.size"].startswith("2 values")
 
 
 def collection(**members: dict[str, object]) -> dict[str, object]:

@@ -45,6 +45,16 @@ class Triangle(Options):
     size: float = Field(1.0, gt=0, description="side length")
 
 
+class Doubled(Options):
+    turned: float | None = Field(None, description="not looked at")
+
+
+@register("surface", "toy_doubled")
+def toy_doubled(options: Doubled, *, original: Surface) -> Surface:
+    """Another surface, with an option that may be absent."""
+    return original
+
+
 @register("surface", "toy_triangle")
 def toy_triangle(options: Triangle) -> Surface:
     """One right triangle."""

@@ -1,0 +1,50 @@
+"""Eigenpairs that the usual solver leaves out."""
+
+from pydantic import Field
+
+from surfexp.member import Member
+from surfexp.metric import Metric
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.statistics.statistic import Statistic
+from surfexp.studies.modes.missing_pairs import missing_by_kind, missing_pairs
+from surfexp.workflow.registry import Options, register
+
+METRICS = {
+    "runs": Metric("runs of the usual solver"),
+    "runs_with_missing": Metric("runs that leave an eigenpair out", better="lower"),
+    "runs_with_surplus": Metric("runs that return an eigenpair too often", better="lower"),
+    "runs_without_result": Metric("runs that end without a result", better="lower"),
+    "missing": Metric("most eigenpairs that a run leaves out", better="lower"),
+    "value_error": Metric("largest relative error of a value that is returned", better="lower"),
+    "span_sine": Metric("largest sine between a returned vector and the certified ones", better="lower"),
+}
+BY_KIND_METRICS = METRICS | {
+    "meshes": Metric("meshes"),
+    "runs_with_missing {kind}": Metric("runs that leave an eigenpair out, on one kind of mesh", better="lower"),
+    "missing_share": Metric("runs that leave an eigenpair out", "%", "lower"),
+    "missing_share_highest": Metric("upper end of the 95 % interval of their share", "%", "lower"),
+}
+
+
+class MissingPairs(Options):
+    """What is asked of the usual solver."""
+
+    counts: tuple[int, ...] = Field((50, 100), min_length=1, description="numbers of pairs")
+    seeds: int = Field(3, ge=1, le=1000, description="start vectors for each")
+
+
+@register("statistic", "missing_pairs", metrics=METRICS)
+def missing_pairs_statistic(options: MissingPairs, *, operator: SurfaceOperator, eigensolver: EigenSystem) -> Statistic:
+    """ARPACK as LaPy and neuromodes call it, against a spectrum that is proved complete and longer."""
+    return missing_pairs(operator, eigensolver, options.counts, options.seeds)
+
+
+class ByKind(Options):
+    """Nothing to choose."""
+
+
+@register("statistic", "missing_by_kind", metrics=BY_KIND_METRICS)
+def missing_by_kind_statistic(options: ByKind, *, statistics: dict[Member, Statistic]) -> Statistic:
+    """Runs that leave an eigenpair out, by kind of mesh, with the interval of Clopper and Pearson."""
+    return missing_by_kind(statistics)

@@ -1,0 +1,1 @@
+"""Whether modes are missing, and what they are good for."""
