@@ -28,7 +28,7 @@ FIGURES = {
 }
 
 SECTIONS = {
-    "Variational image processing": ("denoising", "segmentation", "parametrization", "scaling", "threads"),
+    "Variational image processing": ("denoising", "slopes", "segmentation", "parametrization", "scaling", "threads"),
     "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "brain_modes", "nodal_domains", "assembly"),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),

@@ -23,6 +23,7 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 ROOT = Path(__file__).resolve().parents[2]
 GROUPS = (
     "denoising",
+    "slopes",
     "segmentation",
     "parametrization",
     "scaling",
