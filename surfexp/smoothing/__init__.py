@@ -1,0 +1,1 @@
+"""Linear filters of maps on surfaces, as imaging packages apply them, beside total variation."""

@@ -1,0 +1,93 @@
+"""The heat kernel by Chebyshev polynomials of the Laplacian: no factorisation, and a bound of the error."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+from scipy.special import ive
+
+from surfexp.arrays import Floats
+from surfexp.operators.assembly import stiffness
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.separable_quadratic import check_positive
+
+LARGEST_DEGREE = 100_000
+
+
+def heat_polynomial(
+    operator: SurfaceOperator, values: Floats, time: float, tolerance: float = 1e-10
+) -> tuple[Floats, int, float]:
+    """Return exp(-t L) f for L = M^-1 S with the lumped mass M, by the Chebyshev series of the exponential.
+
+    Parameters
+    ----------
+    operator : SurfaceOperator
+    values : (n,) or (n, c) float64
+    time : float
+        In squared units of length.
+    tolerance : float
+        Bound of the error over |f|, both in the mass norm.
+
+    Returns
+    -------
+    like `values`
+    int
+        Degree of the polynomial, about sqrt(t lambda_max log(1 / tolerance)).
+    float
+        Bound of the relative error by the terms that are left out; rounding aside.
+
+    Raises
+    ------
+    ValueError
+        If time or tolerance is not positive, or more than 100,000 terms are needed.
+
+    References
+    ----------
+    Huang, Lyu, Qiu, Chung: Fast polynomial approximation of heat kernel convolution on manifolds and its application to
+    brain sulcal and gyral graph pattern analysis (2020).
+    """
+    check_positive("time", time)
+    check_positive("tolerance", tolerance)
+    half = 0.5 * time * largest_eigenvalue_bound(operator)
+    coefficients, rest = _coefficients(half, tolerance)
+    mass = operator.mass
+    laplacian = csr_array(diags_array(1.0 / mass) @ stiffness(operator))
+    scale = time / half
+
+    def shifted(field: Floats) -> Floats:
+        return scale * (laplacian @ field) - field
+
+    before, now = values, shifted(values)
+    total = coefficients[0] * before + (coefficients[1] * now if len(coefficients) > 1 else 0.0)
+    for coefficient in coefficients[2:]:
+        before, now = now, 2.0 * shifted(now) - before
+        total = total + coefficient * now
+    return total, len(coefficients) - 1, rest
+
+
+def largest_eigenvalue_bound(operator: SurfaceOperator) -> float:
+    """Return a number that no eigenvalue of the lumped problem exceeds: the largest of single triangles.
+
+    Both forms are sums over triangles, so a Rayleigh quotient is at most the largest quotient of a triangle.
+    """
+    hats = operator.hat_gradients
+    local = np.einsum("fax,fbx->fab", hats, hats)
+    return float(3.0 * np.linalg.eigvalsh(local)[:, -1].max())
+
+
+def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
+    """Coefficients of exp(-half (1 + x)) on [-1, 1], and the sum of the moduli of those left out."""
+    degree = 8
+    while degree <= LARGEST_DEGREE:
+        terms = 2.0 * ive(np.arange(degree + 64), half)
+        terms[0] *= 0.5
+        tails = np.cumsum(terms[::-1])[::-1]
+        enough = np.flatnonzero(tails[1:] <= tolerance)
+        if len(enough) and enough[0] < degree:
+            last = int(enough[0])
+            return terms[: last + 1] * (-1.0) ** np.arange(last + 1), float(tails[last + 1])
+        degree *= 2
+    raise ValueError(
+        f"time times the largest eigenvalue is {2 * half:.3g}: more than {LARGEST_DEGREE:,} terms; take heat_flow, whose "
+        "steps are implicit"
+    )
