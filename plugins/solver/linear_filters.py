@@ -79,6 +79,7 @@ def truncated_modes_solver(
 def _filtered(name: str, values: Floats, image: Image, operator: SurfaceOperator, iterations: int) -> Solution:
     drift = float(np.abs(operator.mass @ (values - image.values)).max() / operator.mass.sum())
     metrics = {"mean_drift": drift, **restoration_metrics(image, operator, values)}
-    return Solution(
-        values, 0.0, iterations=iterations, reason="end", model=name, solver="linear filter", metrics=metrics
-    )
+    flat = values.reshape(len(values), -1)
+    energy = 0.5 * float((flat * (stiffness(operator) @ flat)).sum())
+    facts = {"model": name, "solver": "linear filter", "reason": "end", "iterations": iterations}
+    return Solution(values, energy, metrics=metrics, **facts)
