@@ -11,6 +11,8 @@ from scipy.ndimage import uniform_filter
 
 # a picture that is lighter than this stays exact
 LIGHT_BYTES = 200_000
+# what is so much heavier after quick compression is heavy after the best one
+QUICK, PROBABLY_HEAVY = 1, 2.5
 # dithering is not seen while the means over 5 x 5 pixels differ by less than this, of 255, nearly everywhere
 WINDOW, VISIBLE_DIFFERENCE, PERCENTILE = 5, 16.0, 99.9
 # the palette is found on every third pixel of every third row
@@ -32,11 +34,15 @@ def encode_png(pixels: NDArray[np.uint8]) -> bytes:
     if pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.dtype != np.uint8 or not pixels.size:
         raise ValueError(f"pixels have shape {pixels.shape} and type {pixels.dtype}, expected (height, width, 3) uint8")
     picture = PillowImage.fromarray(np.ascontiguousarray(pixels))
-    exact = _png(picture)
-    if len(exact) <= LIGHT_BYTES:
+    heavy = len(_png(picture, QUICK)) > PROBABLY_HEAVY * LIGHT_BYTES
+    exact = b"" if heavy else _png(picture)
+    if exact and len(exact) <= LIGHT_BYTES:
         return exact
     dithered = _dithered(picture, pixels)
-    return min(exact, _png(dithered), key=len) if _looks_same(dithered, pixels) else exact
+    if not _looks_same(dithered, pixels):
+        return exact or _png(picture)
+    small = _png(dithered)
+    return exact if exact and len(exact) < len(small) else small
 
 
 def _dithered(picture: PillowImage.Image, pixels: NDArray[np.uint8]) -> PillowImage.Image:
@@ -59,7 +65,8 @@ def _looks_same(picture: PillowImage.Image, pixels: NDArray[np.uint8]) -> bool:
     return bool(np.percentile(local, PERCENTILE) <= VISIBLE_DIFFERENCE)
 
 
-def _png(picture: PillowImage.Image) -> bytes:
+def _png(picture: PillowImage.Image, level: int | None = None) -> bytes:
+    """At a level of compression, or as small as it gets, which takes ten times as long."""
     stream = BytesIO()
-    picture.save(stream, format="PNG", optimize=True)
+    picture.save(stream, format="PNG", **({"optimize": True} if level is None else {"compress_level": level}))
     return stream.getvalue()
