@@ -15,7 +15,7 @@ LARGEST_DEGREE = 100_000
 
 
 def heat_polynomial(
-    operator: SurfaceOperator, values: Floats, time: float, tolerance: float = 1e-10
+    operator: SurfaceOperator, values: Floats, time: float, tolerance: float = 1e-8
 ) -> tuple[Floats, int, float]:
     """Return exp(-t L) f for L = M^-1 S with the lumped mass M, by the Chebyshev series of the exponential.
 
