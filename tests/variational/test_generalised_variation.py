@@ -95,6 +95,28 @@ def test_a_field_out_of_balance_or_too_long_proves_nothing() -> None:
     assert problem.certify(unknowns, 1.01 * sound).lower_bound == -np.inf
     dual[0] = 0.5
     assert problem.certify(unknowns, dual).lower_bound == -np.inf
+    dual[0] = 1e-6
+    assert problem.certify(unknowns, 0.9 * sound + dual).lower_bound == -np.inf
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+def test_balance_has_no_unit(size: float) -> None:
+    mesh, rng = icosphere(1).mesh, np.random.default_rng(0)
+    operator = fem(TriangleMesh(size * mesh.vertices, mesh.faces))
+    problem = GeneralisedVariation(rof(operator.mass, rng.standard_normal(42), 1.0 / size), operator, 0.5 * size)
+    dual = problem.feasible(rng.standard_normal(problem.forms.shape[0]))
+    assert np.isfinite(problem.certify(np.zeros(problem.forms.shape[1]), dual).lower_bound)
+
+
+def test_the_gap_is_relative_to_the_energy_however_small() -> None:
+    mesh, rng = strip(6), np.random.default_rng(0)
+    values = mesh.vertices[:, 0] + 1e-3 * rng.standard_normal(len(mesh.vertices))
+    operator = fem(mesh)
+    problem = GeneralisedVariation(rof(operator.mass, values, 3.0), operator, 0.3)
+    found = generalised_splitting(problem, tolerance=1e-3).solution
+    constant = problem.fidelity.value(np.full(len(values), values.mean()))
+    assert 1e-7 * constant < found.energy < 3e-3 * constant
+    assert found.relative_gap == pytest.approx((found.energy - found.lower_bound) / found.energy, rel=1e-9)
 
 
 def test_two_solvers_agree_within_what_they_prove() -> None:
