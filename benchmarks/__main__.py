@@ -29,7 +29,14 @@ FIGURES = {
 
 SECTIONS = {
     "Variational image processing": ("denoising", "slopes", "segmentation", "parametrization", "scaling", "threads"),
-    "Laplace-Beltrami eigen-geometry": ("eigenpairs", "eigenpairs_range", "brain_modes", "nodal_domains", "assembly"),
+    "Laplace-Beltrami eigen-geometry": (
+        "eigenpairs",
+        "eigenpairs_range",
+        "hierarchy",
+        "brain_modes",
+        "nodal_domains",
+        "assembly",
+    ),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),

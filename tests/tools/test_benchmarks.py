@@ -33,6 +33,7 @@ GROUPS = (
     "skeleton",
     "growth",
     "brain_modes",
+    "hierarchy",
     "waiting",
     "commands",
     "cohort",
