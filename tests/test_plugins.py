@@ -308,6 +308,10 @@ def compute(context: dict[str, typing.Any], results: Path) -> tuple[str, dict[st
     return leaf.key, {file.name: file.read_bytes() for file in folder.iterdir()}
 
 
+def test_no_plugin_is_left_out() -> None:
+    assert not registry.BROKEN
+
+
 @pytest.mark.parametrize(("kind", "name"), PLUGINS)
 def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
     method = registry.plugin(kind, name)

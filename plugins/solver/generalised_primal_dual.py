@@ -1,11 +1,13 @@
 """The primal-dual method for total generalised variation."""
 
 from functools import partial
+from typing import cast
 
 from pydantic import Field
 
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
+from surfexp.variational.model import Model
 from surfexp.variational.models.tgv import TGV
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_primal_dual import generalised_primal_dual
@@ -23,7 +25,8 @@ class GeneralisedPrimalDual(Options):
 
 @register("solver", "generalised_primal_dual", accepts={"model": ("tgv",)})
 def generalised_primal_dual_solver(
-    options: GeneralisedPrimalDual, *, image: Image, operator: SurfaceOperator, model: TGV
+    options: GeneralisedPrimalDual, *, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:
     """Primal-dual steps without a factorisation but for the certificate; slower, and independent."""
-    return model.run(image, operator, partial(generalised_primal_dual, **dict(options), progress=report_progress))
+    method = partial(generalised_primal_dual, **dict(options), progress=report_progress)
+    return cast(TGV, model).run(image, operator, method)

@@ -1,11 +1,13 @@
 """Split Bregman iterations for total generalised variation."""
 
 from functools import partial
+from typing import cast
 
 from pydantic import Field
 
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
+from surfexp.variational.model import Model
 from surfexp.variational.models.tgv import TGV
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
@@ -24,7 +26,8 @@ class GeneralisedSplitting(Options):
 
 @register("solver", "generalised_splitting", accepts={"model": ("tgv",)})
 def generalised_splitting_solver(
-    options: GeneralisedSplitting, *, image: Image, operator: SurfaceOperator, model: TGV
+    options: GeneralisedSplitting, *, image: Image, operator: SurfaceOperator, model: Model
 ) -> Solution:
     """Split Bregman iterations with one factorisation for u and w together, certified."""
-    return model.run(image, operator, partial(generalised_splitting, **dict(options), progress=report_progress))
+    method = partial(generalised_splitting, **dict(options), progress=report_progress)
+    return cast(TGV, model).run(image, operator, method)
