@@ -12,13 +12,14 @@ from mutation import claims, claims_page
 from mutation.change import Change
 from mutation.fault import Fault
 from mutation.geometry_faults import GEOMETRY_FAULTS
+from mutation.operator_faults import OPERATOR_FAULTS
 from mutation.record import PAGE, add, page, results
 from mutation.sample import sample
 from mutation.selection import measured_baseline, selected
 from mutation.trial import Outcome, Trial, prepare, run_all
 from mutation.variational_faults import VARIATIONAL_FAULTS
 
-FAULTS = VARIATIONAL_FAULTS + GEOMETRY_FAULTS
+FAULTS = OPERATOR_FAULTS + VARIATIONAL_FAULTS + GEOMETRY_FAULTS
 
 
 def main() -> None:

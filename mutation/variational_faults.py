@@ -1,4 +1,4 @@
-"""The table of faults in operators and variational methods."""
+"""The table of faults in variational methods."""
 
 from __future__ import annotations
 
@@ -11,22 +11,12 @@ AGREE = "variational/test_agreement.py::test_solvers_agree[fem-rof]"
 REGIONS = "variational/test_models.py::test_convex_chan_vese_finds_the_regions"
 PROX = "variational/test_proximal_maps.py::test_prox_is_the_minimiser"
 BOUND = "variational/test_proximal_maps.py::test_dual_value_is_a_lower_bound"
-ADJOINT = "operators/test_fem.py::test_divergence_is_the_negative_adjoint_of_the_gradient"
-LIBIGL = "operators/test_fem.py::test_libigl_agrees"
 BALANCED = "variational/test_generalised_variation.py::test_the_certificate_again_by_other_means"
 BELOW = "variational/test_generalised_variation.py::test_no_field_has_less_energy_than_the_bound_of_any_dual"
 STRIP = "variational/test_generalised_variation.py::test_an_exact_solution_and_its_rate"
-FIELDS = "operators/test_crouzeix_raviart.py::test_linear_fields_of_a_plane_are_exact"
 COAREA = "variational/test_level_sets.py::test_coarea_formula_is_exact"
 
 VARIATIONAL_FAULTS = (
-    Fault(
-        "derivative of a tangent field by conforming hat functions",
-        "operators/crouzeix_raviart.py",
-        "slopes = -2.0 * operator.hat_gradients",
-        "slopes = 2.0 * operator.hat_gradients",
-        (FIELDS,),
-    ),
     Fault(
         "dual field of total generalised variation left out of balance",
         "variational/generalised_variation.py",
@@ -47,48 +37,6 @@ VARIATIONAL_FAULTS = (
         "shortened(mixed, 1.0 / penalties[0], 1.0 / penalties[1])",
         "shortened(mixed, 1.0 / penalties[0], 1.0 / penalties[0])",
         (STRIP,),
-    ),
-    Fault(
-        "adjoint with a wrong sign at one corner",
-        "operators/calculus.py",
-        "            result[i, c] -= b + e",
-        "            result[i, c] += b + e",
-        (ADJOINT,),
-    ),
-    Fault(
-        "divergence without its minus sign",
-        "operators/calculus.py",
-        "return -load / operator.mass",
-        "return load / operator.mass",
-        (ADJOINT,),
-    ),
-    Fault(
-        "area of the parallelogram in place of the triangle",
-        "operators/fem.py",
-        "areas[f] = 0.5 * twice_area",
-        "areas[f] = twice_area",
-        (LIBIGL,),
-    ),
-    Fault(
-        "lumped mass of half the ring area, not a third",
-        "operators/surface_operator.py",
-        "np.repeat(self.areas / 3.0, 3)",
-        "np.repeat(self.areas / 2.0, 3)",
-        (f"{LIMIT}[primal_dual]", TRIANGLE),
-    ),
-    Fault(
-        "consistent mass twice too large",
-        "operators/assembly.py",
-        "share = areas[f] / 12.0",
-        "share = areas[f] / 6.0",
-        ("operators/test_elements.py::test_order_one_equals_the_cotangent_matrices", LIBIGL),
-    ),
-    Fault(
-        "averaged gradient not divided by three",
-        "operators/vertex_averaged.py",
-        "1.0 / (3.0 * operator.mass)",
-        "1.0 / operator.mass",
-        ("operators/test_vertex_averaged.py::test_agrees_with_the_formula_as_published",),
     ),
     Fault(
         "fidelity without its factor 1/2",

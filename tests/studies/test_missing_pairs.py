@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.member import Member
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.operators.assembly import mass_matrix
+from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.statistics.statistic import Statistic
@@ -18,6 +19,11 @@ from surfexp.studies.modes.missing_pairs import compared, missing_by_kind, missi
 BALL = icosphere(2)
 OPERATOR = fem(BALL.mesh)
 CERTIFIED = surface_spectrum(BALL, OPERATOR, count=40)
+
+
+def test_what_runs_are_held_against_is_the_spectrum_of_dense_algebra() -> None:
+    dense = eigh(stiffness(OPERATOR).toarray(), mass_matrix(OPERATOR).toarray(), eigvals_only=True)
+    np.testing.assert_allclose(CERTIFIED.values, dense[:40], atol=1e-10)
 
 
 @pytest.mark.parametrize("gone", [[], [0], [5], [10, 11], [29]])

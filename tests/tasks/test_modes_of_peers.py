@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.icosphere import icosphere
 
 pytest.importorskip("lapy", reason="pip install lapy neuromodes")
 neuromodes = pytest.importorskip("neuromodes", reason="pip install neuromodes")
@@ -62,3 +64,23 @@ def test_our_eigsh_takes_the_place_of_scipys_in_lapy_and_neuromodes(monkeypatch:
     assert len(calls) == 2
     for found in (values, again.evals):
         assert np.abs(found - plain.evals).max() <= 1e-8 * plain.evals[-1]
+
+
+def test_lapy_leaves_pairs_out_on_an_icosphere_and_returns_them_where_noise_is() -> None:
+    """Some of 27 runs, by its own matrices; which of them is a matter of rounding."""
+    from lapy import Solver, TriaMesh
+
+    def missing(sigma: float) -> int:
+        ball = add_vertex_noise(icosphere(2), sigma)
+        known, found = sx.eigenpairs(ball, 70).values, 0
+        for count in (20, 21, 23, 30, 31, 34, 35, 46, 50):
+            for seed in range(3):
+                values, _ = Solver(TriaMesh(ball.mesh.vertices, ball.mesh.faces), use_cholmod=False).eigs(
+                    count, rng=seed
+                )
+                below = np.searchsorted(known, np.sort(values) - 1e-6 * (1.0 + values.max()))
+                found += bool((below > np.arange(count)).any())
+        return found
+
+    assert missing(0.0) > 0
+    assert missing(1e-6) == 0
