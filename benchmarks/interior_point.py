@@ -14,8 +14,32 @@ from surfexp.variational.published.vector_pair import project_to_ball
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 
 
-class InteriorPoint:
-    """The rival at its best: what CVXPY does to the problem, more than a tenth of the whole, is done before the clock starts.
+class Conic:
+    """The rival at its best: what CVXPY does to the problem, a tenth of the whole, is done before the clock starts.
+
+    Parameters
+    ----------
+    problem : cvxpy.Problem
+    """
+
+    def __init__(self, problem: Any) -> None:
+        import cvxpy as cp
+
+        self._problem = problem
+        self._data, self._chain, self._inverse = problem.get_problem_data(cp.CLARABEL, solver_opts={})
+
+    def solve(self, tolerance: float) -> Any:
+        """Return what CLARABEL gives; this is what is timed."""
+        options = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), tolerance)
+        return self._chain.solve_via_data(self._problem, self._data, solver_opts=options)
+
+    def unpack(self, found: Any) -> None:
+        """Give the variables and constraints of the problem the values of a result of `solve`."""
+        self._problem.unpack_results(found, self._chain, self._inverse)
+
+
+class InteriorPoint(Conic):
+    """ROF.
 
     Parameters
     ----------
@@ -35,17 +59,11 @@ class InteriorPoint:
         energy = cp.sum(cp.norm(field, 2, axis=1)) + cp.sum_squares(
             cp.multiply(roots, self._unknown) - roots * fidelity.target
         )
-        self._problem = cp.Problem(cp.Minimize(energy), [self._link])
-        self._data, self._chain, self._inverse = self._problem.get_problem_data(cp.CLARABEL, solver_opts={})
-
-    def solve(self, tolerance: float) -> Any:
-        """Return what CLARABEL gives; this is what is timed."""
-        options = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), tolerance)
-        return self._chain.solve_via_data(self._problem, self._data, solver_opts=options)
+        super().__init__(cp.Problem(cp.Minimize(energy), [self._link]))
 
     def relative_gap(self, found: Any) -> float:
         """Return the relative gap of a result of `solve`, certified as ours is."""
-        self._problem.unpack_results(found, self._chain, self._inverse)
+        self.unpack(found)
         dual = project_to_ball(-self._link.dual_value.reshape(len(self._operator.faces), 2))
         load = adjoint_gradient(self._operator, dual)
         return float(certify(self._fidelity, self._operator, self._unknown.value, load).relative_gap)

@@ -1,4 +1,4 @@
-"""Total generalised variation on the cup against an interior-point solver and the primal-dual method of the literature."""
+"""Total generalised variation on the cup against an interior-point solver and primal-dual steps."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.interior_point import Conic
 from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import measure, measure_both
 from benchmarks.scenes import cup_scene
@@ -74,8 +75,8 @@ def _against_primal_dual(count: int) -> Line:
     return race(work, rival, 2.0, cost, their_cost, accuracy, fair=found.converged and theirs.converged)
 
 
-class _Conic:
-    """The rival at its best: what CVXPY does to the problem is done before the clock starts."""
+class _Conic(Conic):
+    """Total generalised variation."""
 
     def __init__(self, problem: GeneralisedVariation) -> None:
         import cvxpy as cp
@@ -88,17 +89,11 @@ class _Conic:
         roots = np.sqrt(0.5 * problem.operator.mass * problem.fidelity.weight)
         values = self._unknowns[: len(roots)]
         data = cp.sum_squares(cp.multiply(roots, values) - roots * problem.fidelity.target)
-        self._problem = cp.Problem(cp.Minimize(problem.operator.areas @ parts + data), [self._link])
-        self._data, self._chain, self._inverse = self._problem.get_problem_data(cp.CLARABEL, solver_opts={})
-
-    def solve(self, tolerance: float) -> Any:
-        """Return what CLARABEL gives; this is what is timed."""
-        options = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), tolerance)
-        return self._chain.solve_via_data(self._problem, self._data, solver_opts=options)
+        super().__init__(cp.Problem(cp.Minimize(problem.operator.areas @ parts + data), [self._link]))
 
     def relative_gap(self, found: Any) -> float:
         """Return the relative gap of a result of `solve`, certified as ours is."""
-        self._problem.unpack_results(found, self._chain, self._inverse)
+        self.unpack(found)
         dual: Floats = self._link.dual_value / np.repeat(self._given.operator.areas, 6)
         # the sign of a dual value is a convention: the one that proves more
         gaps = [

@@ -1,7 +1,8 @@
-"""The hierarchical subspace iteration of Nasikun and Hildebrandt (2022), written here as a rival with our factorisation.
+"""The hierarchical subspace iteration of Nasikun and Hildebrandt (2022), a rival with our factorisation.
 
-Subspaces of functions around nested samples of the vertices, partitions of unity by lengths along edges; the coarsest problem
-is dense, and on each finer level a block is iterated with a factorised shift until its residual is small.
+Subspaces of functions around samples of the vertices, partitions of unity by lengths along edges; the coarsest problem
+is dense, and on each finer level a block is iterated with a factorised shift until its residual is small. Written here,
+since no package has it.
 """
 
 from __future__ import annotations

@@ -32,8 +32,8 @@ where the rival takes more than 40 s. One thread, unless the line says two (then
 side reached, and on which scale a gap is taken, stands below its table, and what of the set-up is counted. Compilation
 is excluded and listed at the end. Packages run on their own operators and factorisations; the methods as published, the
 conformal and the level-set methods were written here and run on ours. A rival that is not installed
-(`pip install 'surfexp[bench]'`) counts as not met. Beside what was seen stands what the run before gave on the same code:
-how far figures spread.
+(`pip install 'surfexp[bench]'`) counts as not met. Beside what was seen stands what the run before gave on the same
+code: how far figures spread.
 """
 COLUMNS = "| work | rival | asked | seen | run before | verdict | ours, CPU (wall) s | rival, CPU (wall) s | runs |"
 
@@ -66,7 +66,8 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
         parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|---|", *rows]) + "\n")
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
     parts.append(
-        "## Seconds against size\n\n![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.png)\n"
+        "## Seconds against size\n\n"
+        "![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.png)\n"
         "\n![Wall seconds of whole runs against their stages](docs/seconds_against_stages.png)\n"
     )
     parts.append(

@@ -1,4 +1,4 @@
-"""A slope with a step on the sphere: total variation makes stairs of the slope, total generalised variation does not."""
+"""A slope with a step on the sphere: total variation makes stairs of the slope, the generalised one does not."""
 
 import numpy as np
 

@@ -17,5 +17,5 @@ class TgvOptions(Options):
 
 @register("model", "tgv", metrics=RESTORATION_METRICS)
 def tgv_model(options: TgvOptions) -> TGV:
-    """min over u and w of int |grad u - w| + ratio h |D w| + mu/2 |u - I|^2: edges stay, slopes do not become stairs."""
+    """min over u and w of int |grad u - w| + ratio h |D w| + mu/2 |u - I|^2: edges stay, and slopes."""
     return TGV(w=options.w, mu=options.mu, ratio=options.ratio)

@@ -17,7 +17,7 @@ class Coarse(Options):
 
 @register("surface", "coarse")
 def coarse_surface(options: Coarse, *, original: Surface) -> Surface:
-    """Another surface with fewer vertices by contracted edges, each seed another mesh; a cortex without its medial wall."""
+    """Another surface with fewer vertices, each seed another mesh; of a cortex without its medial wall, if asked."""
     return coarse(original, **dict(options))
 
 
@@ -30,7 +30,7 @@ class SideBySide(Options):
 
 @register("surface", "side_by_side")
 def side_by_side_surface(options: SideBySide, *, original: Surface) -> Surface:
-    """Another surface and its mirror image beside it, as one mesh of two pieces: every eigenvalue is double, or nearly."""
+    """Another surface and its mirror image beside it as one mesh: every eigenvalue is double, or nearly."""
     return side_by_side(original, **dict(options))
 
 

@@ -18,8 +18,8 @@ from surfexp.workflow.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "modes": ("surface_commands", "eigenpairs of a surface: surfexp modes SURFACE -k 400 --to modes.npz"),
-    "denoise": ("surface_commands", "a map without its noise: surfexp denoise SURFACE MAP --to clean.shape.gii"),
-    "smooth": ("surface_commands", "a map smoothed by heat flow: surfexp smooth SURFACE MAP --width 6mm --to FILE"),
+    "denoise": ("map_commands", "a map without its noise: surfexp denoise SURFACE MAP --to clean.shape.gii"),
+    "smooth": ("map_commands", "a map smoothed by heat flow: surfexp smooth SURFACE MAP --width 6mm --to FILE"),
     "segment": ("segment", "two regions, certified: surfexp segment SURFACE [MAP] --to parts.label.gii"),
     "skeleton": ("surface_commands", "the Reeb graph of a map: surfexp skeleton SURFACE [MAP] --to skeleton.vtk"),
     "distance": ("surface_commands", "spectral distance with proof: surfexp distance A B -n 20"),

@@ -44,8 +44,9 @@ def requests(
     """Return Snakemake's arguments that ask for memory and time, and put small stages together, as was measured before.
 
     A kind asks for twice the peak memory and three times the seconds that it took in the results folder, and never for
-    less than 2 GB. One that took seconds asks for a minute, others for ten at least: the next surface may be larger than
-    all before it. As many of the small ones are a job as two minutes of work are. What the profile says goes first.
+    less than 2 GB. One that took seconds asks for a minute, others for ten at least: the next surface may be larger
+    than all before it. As many of the small ones are a job as two minutes of work are. What the profile says goes
+    first.
 
     Parameters
     ----------

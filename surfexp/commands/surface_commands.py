@@ -1,10 +1,10 @@
-"""Commands that work on files of one's own: file in, file out, certificate beside it."""
+"""Commands that work on surfaces of one's own: file in, file out, certificate beside it."""
 
 from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import click
 
@@ -13,8 +13,6 @@ from surfexp.commands.surface_arguments import finish, map_of, opened, progress_
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
-    "denoise": ("lh.white lh.thickness --to clean.shape.gii", "scan.ply quality --to clean.ply"),
-    "smooth": ("lh.white lh.thickness --width 6 --to smooth.mgh", "a.surf.gii a.func.gii --width 4mm --to b.func.gii"),
     "geodesic": ("lh.white 0 --to distance.shape.gii", "bunny.ply 12 40 --to distance.csv"),
     "curvature": ("lh.white --to curvature.shape.gii", "bunny.ply --to bunny.vtp"),
     "skeleton": ("patch.ply --to skeleton.vtk", "patch.ply height.csv --to skeleton.graphml"),
@@ -45,74 +43,6 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
         "seconds": time.perf_counter() - started,
     }
     finish(target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes)
-
-
-@click.command(**shown("denoise", *EXAMPLES["denoise"]))
-@click.argument("path")
-@click.argument("map_name", metavar="MAP")
-@click.option(
-    "--method",
-    type=click.Choice(["rof", "tgv"]),
-    default="rof",
-    show_default=True,
-    help="total variation, or total generalised variation, which makes no stairs of slopes",
-)
-@click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
-@click.option("--ratio", default=2.0, show_default=True, help="of tgv: over how many edge lengths a slope may turn")
-@click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
-@click.option("--tolerance", default=1e-4, show_default=True, help="largest relative duality gap")
-@surface_options
-@result_option()
-def denoise(
-    path: str,
-    map_name: str,
-    method: Literal["rof", "tgv"],
-    weight: float,
-    ratio: float,
-    noise: float | None,
-    tolerance: float,
-    target: Path,
-    **given: Any,
-) -> None:
-    """Remove the noise of a map by total variation, which keeps its edges. MAP is a file, or a map that the surface carries."""
-    from surfexp.tasks.denoising import denoise as task
-
-    surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files)
-    started = time.perf_counter()
-    with progress_line("denoise") as progress:
-        options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
-        clean = task(surface, values, noise=noise, progress=progress, **options)
-    facts = clean.certificate | {"seconds": time.perf_counter() - started}
-    finish(target, clean, surface, method, {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
-
-
-def millimetres(text: str) -> float:
-    """The number of a width such as 6 or 6mm."""
-    try:
-        return float(text.removesuffix("mm"))
-    except ValueError:
-        raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm") from None
-
-
-@click.command(**shown("smooth", *EXAMPLES["smooth"]))
-@click.argument("path")
-@click.argument("map_name", metavar="MAP")
-@click.option(
-    "--width", type=millimetres, required=True, help="full width at half maximum, in the unit of the surface: 6mm"
-)
-@surface_options
-@result_option()
-def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> None:
-    """Smooth a map by heat flow on the surface, as a Gaussian of a given width would."""
-    from surfexp.tasks.denoising import smooth as task
-
-    surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files)
-    started = time.perf_counter()
-    smoothed = task(surface, values, width)
-    facts = smoothed.certificate | {"seconds": time.perf_counter() - started}
-    finish(target, smoothed, surface, "heat", {"width": width}, files, facts, smoothed.notes)
 
 
 @click.command(**shown("geodesic", *EXAMPLES["geodesic"]))
@@ -250,7 +180,7 @@ def plot(path: str, map_name: str | None, width: int, label: str, target: Path, 
     click.echo(str(target))
 
 
-ALL = (modes, denoise, smooth, geodesic, curvature, skeleton, distance, align, convert, plot)
+ALL = (modes, geodesic, curvature, skeleton, distance, align, convert, plot)
 COMMANDS = {command.name: command for command in ALL}
 
 

@@ -15,9 +15,9 @@ from surfexp.operators.surface_operator import SurfaceOperator
 class TangentFields:
     """The space of tangent fields that are linear on faces and continuous in the middle of edges.
 
-    Two faces are flat about their common edge, so a vector there has the same two coordinates, along the edge (from its
-    vertex of smaller index to the other one) and across it, in both; nothing has to be chosen at vertices, where the surface
-    is curved. On a plane all linear fields are among these, and constant ones have no derivative.
+    Two faces are flat about their common edge, so a vector there has the same two coordinates in both, along the edge
+    (from its vertex of smaller index to the other one) and across it; nothing has to be chosen at vertices, where the
+    surface is curved. On a plane all linear fields are among these, and constant ones have no derivative.
 
     Parameters
     ----------
@@ -65,15 +65,15 @@ def tangent_fields(operator: SurfaceOperator) -> TangentFields:
 
 
 def _edges_in_frames(operator: SurfaceOperator) -> tuple[Integers, Integers, Floats]:
-    """Return the edges, the edge opposite each corner (m, 3), and its unit vector in the frame of the face (m, 3, 2)."""
+    """Return the edges, the edge opposite each corner (m, 3), and its direction in the face's frame (m, 3, 2)."""
     tails, heads = operator.faces[:, [1, 2, 0]], operator.faces[:, [2, 0, 1]]
     ends = np.stack([np.minimum(tails, heads), np.maximum(tails, heads)], axis=-1).reshape(-1, 2)
     edges, face_edges, counts = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
     if counts.max(initial=0) > 2:
         worst = int(np.argmax(counts))
         raise ValueError(
-            f"edge {edges[worst].tolist()} has {counts[worst]} faces in operator {operator.name!r}, at most 2 can carry "
-            "tangent fields: repair the surface, or choose operator fem"
+            f"edge {edges[worst].tolist()} has {counts[worst]} faces in operator {operator.name!r}, at most 2 can "
+            "carry tangent fields: repair the surface, or choose operator fem"
         )
     hats = operator.hat_gradients
     forward = np.where(tails < heads, 1.0, -1.0)[..., None] * np.stack([hats[..., 1], -hats[..., 0]], axis=-1)

@@ -88,6 +88,6 @@ def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
             return terms[: last + 1] * (-1.0) ** np.arange(last + 1), float(tails[last + 1])
         degree *= 2
     raise ValueError(
-        f"time times the largest eigenvalue is {2 * half:.3g}: more than {LARGEST_DEGREE:,} terms; take heat_flow, whose "
-        "steps are implicit"
+        f"time times the largest eigenvalue is {2 * half:.3g}: more than {LARGEST_DEGREE:,} terms; take heat_flow, "
+        "whose steps are implicit"
     )

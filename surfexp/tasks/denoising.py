@@ -16,7 +16,7 @@ from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
-from surfexp.variational.separable_quadratic import rof
+from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
 from surfexp.variational.solvers.newton import newton
@@ -121,24 +121,40 @@ def denoise(
     operator = fem(part.mesh)
     image = np.asarray(part.restrict(noisy), dtype=np.float64)
     sigma = noise_level(operator, image) if noise is None else float(noise)
-    if not (sigma > 0 and weight > 0):
-        raise ValueError(
-            f"noise is {sigma:g} and weight {weight:g}, both must be positive: a constant map has no noise"
-        )
-    mu = weight / (sigma * operator.edge_length)
-    data = rof(operator.mass, image, mu)
+    data = _data(operator, image, sigma, weight)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     if method == "tgv":
-        problem = GeneralisedVariation(data, operator, ratio * operator.edge_length)
-        solution = generalised_splitting(problem, tolerance=tolerance, progress=progress).solution
         facts["ratio"] = ratio
-    elif method == "rof":
-        solver = newton if tolerance < NEWTON_BELOW and image.ndim == 1 else primal_dual
-        solution = solver(data, operator, tolerance=tolerance, progress=progress)
-    else:
-        raise ValueError(f"method is {method!r}, choose rof or tgv")
+    solution = _minimised(method, data, operator, ratio, tolerance, progress)
     notes = mask_notes(owner, part) + tuple(solution.notes)
     return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes)
+
+
+def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
+    """The distance to the map, by its weight without unit."""
+    if not (noise > 0 and weight > 0):
+        raise ValueError(
+            f"noise is {noise:g} and weight {weight:g}, both must be positive: a constant map has no noise"
+        )
+    return rof(operator.mass, image, weight / (noise * operator.edge_length))
+
+
+def _minimised(
+    method: str,
+    data: SeparableQuadratic,
+    operator: SurfaceOperator,
+    ratio: float,
+    tolerance: float,
+    progress: Progress | None,
+) -> Solution:
+    """Solve the model that a method stands for, by the solver that suits the tolerance."""
+    if method == "tgv":
+        problem = GeneralisedVariation(data, operator, ratio * operator.edge_length)
+        return generalised_splitting(problem, tolerance=tolerance, progress=progress).solution
+    if method == "rof":
+        solver = newton if tolerance < NEWTON_BELOW and len(data.shape) == 1 else primal_dual
+        return solver(data, operator, tolerance=tolerance, progress=progress)
+    raise ValueError(f"method is {method!r}, choose rof or tgv")
 
 
 def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:

@@ -39,7 +39,8 @@ class GeneralisedSolution:
     Parameters
     ----------
     solution : Solution
-        Values u; its dual (m, 3, 2) has p in the first row of a face and q / ratio in the others, balanced and not longer than 1.
+        Values u; its dual (m, 3, 2) has p in the first row of a face and q / ratio in the others, balanced and not
+        longer than 1.
     slopes : (e, 2) float64
         w along and across each edge.
     """

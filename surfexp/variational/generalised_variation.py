@@ -1,4 +1,4 @@
-"""Total generalised variation of second order: a field and the slope that it is given for nothing, energy and certificate."""
+"""Total generalised variation of second order: a field and the slope it has for nothing, energy and certificate."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ PARTS = (2, 4)
 class GeneralisedVariation:
     """min over u and w of sum_T A_T ( |G u - w| + ratio |D w| ) + H(u), w a tangent field of Crouzeix and Raviart.
 
-    What w takes over costs only its own variation: a linear function on a plane costs nothing, while a jump costs what it
-    costs in total variation. D is the whole covariant derivative, not its symmetric part: those fields alone cost
-    nothing that are parallel.
+    What w takes over costs only its own variation: a linear function on a plane costs nothing, while a jump costs
+    what it costs in total variation. D is the whole covariant derivative, not its symmetric part: only parallel fields
+    cost nothing.
 
     Parameters
     ----------
@@ -46,8 +46,8 @@ class GeneralisedVariation:
     References
     ----------
     Bredies, Kunisch, Pock: Total generalized variation (2010).
-    Baumgaertner, Bergmann, Herzog, Schmidt, Vidal-Nunez: Total generalized variation for piecewise constant functions on
-    triangular meshes with applications in imaging (2023), for meshes and piecewise constant functions.
+    Baumgaertner, Bergmann, Herzog, Schmidt, Vidal-Nunez: Total generalized variation for piecewise constant functions
+    on triangular meshes with applications in imaging (2023), for meshes and piecewise constant functions.
     """
 
     fidelity: SeparableQuadratic
@@ -59,8 +59,8 @@ class GeneralisedVariation:
         fidelity, count = self.fidelity, self.operator.vertex_count
         if not fidelity.is_quadratic or fidelity.strong_convexity <= 0 or fidelity.shape != (count,):
             raise ValueError(
-                f"total generalised variation takes a strongly convex quadratic of {count} values, not {fidelity.name} of "
-                f"shape {fidelity.shape}: denoise channels one by one"
+                f"total generalised variation takes a strongly convex quadratic of {count} values, not {fidelity.name} "
+                f"of shape {fidelity.shape}: denoise channels one by one"
             )
         if not self.operator.consistent or self.operator.averaged_gradient is not None:
             raise ValueError(
@@ -75,7 +75,7 @@ class GeneralisedVariation:
 
     @cached_property
     def forms(self) -> csr_array:
-        """(6 m, n + 2 e) matrix of u and w, one after the other: on each face the two rows of G u - w, the four of ratio D w."""
+        """(6 m, n + 2 e) matrix of u and w in one array: on each face two rows of G u - w, then four of ratio D w."""
         count, fields = len(self.operator.faces), self.fields
         empty = csr_array((4 * count, self.operator.vertex_count))
         blocks = [[gradient_matrix(self.operator), -fields.averages], [empty, self.ratio * fields.derivative]]
@@ -97,7 +97,7 @@ class GeneralisedVariation:
         return unknowns[: self.operator.vertex_count]
 
     def feasible(self, dual: Floats) -> Floats:
-        """Return the field nearest to a (6 m,) one whose two parts balance at every edge, shrunk until neither is longer than 1."""
+        """Return the nearest (6 m,) field whose two parts balance at every edge, shrunk to a length of at most 1."""
         move = self._balance.solve((self.adjoint @ dual)[self.operator.vertex_count :])
         balanced = dual - self._slope_forms @ move
         return balanced / max(1.0, *(part.max() for part in lengths(balanced)))
@@ -142,7 +142,7 @@ def lengths(field: Floats) -> tuple[Floats, Floats]:
 
 
 def shortened(field: Floats, first: float, second: float) -> Floats:
-    """Return a (6 m,) field whose parts are shorter by these lengths on each face, and zero where they were not longer."""
+    """Return a (6 m,) field whose parts are shorter by these lengths on each face, zero where they were no longer."""
     shares = [
         1.0 - np.minimum(length / np.maximum(part, length), 1.0)
         for part, length in zip(lengths(field), (first, second), strict=True)

@@ -1,7 +1,7 @@
 """Snakemake's executor for Slurm, with one process for all stages of a job.
 
-A job of the plugin starts a Snakemake that starts another for each of its stages, through srun, and that the stage. Here
-the Snakemake of a job hands its stages to warm processes, as one on this machine does.
+A job of the plugin starts a Snakemake that starts another for each of its stages, through srun, and that the stage.
+Here the Snakemake of a job hands its stages to warm processes, as one on this machine does.
 """
 
 from __future__ import annotations

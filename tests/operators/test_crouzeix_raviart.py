@@ -56,7 +56,7 @@ def test_linear_fields_of_a_plane_are_exact(seed: int) -> None:
 
 @pytest.mark.parametrize("turning", [False, True])
 def test_derivative_of_known_fields_on_the_sphere_at_their_rates(turning: bool) -> None:
-    """|Hess z|^2 = 2 z^2 and |D (e_z x X)|^2 = 2 z^2, which integrate to 8 pi / 3; one is symmetric, the other the opposite."""
+    """|Hess z|^2 = 2 z^2 and |D (e_z x X)|^2 = 2 z^2, integral 8 pi / 3; one is symmetric, one the opposite."""
     errors, others = [], []
     for levels in (2, 3, 4):
         mesh = icosphere(levels).mesh

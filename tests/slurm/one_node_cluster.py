@@ -1,4 +1,4 @@
-"""A Slurm of one node from Debian's packages: `python tests/slurm/one_node_cluster.py COMMAND ...` runs a command in it.
+"""A Slurm of one node from Debian's packages: `python tests/slurm/one_node_cluster.py COMMAND ...` runs it there.
 
     apt-get install slurmctld slurmd slurm-client munge
 

@@ -1,4 +1,4 @@
-"""Total generalised variation: what costs nothing, what it lies between, an exact solution, and two solvers and a referee."""
+"""Total generalised variation: what costs nothing, what it lies between, an exact solution, two solvers, a referee."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Meshes on which eigensolvers are tried: coarse cortices, two equal pieces side by side, triangles that are nearly lines."""
+"""Meshes on which eigensolvers are tried: coarse cortices, two equal pieces, triangles that are nearly lines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CLEARANCE = 1.5
 
 
 def coarse(surface: Surface, count: int, seed: int = 0, thinnest: float | None = None) -> Surface:
-    """Contract edges, the shortest first, until `count` vertices are left; what the seed shakes decides which are short.
+    """Contract edges, the shortest first, until `count` vertices are left; the seed decides which are short.
 
     Parameters
     ----------

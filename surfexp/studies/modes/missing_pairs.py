@@ -27,8 +27,8 @@ def missing_pairs(
 ) -> Statistic:
     """Run ARPACK as LaPy and neuromodes call it, and count what it leaves out.
 
-    The call is that of both: shift-invert about -0.01 by SuperLU, tolerance 0 (rounding), k values nearest to the shift, a
-    start vector drawn uniformly from [-1, 1].
+    The call is that of both: shift-invert about -0.01 by SuperLU, tolerance 0 (rounding), k values nearest to the
+    shift, a start vector drawn uniformly from [-1, 1].
 
     Parameters
     ----------
@@ -44,8 +44,8 @@ def missing_pairs(
     -------
     Statistic
         Columns, a row a run: count, seed, missing, surplus, value_error, span_sine. `missing` is the largest number of
-        certified values below a returned one, less those returned below it; `surplus` the opposite. A run without result has
-        NaN there.
+        certified values below a returned one, less those returned below it; `surplus` the opposite. A run without
+        result has NaN there.
 
     Raises
     ------
@@ -127,8 +127,8 @@ def missing_by_kind(statistics: Mapping[Member, Statistic]) -> Statistic:
     Returns
     -------
     Statistic
-        Rows: the kinds, and all. Columns: meshes, runs, runs with a missing pair, their share in per cent with the ends of its
-        interval, runs with a pair too many, runs without a result, largest errors of a value and of the span.
+        Rows: the kinds, and all. Columns: meshes, runs, runs with a missing pair, their share in per cent with the ends
+        of its interval, runs with a pair too many, runs without a result, largest errors of a value and of the span.
     """
     kinds = list(dict.fromkeys(member.class_name for member in statistics))
     groups = {kind: [found for member, found in statistics.items() if member.class_name == kind] for kind in kinds}

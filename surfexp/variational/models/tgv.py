@@ -28,7 +28,8 @@ class TGV:
     mu : float, optional
         The weight itself, in 1 / (unit of the image * unit of length), in place of w.
     ratio : float
-        Length in edge lengths h over which a slope may turn: small ones blur, large ones make stairs as total variation does.
+        Length in edge lengths h over which a slope may turn: small ones blur, large ones make stairs as total variation
+        does.
     """
 
     w: float = 0.9

@@ -77,7 +77,7 @@ def face_moves(
 
 @njit(cache=True, nogil=True)
 def _root(a: float, b: float, c: float) -> float:
-    """Return the least s >= 0 with a s^2 + 2 b s + c = 0, infinite if there is none; 0 where c is, by rounding, not positive."""
+    """Return the least s >= 0 with a s^2 + 2 b s + c = 0, infinite if there is none; 0 where rounding left c <= 0."""
     if c <= 0.0:
         return 0.0
     discriminant = b * b - a * c

@@ -1,4 +1,4 @@
-"""The primal-dual method of Chambolle and Pock for total generalised variation, with a step for every row and column."""
+"""The primal-dual method of Chambolle and Pock for total generalised variation, a step for every row and column."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def generalised_primal_dual(
     step: float | None = None,
     progress: Progress | None = None,
 ) -> GeneralisedSolution:
-    """Minimise total generalised variation and a quadratic by primal-dual steps; nothing is factorised but for certificates.
+    """Minimise total generalised variation and a quadratic by primal-dual steps; only certificates factorise.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ def generalised_primal_dual(
         Bound of the relative gap.
     iteration_limit : int
     step : float, optional
-        Ratio of primal to dual steps, in (unit of the image) / (unit of length). Default: a hundredth of the spread of the
-        image over h.
+        Ratio of primal to dual steps, in (unit of the image) / (unit of length). Default: a hundredth of the spread of
+        the image over h.
     progress : callable, optional
         Receives the iteration and the relative gap.
 
