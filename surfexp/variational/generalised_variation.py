@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +19,8 @@ from surfexp.variational.separable_quadratic import SeparableQuadratic, check_po
 BALANCE = 1e-9
 LEAST_SHARE = 1e-8
 PARTS = (2, 4)
+# what depends on the operator and the ratio alone
+SHARED = ("fields", "forms", "adjoint", "_slope_forms", "_balance")
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +88,12 @@ class GeneralisedVariation:
     def adjoint(self) -> csr_array:
         """(n + 2 e, 6 m) matrix of the load of a field, the adjoint of `forms` by area."""
         return csr_array(self.forms.T @ diags_array(np.repeat(self.operator.areas, 6)))
+
+    def with_fidelity(self, fidelity: SeparableQuadratic) -> GeneralisedVariation:
+        """Return the problem of another image or weight on the same mesh, which shares what was assembled."""
+        other = replace(self, fidelity=fidelity)
+        other.__dict__.update({name: getattr(self, name) for name in SHARED})
+        return other
 
     def energy(self, unknowns: Floats) -> float:
         """Energy of u and w: not less than that of u with its best w."""

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import diags_array
 
 from surfexp.linalg.factorisation import factorise
+from surfexp.operators.calculus import gradient
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_solution import GeneralisedIterate, GeneralisedSolution, run_to_gap
 from surfexp.variational.generalised_variation import PARTS, GeneralisedVariation, shortened
@@ -36,7 +37,8 @@ def generalised_splitting(
         Bound of the relative gap.
     iteration_limit : int
     penalty : float, optional
-        Of G u - w, in (unit of length) / (unit of the image); that of D w is h^2 times this. Default: 10 mu h^2.
+        Of G u - w, in (unit of length) / (unit of the image); that of D w is h^2 times this. Default: 3 over the mean
+        length of the gradient of the image.
     relaxation : float
         In (0, 2).
     progress : callable, optional
@@ -49,9 +51,17 @@ def generalised_splitting(
     """
     if not 0 < relaxation < 2:
         raise ValueError(f"relaxation is {relaxation}, must lie in (0, 2); 1.8 is usual")
-    h, mu = problem.operator.edge_length, problem.fidelity.strong_convexity
-    iterates = _iterates(problem, 10.0 * mu * h**2 if penalty is None else penalty, relaxation, iteration_limit)
+    iterates = _iterates(problem, _penalty(problem) if penalty is None else penalty, relaxation, iteration_limit)
     return run_to_gap(iterates, problem, "generalised_splitting", tolerance, progress)
+
+
+def _penalty(problem: GeneralisedVariation) -> float:
+    """What is shortened, by 1 / penalty, is then about as long as what is left: best over weights and noise, 1 to 10."""
+    operator = problem.operator
+    slopes = np.linalg.norm(gradient(operator, problem.fidelity.target), axis=1)
+    mean = float(operator.areas @ slopes / operator.areas.sum())
+    # a constant has no gradient, and its minimiser is found by any penalty
+    return 3.0 / mean if mean > 0.0 else 10.0 * problem.fidelity.strong_convexity * operator.edge_length**2
 
 
 def _iterates(
