@@ -1,0 +1,34 @@
+"""What filters carry over the medial wall."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from surfexp.mesh.surface import Surface
+from surfexp.metric import Metric
+from surfexp.statistics.statistic import Statistic
+from surfexp.studies.smoothing.carried_over_mask import carried_over_mask
+from surfexp.workflow.registry import Options, register
+
+METRICS = {
+    "carried": Metric("share of the map's integral that lies over the mask afterwards", "%", "lower"),
+    "error_near_mask": Metric("error of a constant map within 10 mm of the mask", "%", "lower"),
+    "error_near_mask_masked": Metric("the same where the part without the mask is smoothed alone", "%", "lower"),
+}
+
+
+class CarriedOverMask(Options):
+    """Which filter, and how wide."""
+
+    filter: Literal["neighbour_mean", "geodesic_gaussian", "heat_flow"] = Field("heat_flow", description="the filter")
+    width: float = Field(10.0, gt=0, le=1000, description="full width at half maximum, mm")
+    map: str = Field("thickness", min_length=1, description="map that is positive inside the mask")
+
+
+@register("statistic", "carried_over_mask", metrics=METRICS)
+def carried_over_mask_statistic(options: CarriedOverMask, *, surface: Surface) -> Statistic:
+    """A constant map with 0 over the mask, smoothed as packages do and on the part alone."""
+    if options.map not in surface.scalars:
+        known = ", ".join(surface.scalars) or "none"
+        raise ValueError(f"map {options.map!r} is not on {surface.name}, which has {known}")
+    return carried_over_mask(surface.mesh, surface.scalars[options.map] > 0, options.filter, options.width)
