@@ -1,0 +1,1 @@
+"""Which descriptors recognise a person again."""

@@ -1,0 +1,1 @@
+"""Do null models keep what they claim?"""
