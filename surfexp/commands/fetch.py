@@ -6,6 +6,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from surfexp.anatomy.data_packages import PACKAGES, DataPackage
 from surfexp.commands.parser import Parser
 from surfexp.extras import require_installed
 from surfexp.workflow.errors import UserError
@@ -15,19 +16,42 @@ COLLECTIONS = {"tosca": "http://tosca.cs.technion.ac.il/data/toscahires-asci.zip
 
 
 def command(name: str, arguments: list[str]) -> int:
-    """Download a collection once and unpack it; its SHA-256 is written down, and held against at every later time.
+    """Get a public collection: an archive is downloaded once and pinned, a package that you install is checked.
 
-    The publishers name no checksum: the first download is trusted unless --sha256 is given.
+    Of an archive the publishers name no checksum: the first download is trusted unless --sha256 is given. Of a package
+    each file that experiments read is held against its SHA-256; nothing is copied.
     """
     parser = Parser(f"surfexp {name}", description=command.__doc__)
-    parser.add_argument("collection", choices=sorted(COLLECTIONS))
+    parser.add_argument("collection", choices=sorted([*COLLECTIONS, *PACKAGES]))
     parser.add_argument("--to", type=Path, help="folder; default: the collection's name in the working folder")
     parser.add_argument("--url", help="another place that has the archive")
     parser.add_argument("--sha256", help="checksum that the archive must have")
     given = parser.parse_args(arguments)
-    url, folder = given.url or COLLECTIONS[given.collection], given.to or Path(given.collection)
+    if given.collection in PACKAGES:
+        return _check(PACKAGES[given.collection])
+    return _download(given.collection, given.url, given.to, given.sha256)
+
+
+def _check(package: DataPackage) -> int:
+    """Say whether a package's files are there and are those that were seen, who may use them, and what reads them."""
+    if package.folder() is None:
+        raise UserError(f"{package.module} is not installed: pip install '{package.requirement}', then call this again")
+    if faults := package.faults():
+        raise UserError(
+            f"{len(faults)} of {len(package.files)} files of {package.module} are not those of {package.requirement}: "
+            f"{'; '.join(faults)}"
+        )
+    print(f"{package.module}: all {len(package.files)} files are those of {package.requirement}")
+    print(package.terms)
+    print("next: " + ", ".join(f"surfexp run experiment={experiment}" for experiment in package.experiments))
+    return 0
+
+
+def _download(collection: str, given_url: str | None, to: Path | None, sha256: str | None) -> int:
+    """Download an archive once and unpack it; its SHA-256 is written down, and held against at every later time."""
+    url, folder = given_url or COLLECTIONS[collection], to or Path(collection)
     archive, pin = folder / url.rpartition("/")[2], folder / "SHA256"
-    known = given.sha256 or (pin.read_text().split()[0] if pin.is_file() else None)
+    known = sha256 or (pin.read_text().split()[0] if pin.is_file() else None)
     pooch = _pooch()
     try:
         pooch.retrieve(url, known_hash=known, fname=archive.name, path=folder, progressbar=False)
