@@ -31,6 +31,7 @@ WORM = {"template": {"surface": {"name": "articulated", "body": "worm", "vertice
 POPULATION = {"name": "sulcal_population", "subjects": 3, "regions": 1, "lines": False, "inputs": WORM}
 LENGTHS = {"lengths": {"over": "blocks", "statistic": POPULATION}}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
+RATIOS = {"reference": "weak", "baseline": "strong", "inputs": {"solutions": {"over": "smoothed"}}}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 GRID = {
     "along": 8,
@@ -157,6 +158,10 @@ SMALL = {
     ("statistic", "missing_by_kind"): {
         "inputs": {"statistics": {"over": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
     },
+    ("statistic", "error_ratios"): RATIOS,
+    ("figure", "ratio_table"): {
+        "inputs": {"statistics": {"over": "sets", "statistic": {"name": "error_ratios"} | RATIOS}}
+    },
     ("surface", "disguised"): {"remeshed": True, "inputs": {"original": {"surface": SPHERE}}},
     ("surface", "sulcal_regions"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "pial"}}}},
     ("figure", "embedded_regions"): {
@@ -248,6 +253,17 @@ CONTEXT = {
             for alpha in (0.0, 0.5)
         },
         "strips": {f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)},
+        "smoothed": {
+            f"{word} {seed}": {
+                "class": word,
+                "group": str(seed),
+                "image": {"name": "picture", "seed": seed},
+                "solver": solver,
+            }
+            for word, solver in (("weak", {"name": "heat_flow", "width": 0.1}), ("strong", {"name": "heat_flow"}))
+            for seed in (1, 2)
+        },
+        "sets": {"all": {"image": "picture"}},
         "alphas": {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}},
         "levels": {
             f"rof {level}": {"class": "rof", "level": level, "surface": {"name": "icosphere", "levels": level}}
@@ -266,6 +282,9 @@ NEEDS = {
     ("solver", "conic"): "cvxpy",
     ("signature", "brainprint"): "lapy",
     ("embedding", "umap"): "umap",
+    ("surface", "conte69"): "brainspace",
+    ("surface", "resting_fsaverage5"): "brainspace",
+    ("image", "connectivity"): "brainspace",
 }
 
 

@@ -1,0 +1,39 @@
+"""Ratios of errors by data set and method."""
+
+import numpy as np
+from pydantic import Field
+
+from surfexp.figures.figure import Figure
+from surfexp.figures.ratio_table import ratio_table
+from surfexp.member import Member
+from surfexp.statistics.statistic import Statistic
+from surfexp.workflow.registry import Options, register
+
+
+class RatioTable(Options):
+    """What is written above and below."""
+
+    title: str = Field("", description="heading in the figure; default: what was compared")
+    caption: str = Field("", description="sentence below the figure")
+    width: int = Field(1100, ge=300, le=4000, description="pixels across")
+
+
+@register("figure", "ratio_table")
+def ratio_table_figure(options: RatioTable, *, statistics: dict[Member, Statistic]) -> Figure:
+    """Median ratios of errors in colours, a row a data set; bold where the interval lies beyond 2 in a hundred."""
+    first = next(iter(statistics.values()))
+    for member, found in statistics.items():
+        if found.rows != first.rows:
+            raise ValueError(f"{member.label!r} compares {', '.join(found.rows)}, the first {', '.join(first.rows)}")
+    ratios = np.array([found.columns["to_reference"][:, 0] for found in statistics.values()])
+    verdicts = np.array([found.columns["verdict"] for found in statistics.values()])
+    names = [name.replace("_", " ") for name in first.rows]
+    return ratio_table(
+        ratios,
+        verdicts,
+        [member.label for member in statistics],
+        names,
+        title=options.title or first.name,
+        caption=options.caption,
+        width=options.width,
+    )

@@ -1,0 +1,34 @@
+"""Errors of methods over that of a reference."""
+
+from pydantic import Field
+
+from surfexp.member import Member
+from surfexp.metric import Metric, MetricName
+from surfexp.statistics.statistic import Statistic
+from surfexp.studies.smoothing.error_ratios import error_ratios
+from surfexp.variational.solution import Solution
+from surfexp.workflow.registry import Options, register
+
+METRICS = {
+    "units": Metric("units on which all methods were tried"),
+    "groups": Metric("groups of units that are drawn together"),
+    "ratio {method}": Metric("median of the error over that of the reference", better="lower"),
+    "low {method}": Metric("lower end of its 95 % interval", better="lower"),
+    "high {method}": Metric("upper end of its 95 % interval", better="lower"),
+    "failed {method}": Metric("units without a converged result", better="lower"),
+}
+
+
+class ErrorRatios(Options):
+    """Which error, and by what it is divided."""
+
+    error: MetricName = Field("rmse", description="metric of the solutions that is an error")
+    reference: str = Field("heat_flow", min_length=1, description="class to divide by")
+    baseline: str = Field("none", min_length=1, description="class that stands for doing nothing")
+    seed: int = Field(0, ge=0, description="seed of the bootstrap")
+
+
+@register("statistic", "error_ratios", metrics=METRICS)
+def error_ratios_statistic(options: ErrorRatios, *, solutions: dict[Member, Solution]) -> Statistic:
+    """Median ratio of each method's error to a reference's, with bootstrap intervals over groups of units."""
+    return error_ratios(solutions, options.error, options.reference, options.baseline, options.seed)

@@ -1,0 +1,71 @@
+"""A table of ratios in colours: blue below 1, red above, bold where the difference is more than chance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.figures.axes import FONT
+from surfexp.figures.figure import Figure
+from surfexp.figures.typography import INK, canvas, drawn, points, vector
+
+FARTHEST = 2.0
+ROW, HEAD, FOOT = 2.1, 5.2, 1.0
+PALE = 0.55
+
+
+def ratio_table(
+    ratios: Floats,
+    verdicts: Floats,
+    rows: Sequence[str],
+    columns: Sequence[str],
+    *,
+    title: str = "",
+    caption: str = "",
+    width: int = 1100,
+) -> Figure:
+    """Draw (r, c) ratios.
+
+    Parameters
+    ----------
+    ratios : (r, c) float64
+        NaN leaves the cell empty.
+    verdicts : (r, c) float64
+        1 or -1 where the ratio is bold, 0 where it is not, NaN where something failed.
+    rows, columns : sequence of str
+        Names.
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit.
+    """
+    if ratios.shape != (len(rows), len(columns)) or verdicts.shape != ratios.shape:
+        raise ValueError(
+            f"ratios are {ratios.shape} and verdicts {verdicts.shape} for {len(rows)} rows and {len(columns)} columns"
+        )
+    em = FONT * width
+    height = round(em * (ROW * len(rows) + HEAD + FOOT + (1.6 if title else 0.0)))
+    with canvas(width, height) as figure:
+        top = (HEAD + (1.6 if title else 0.0)) * em / height
+        axes = figure.add_axes((0.3, FOOT * em / height, 0.68, 1.0 - top - FOOT * em / height))
+        axes.grid(visible=False)
+        reach = np.log(FARTHEST)
+        axes.imshow(np.log(ratios), cmap="RdBu_r", vmin=-reach, vmax=reach, aspect="auto", alpha=PALE)
+        for i, j in np.argwhere(np.isfinite(ratios)):
+            failed = np.isnan(verdicts[i, j])
+            text = f"{ratios[i, j]:.2f}" + ("*" if failed else "")
+            bold = not failed and verdicts[i, j] != 0
+            weight = "bold" if bold else "normal"
+            axes.text(j, i, text, ha="center", va="center", color=INK, fontsize=points(em), fontweight=weight)
+        axes.set_xticks(range(len(columns)), columns, rotation=25, ha="left")
+        axes.xaxis.tick_top()
+        axes.set_yticks(range(len(rows)), rows)
+        axes.tick_params(labelsize=points(em), length=0.0)
+        axes.spines[:].set_visible(False)
+        if title:
+            figure.text(0.01, 1.0 - 0.6 * em / height, title, fontsize=points(1.1 * em), fontweight="bold", va="top")
+        pixels, svg = drawn(figure), vector(figure)
+    return Figure(pixels, caption, title, svg=svg)
