@@ -14,6 +14,7 @@ from surfexp.variational.surface_flows import heat_flow
 
 REPETITIONS = 2
 INSIDE = "parcels"
+ROUNDING = 1e-12
 
 
 def planted_parcels(
@@ -90,7 +91,7 @@ def repeated_map(surface: Surface, name: str, noise: float = 0.5, seed: int = 0)
     mass, values = fem(surface.mesh).mass, np.asarray(surface.scalars[name], dtype=np.float64)
     centred = values - mass @ values / mass.sum()
     deviation = float(np.sqrt(mass @ centred**2 / mass.sum()))
-    if not deviation > 0:
+    if not deviation > ROUNDING * np.abs(values).max():
         raise ValueError(f"map {name!r} is constant on {surface.name}: it has no deviation to set the noise by")
     clean = np.repeat((centred / deviation)[:, None], REPETITIONS, axis=1)
     rough = clean + noise * np.random.default_rng(seed).standard_normal(clean.shape)
