@@ -1,0 +1,22 @@
+"""Rejections of null models against the correlation length."""
+
+from surfexp.member import Member, levels_of
+from surfexp.metric import Metric
+from surfexp.statistics.statistic import Statistic
+from surfexp.studies.nulls.null_rejections import rejections_by_length
+from surfexp.workflow.registry import Options, register
+
+METRICS = {
+    "lengths": Metric("correlation lengths"),
+    "exact_lengths {method}": Metric("correlation lengths at which the interval meets 4 to 6 %", better="higher"),
+}
+
+
+class RejectionsByLength(Options):
+    """Nothing to choose."""
+
+
+@register("statistic", "rejections_by_length", metrics=METRICS)
+def rejections_by_length_statistic(options: RejectionsByLength, *, statistics: dict[Member, Statistic]) -> Statistic:
+    """Rejections of null models against the correlation length, which is the level of each member."""
+    return rejections_by_length(statistics, levels_of(statistics))
