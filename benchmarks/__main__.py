@@ -37,6 +37,7 @@ SECTIONS = {
         "nodal_domains",
         "assembly",
     ),
+    "Null models": ("nulls",),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),

@@ -34,6 +34,7 @@ GROUPS = (
     "growth",
     "brain_modes",
     "hierarchy",
+    "nulls",
     "waiting",
     "commands",
     "cohort",
