@@ -22,10 +22,10 @@ EXAMPLES = {
 @click.argument("map_name", metavar="MAP")
 @click.option(
     "--method",
-    type=click.Choice(["rof", "tgv"]),
+    type=click.Choice(["rof", "tgv", "auto"]),
     default="rof",
     show_default=True,
-    help="total variation, or total generalised variation, which makes no stairs of slopes",
+    help="total variation; total generalised variation, which makes no stairs of slopes; or what promises least error",
 )
 @click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
 @click.option("--ratio", default=2.0, show_default=True, help="of tgv: over how many edge lengths a slope may turn")
@@ -36,7 +36,7 @@ EXAMPLES = {
 def denoise(
     path: str,
     map_name: str,
-    method: Literal["rof", "tgv"],
+    method: Literal["rof", "tgv", "auto"],
     weight: float,
     ratio: float,
     noise: float | None,
@@ -54,7 +54,8 @@ def denoise(
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
         clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
-    finish(target, clean, surface, method, {"weight": weight, "tolerance": tolerance}, files, facts, clean.notes)
+    chosen = {} if method == "auto" else {"weight": weight, "tolerance": tolerance}
+    finish(target, clean, surface, method, chosen, files, facts, clean.notes)
 
 
 def millimetres(text: str) -> float:

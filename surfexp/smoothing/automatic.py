@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from surfexp.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.smoothing.edge_weights import ROUNDING
 from surfexp.smoothing.methods import MethodName, Methods
 from surfexp.smoothing.parameter_choice import smooth_on_grid
 from surfexp.variational.noise_level import noise_level
@@ -92,7 +95,9 @@ def automatic_smoothing(
     scaled = TriangleMesh(scale * mesh.vertices, mesh.faces)
     operator = fem(scaled)
     trials = {}
-    for name in candidates:
+    flat = np.ptp(values) <= ROUNDING * np.abs(values).max(initial=0.0)
+    # a map without edges has no weights
+    for name in [name for name in candidates if not (flat and name == "edge_weighted_variation")]:
         methods = Methods(scaled, operator, level)
         smoother, parameters = methods.smoother(name)
         trials[name] = methods, smooth_on_grid(smoother, values[:, None], parameters, operator.mass, level, seed)

@@ -10,6 +10,8 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, AutomaticSmoothing, automatic_smoothing
+from surfexp.studies.smoothing.automatic_trial import automatic_trial
+from surfexp.variational.image import Image
 
 BALL = icosphere(3).mesh
 OPERATOR = fem(BALL)
@@ -60,3 +62,19 @@ def test_it_refuses_what_it_cannot_do() -> None:
         automatic_smoothing(BALL, OPERATOR, X, candidates=())
     with pytest.raises(ValueError, match="noise"):
         automatic_smoothing(BALL, OPERATOR, X, noise=0.0)
+
+
+def test_the_trial_is_that_of_the_automatic_choice() -> None:
+    truth = 3.0 * (X > 0)
+    rough = truth + np.random.default_rng(2).standard_normal(len(X))
+    trial = automatic_trial(BALL, OPERATOR, Image(np.column_stack([rough, -rough]), clean=np.column_stack([truth] * 2)))
+    found = automatic_smoothing(BALL, OPERATOR, rough)
+    error = np.sqrt(OPERATOR.mass @ (found.values - truth) ** 2 / OPERATOR.mass.sum())
+    assert trial.metrics["rmse"] == pytest.approx(error)
+    assert [trial.metrics[f"chosen {name}"] for name in CANDIDATES] == [
+        float(name == found.method) for name in CANDIDATES
+    ]
+    least = min(trial.metrics[f"rmse {name}"] for name in CANDIDATES)
+    assert trial.metrics["regret"] == pytest.approx(error / least) and trial.metrics["regret"] >= 1.0
+    with pytest.raises(ValueError, match="no truth"):
+        automatic_trial(BALL, OPERATOR, Image(rough))

@@ -40,6 +40,12 @@ def test_certified_spectrum(printed: list[str]) -> None:
     assert printed[0].startswith("300 eigenvalues below 340.69") and printed[0].endswith("True")
 
 
+def test_choose_a_filter(printed: list[str]) -> None:
+    step, slope = printed
+    assert "variation" in step and "heat" in slope
+    assert all(float(line.split("error ")[1].split()[0]) < 0.2 for line in printed)
+
+
 def test_classify_with_scikit_learn(printed: list[str]) -> None:
     share, bodies = numbers(printed)
     assert share == 100 and bodies == 15

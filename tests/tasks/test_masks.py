@@ -29,10 +29,11 @@ def on_whole(values: np.ndarray) -> np.ndarray:
     [
         lambda s, f: sx.denoise(s, f).values,
         lambda s, f: sx.denoise(s, f, method="tgv").values,
+        lambda s, f: sx.denoise(s, f, method="auto").values,
         lambda s, f: sx.smooth(s, f, 0.3).values,
         lambda s, f: sx.eigenpairs(s, 12).vectors,
     ],
-    ids=["denoise", "tgv", "smooth", "eigenpairs"],
+    ids=["denoise", "tgv", "auto", "smooth", "eigenpairs"],
 )
 def test_masking_equals_cutting(task) -> None:
     masked, cut = task(MASKED, NOISY), task(CUT, NOISY[PART.vertices])
@@ -66,7 +67,9 @@ def test_constants_stay_constants_to_the_boundary() -> None:
     smoothed = sx.smooth(WHOLE, flat, 0.5).values
     assert smoothed[PART.vertices] == pytest.approx(3.0, abs=1e-12)
     assert np.isnan(smoothed[~np.isin(np.arange(len(flat)), PART.vertices)]).all()
-    assert sx.denoise(WHOLE, flat, noise=1.0).values[PART.vertices] == pytest.approx(3.0, abs=1e-9)
+    for method in ("rof", "auto"):
+        clean = sx.denoise(WHOLE, flat, method=method, noise=1.0)  # type: ignore[arg-type]
+        assert clean.values[PART.vertices] == pytest.approx(3.0, abs=1e-9)
 
 
 def test_nan_inside_a_stated_mask_is_refused() -> None:
