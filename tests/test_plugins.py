@@ -32,6 +32,20 @@ POPULATION = {"name": "sulcal_population", "subjects": 3, "regions": 1, "lines":
 LENGTHS = {"lengths": {"over": "blocks", "statistic": POPULATION}}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
 RATIOS = {"reference": "weak", "baseline": "strong", "inputs": {"solutions": {"over": "smoothed"}}}
+BODY = {"name": "ellipsoid", "levels": 3}
+REBUILT = {
+    "name": "mode_reconstruction",
+    "twins": ["own", "shuffled"],
+    "seeds": 2,
+    "first": 2,
+    "last": 20,
+    "inputs": {"bases": {"over": "bases"}},
+}
+PEOPLE = {
+    "name": "modes_of_people",
+    "count": 12,
+    "inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}},
+}
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 GRID = {
     "along": 8,
@@ -39,6 +53,15 @@ GRID = {
     "permutations": 20,
     "halvings": 2,
     "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+}
+REJECTIONS = {
+    "name": "null_rejections",
+    "maps": 3,
+    "nulls": 19,
+    "planted_partners": 2,
+    "examined": 1,
+    "reach": 3.0,
+    "inputs": {"sphere": {}, "image": {"image": {"name": "gaussian_fields", "length": 0.6, "count": 6}}},
 }
 SMALL = {
     ("surface", "cup"): {"vertices": 2500},
@@ -155,6 +178,9 @@ SMALL = {
     ("surface", "side_by_side"): {"inputs": {"original": {"surface": SPHERE}}},
     ("surface", "slivers"): {"inputs": {"original": {"surface": SPHERE}}},
     ("statistic", "missing_pairs"): {"counts": [10]},
+    ("statistic", "null_rejections"): REJECTIONS,
+    ("statistic", "rejections_by_length"): {"inputs": {"statistics": {"over": "levels", "statistic": REJECTIONS}}},
+    ("image", "gaussian_fields"): {"length": 0.6, "ratio": 2.0, "count": 3},
     ("statistic", "missing_by_kind"): {
         "inputs": {"statistics": {"over": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
     },
@@ -162,6 +188,35 @@ SMALL = {
     ("figure", "ratio_table"): {
         "inputs": {"statistics": {"over": "sets", "statistic": {"name": "error_ratios"} | RATIOS}}
     },
+    ("surface", "masked_by_map"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "sphere"}}}},
+    ("statistic", "mode_reconstruction"): REBUILT,
+    ("statistic", "reconstruction_differences"): {
+        "maps": ["twin of own", "twin of shuffled"],
+        "inputs": {"statistics": {"over": "maps", "statistic": REBUILT}},
+    },
+    ("figure", "difference_curves"): {"x": "mode", "differences": {"none": ("count", "count")}},
+    ("statistic", "modes_of_people"): PEOPLE,
+    ("statistic", "modes_of_people_pooled"): {"inputs": {"statistics": {"over": "maps", "statistic": PEOPLE}}},
+    ("statistic", "modes_of_twins"): {
+        "count": 12,
+        "inputs": {
+            "surface": {"surface": BODY},
+            "eigensolver": {"surface": BODY},
+            "twins": {"over": "twins"},
+            "systems": {"over": "twins"},
+        },
+    },
+    ("surface", "subcortical_person"): {"vertices": 800, "change": "segmented"},
+    ("surface", "cortical_person"): {"change": "half", "inputs": {"template": {"surface": SPHERE}}},
+    ("signature", "fingerprint"): {"count": 60},
+    ("statistic", "identification"): {
+        "inputs": {"signatures": {"over": "seen", "signature": {"name": "fingerprint", "count": 50}}}
+    },
+    ("statistic", "pairwise_identification"): {
+        "n": 3,
+        "inputs": {"surfaces": {"over": "seen"}, "systems": {"over": "seen"}},
+    },
+    ("figure", "identification"): {"inputs": {"statistics": {"over": "recognised"}}},
     ("surface", "disguised"): {"remeshed": True, "inputs": {"original": {"surface": SPHERE}}},
     ("surface", "sulcal_regions"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "pial"}}}},
     ("figure", "embedded_regions"): {
@@ -239,6 +294,36 @@ CONTEXT = {
                 "surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side},
             }
             for side in ("left", "right")
+        },
+        "bases": {"shuffled": {"operator": "shuffled_lengths"}},
+        "twins": {
+            "bent": {
+                "level": 0.05,
+                "surface": {
+                    "name": "synthetic_subject",
+                    "wavelength": 1.0,
+                    "remeshed": False,
+                    "inputs": {"template": {"surface": BODY}},
+                },
+            }
+        },
+        "seen": {
+            f"{change} {number}": {
+                "class": change,
+                "group": "one",
+                "level": number,
+                "surface": {"name": "ellipsoid", "levels": levels, "semiaxes": [1.0, 1.2, 1.5 + number]},
+            }
+            for change, levels in (("original", 3), ("half", 2))
+            for number in (0, 1)
+        },
+        "recognised": {
+            "shape DNA": {
+                "statistic": {
+                    "name": "identification",
+                    "inputs": {"signatures": {"over": "seen", "signature": {"name": "fingerprint", "count": 50}}},
+                }
+            }
         },
         "maps": {"near": {"distance": {"name": "embedding_map", "n": 3}}},
         "studies": {
