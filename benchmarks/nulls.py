@@ -7,7 +7,7 @@ from importlib import import_module
 from importlib.util import find_spec
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import csc_matrix, csr_array
 
 import surfexp as sx
 from benchmarks.line import Line, not_installed, race
@@ -71,7 +71,9 @@ def _eigenstrapping(surface: Surface, values: Floats, count: int) -> Line:
 def neuromodes(modes: Floats, eigenvalues: Floats, mass: csr_array, values: Floats, count: int) -> Floats:
     """Its documented call, without the checks that cost."""
     eigenstrap = import_module("neuromodes.nulls").eigenstrap
-    return np.asarray(eigenstrap(values, modes, eigenvalues, n_nulls=count, mass=mass, seed=0, checks=False))
+    return np.asarray(
+        eigenstrap(values, modes, eigenvalues, n_nulls=count, mass=csc_matrix(mass), seed=0, checks=False)
+    )
 
 
 def _variogram(surface: Surface, values: Floats, count: int) -> Line:
