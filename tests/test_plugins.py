@@ -196,6 +196,7 @@ SMALL = {
     },
     ("figure", "difference_curves"): {"x": "mode", "differences": {"none": ("count", "count")}},
     ("statistic", "modes_of_people"): PEOPLE,
+    ("statistic", "agreed_signs"): PEOPLE | {"name": "agreed_signs"},
     ("statistic", "modes_of_people_pooled"): {"inputs": {"statistics": {"over": "maps", "statistic": PEOPLE}}},
     ("statistic", "modes_of_twins"): {
         "count": 12,

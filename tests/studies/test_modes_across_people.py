@@ -14,6 +14,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.studies.modes import agreed_signs as agreed
 from surfexp.studies.modes import modes_across_people
 from surfexp.studies.modes.modes_across_people import modes_of_people, modes_of_twins, pooled
 from surfexp.studies.modes.paired_modes import METHODS, PairedModes, pair_modes, true_pairs
@@ -104,6 +105,24 @@ def test_a_method_that_errs_is_charged(monkeypatch: pytest.MonkeyPatch) -> None:
     assert people.metrics["map and space agree"] == pytest.approx(2 / 3)
     assert people.metrics["order, skewness agrees"] == 0.5
     assert people.metrics["signs proved"] == 1.0
+
+
+def test_signs_are_rated_where_both_maps_agree(monkeypatch: pytest.MonkeyPatch) -> None:
+    by_map = ModePairs(np.array([0, 1, 2, 4, 3]), np.array([1, -1, 1, 1, 1], np.int8))
+    space = ModePairs(np.array([0, 1, 2, 4, 3]), np.array([1, -1, -1, 1, 1], np.int8))
+    order = ModePairs(np.arange(5), np.array([-1, -1, 1, 1, 1], np.int8))
+    # modes 0 and 1 are agreed on and lead; 2 has two signs, 3 and 4 change places
+    signs = ModePairs(np.array([0, 1, 2, 3, -1]), np.array([1, -1, 1, 1, 0], np.int8))
+    methods = dict.fromkeys(METHODS, order) | {"functional map": by_map}
+    pair = PairedModes(np.ones(5, bool), 4, True, signs, methods, space)
+    monkeypatch.setattr(agreed, "pair_modes", lambda *_: pair)
+    people = {Member(name): BODY for name in "abc"}
+    found = agreed.agreed_signs(people, dict.fromkeys(people, ORIGINAL[1]), 5)
+    assert found.rows == ("a, b", "a, c", "b, c")
+    assert found.metrics["agreed"] == 2.0 and found.metrics["proved right"] == 1.0
+    assert found.metrics["order, skewness right"] == 0.5
+    with pytest.raises(ValueError, match="0 people"):
+        agreed.agreed_signs({}, {})
 
 
 def test_people_are_compared_in_pairs_and_structures_are_pooled() -> None:
