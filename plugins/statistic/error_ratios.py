@@ -23,7 +23,7 @@ class ErrorRatios(Options):
     """Which error, and by what it is divided."""
 
     error: MetricName = Field("rmse", description="metric of the solutions that is an error")
-    reference: str = Field("heat_flow", min_length=1, description="class to divide by")
+    reference: str = Field("heat flow", min_length=1, description="class to divide by")
     baseline: str = Field("none", min_length=1, description="class that stands for doing nothing")
     seed: int = Field(0, ge=0, description="seed of the bootstrap")
 
