@@ -49,6 +49,14 @@ def test_equal_lengths_stay_and_seeds_and_sweeps_matter() -> None:
         np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]),
     )
     np.testing.assert_allclose(shuffled_lengths(tetrahedron).areas, tetrahedron.areas)
+    # every exchange of equal lengths is allowed, but for an edge with itself
+    pairs = np.random.default_rng(3).integers(6, size=(600, 2))
+    metrics = shuffled_lengths(tetrahedron, 3).metrics
+    assert metrics["accepted"] == pytest.approx(np.mean(pairs[:, 0] != pairs[:, 1]), abs=1e-12)
+    assert metrics["moved"] == 0.0 and metrics["correlation"] == 1.0
+    flat = TriangleMesh(tetrahedron.vertices[[0, 1, 2, 0]], tetrahedron.faces)
+    with pytest.raises(ValueError, match="has area 0"):
+        shuffled_lengths(flat)
     ring = torus(20, 10).mesh
     one, two, same = (shuffled_lengths(ring, seed).areas for seed in (0, 1, 0))
     assert np.array_equal(one, same) and not np.array_equal(one, two)
