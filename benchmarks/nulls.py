@@ -57,7 +57,7 @@ def _eigenstrapping(surface: Surface, values: Floats, count: int) -> Line:
     )
     if find_spec("neuromodes") is None:
         return not_installed(work, rival, EIGENSTRAPPING, "neuromodes")
-    system, mass = sx.eigenpairs(surface, MODES), mass_matrix(fem(surface.mesh))
+    system, mass = sx.eigenpairs(surface, MODES, tolerance=1e-10), mass_matrix(fem(surface.mesh))
     (nulls, cost), (theirs, their_cost) = measure_both(
         partial(eigenstrapped, system.vectors, mass, values, count),
         partial(neuromodes, system.vectors, system.values, mass, values, count),
