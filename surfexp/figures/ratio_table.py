@@ -11,9 +11,9 @@ from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, canvas, drawn, points, vector
 
-FARTHEST = 2.0
-ROW, HEAD, FOOT = 2.1, 5.2, 1.0
-PALE = 0.55
+FARTHEST = 4.0
+ROW, HEAD, FOOT = 2.1, 4.4, 1.0
+PALE = 0.7
 
 
 def ratio_table(
@@ -50,7 +50,7 @@ def ratio_table(
     height = round(em * (ROW * len(rows) + HEAD + FOOT + (1.6 if title else 0.0)))
     with canvas(width, height) as figure:
         top = (HEAD + (1.6 if title else 0.0)) * em / height
-        axes = figure.add_axes((0.3, FOOT * em / height, 0.68, 1.0 - top - FOOT * em / height))
+        axes = figure.add_axes((0.24, FOOT * em / height, 0.75, 1.0 - top - FOOT * em / height))
         axes.grid(visible=False)
         reach = np.log(FARTHEST)
         axes.imshow(np.log(ratios), cmap="RdBu_r", vmin=-reach, vmax=reach, aspect="auto", alpha=PALE)
@@ -60,10 +60,11 @@ def ratio_table(
             bold = not failed and verdicts[i, j] != 0
             weight = "bold" if bold else "normal"
             axes.text(j, i, text, ha="center", va="center", color=INK, fontsize=points(em), fontweight=weight)
-        axes.set_xticks(range(len(columns)), columns, rotation=25, ha="left")
+        axes.set_xticks(range(len(columns)), [name.replace(" ", "\n") for name in columns])
         axes.xaxis.tick_top()
         axes.set_yticks(range(len(rows)), rows)
-        axes.tick_params(labelsize=points(em), length=0.0)
+        axes.tick_params(labelsize=points(0.9 * em), length=0.0)
+        axes.tick_params(axis="x", labelsize=points(0.75 * em))
         axes.spines[:].set_visible(False)
         if title:
             figure.text(0.01, 1.0 - 0.6 * em / height, title, fontsize=points(1.1 * em), fontweight="bold", va="top")
