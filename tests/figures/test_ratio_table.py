@@ -11,7 +11,7 @@ from surfexp.figures.ratio_table import ratio_table
 def cell(pixels: np.ndarray, row: int, column: int) -> np.ndarray:
     """Mean colour of the left edge of a cell of two by two, where no text stands."""
     height, width = pixels.shape[:2]
-    top, left, right = round(0.64 * height), round(0.24 * width), round(0.99 * width)
+    top, left, right = round(0.46 * height), round(0.24 * width), round(0.99 * width)
     y = top + round((row + 0.5) * (0.9 * height - top) / 2)
     x = left + round((column + 0.06) * (right - left) / 2)
     return pixels[y - 2 : y + 2, x : x + 4].reshape(-1, 3).mean(axis=0)
