@@ -62,7 +62,7 @@ reproduction: .venv/ready
 		echo "== $$name"; $(BIN)/surfexp run experiment=$$name results=$$results || \
 			case $$? in 3) ;; 1) failed="$$failed $$name" ;; *) exit 2 ;; esac; \
 	done && \
-	$(BIN)/surfexp report --claims $$beside --results $$results $$names > $$results/reproduction.md && \
+	$(BIN)/surfexp report --claims $$beside --preface docs/_static/new_in_the_field.md --results $$results $$names > $$results/reproduction.md && \
 	mv $$results/reproduction.md docs/reproduction.md && \
 	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
 

@@ -44,13 +44,16 @@ def command(name: str, arguments: list[str]) -> int:
     if name == "report":
         parser.add_argument("--claims", action="store_true", help="print the verdicts on published claims as Markdown")
         parser.add_argument("--beside", type=Path, help="with --claims: a page whose other experiments are taken over")
+        parser.add_argument("--preface", type=Path, help="with --claims: text for the head of the page")
     given = parser.parse_args(arguments)
     plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
     if name == "report" and given.claims:
         from surfexp.report.reproduction import reproduction
 
-        earlier = given.beside.read_text(encoding="utf-8") if given.beside else ""
-        print(reproduction(plans, given.results.resolve(), earlier))
+        earlier, preface = (
+            path.read_text(encoding="utf-8") if path else "" for path in (given.beside, given.preface)
+        )
+        print(reproduction(plans, given.results.resolve(), earlier, preface))
         return 0
     for plan in plans.values():
         if name == "table":

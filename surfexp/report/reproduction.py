@@ -24,7 +24,7 @@ VERDICT = re.compile(r"^\| .* \| \*\*([\w ]+)\*\* \| [^\n]*\|$", re.MULTILINE)
 RUNS = re.compile(r"^(?:Run|Then): .*$", re.MULTILINE)
 
 
-def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "") -> str:
+def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "", preface: str = "") -> str:
     """Markdown of the verdicts of several experiments; those without claims are left out.
 
     Parameters
@@ -34,6 +34,8 @@ def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "") ->
     results : Path
     earlier : str, optional
         A page from which the sections of all other experiments are taken over as they are.
+    preface : str, optional
+        What stands at the head of the page.
     """
     sections = sections_of(earlier)
     taken_over = sections.keys() - plans.keys()
@@ -47,7 +49,8 @@ def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "") ->
     text = "".join(sections[name] for name in sorted(sections))
     counts = Counter(VERDICT.findall(text))
     told = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
-    head = ["# Published claims, checked", f"{counts.total()} claims: {told}.", state_line(), *runs]
+    head = ["# Published claims, checked", *([preface.strip()] if preface else [])]
+    head += [f"{counts.total()} claims: {told}.", state_line(), *runs]
     return ("\n\n".join(head) + "\n" + text).rstrip()
 
 
