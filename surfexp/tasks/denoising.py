@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 
 from surfexp.arrays import Floats
-from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.smoothing.automatic import automatic_smoothing
-from surfexp.summary import Summarized, Summary
+from surfexp.tasks.automatic_denoising import automatically_denoised
+from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
@@ -27,37 +25,6 @@ from surfexp.variational.surface_flows import heat_flow
 
 HEAT_STEPS = 10
 NEWTON_BELOW = 1e-6
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class DenoisedMap(Summarized):
-    """A map without its noise.
-
-    Parameters
-    ----------
-    values : (n,) or (n, c) float64
-        NaN outside the mask.
-    method : str
-        "rof", "tgv", "auto" or "heat".
-    certificate : dict
-        What is proved and with which parameters: `relative_gap` and `error_bound` for ROF and TGV.
-    notes : tuple of str
-    """
-
-    values: Floats
-    method: str
-    certificate: dict[str, Any] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
-
-    def _summary(self) -> Summary:
-        known = np.isfinite(self.values)
-        facts = {
-            "known values": int(known.sum()),
-            "least": float(self.values[known].min()) if known.any() else None,
-            "largest": float(self.values[known].max()) if known.any() else None,
-            **{name.replace("_", " "): value for name, value in self.certificate.items()},
-        }
-        return Summary(f"map after {self.method}", facts, self.notes)
 
 
 def denoise(
@@ -76,9 +43,8 @@ def denoise(
     Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle
     of mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor
     leave: the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
-    generalised variation of second order in place of TV, which makes no stairs of slopes. "auto" tries the heat kernel,
-    TV, and TV that is cheap at edges, each on a grid of parameters, and takes what promises the least error by Stein's
-    estimate for independent noise.
+    generalised variation of second order in place of TV, which makes no stairs of slopes. "auto" takes what promises the
+    least error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
 
     Parameters
     ----------
@@ -103,9 +69,8 @@ def denoise(
     -------
     DenoisedMap
         `values`, and the certificate with noise, weight, relative_gap and error_bound (largest possible root-mean-square
-        distance to the exact minimiser, in the unit of the map). Of "auto": noise, chosen (the method), parameter (a full
-        width at half maximum, or a weight), risk_METHOD (estimated mean square error over the variance of the noise),
-        relative_gap.
+        distance to the exact minimiser, in the unit of the map). Of "auto": chosen (the method), parameter (a full width at
+        half maximum, or a weight), risk_METHOD (estimated mean square error over the variance of the noise).
 
     Raises
     ------
@@ -128,7 +93,7 @@ def denoise(
     image = np.asarray(part.restrict(noisy), dtype=np.float64)
     sigma = noise_level(operator, image) if noise is None else float(noise)
     if method == "auto":
-        return _automatic(owner, part, operator, image, sigma, noise is None)
+        return automatically_denoised(owner, part, operator, image, sigma, noise is None)
     data = _data(operator, image, sigma, weight)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     if method == "tgv":
@@ -163,31 +128,6 @@ def _minimised(
         solver = newton if tolerance < NEWTON_BELOW and len(data.shape) == 1 else primal_dual
         return solver(data, operator, tolerance=tolerance, progress=progress)
     raise ValueError(f"method is {method!r}, choose rof, tgv or auto")
-
-
-def _automatic(
-    owner: Surface, part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float, estimated: bool
-) -> DenoisedMap:
-    """The method and the parameter that promise the least error."""
-    if image.ndim > 1:
-        raise ValueError(f"auto takes one channel, the map has {image.shape[1]}: denoise each by itself")
-    found = automatic_smoothing(part.mesh, operator, image, noise)
-    facts = {
-        "noise": noise,
-        "noise_estimated": estimated,
-        "chosen": found.method,
-        "parameter": found.parameter,
-        **{f"risk_{name}": risk for name, risk in found.risk.items()},
-        "relative_gap": found.largest_gap,
-        "converged": found.converged,
-    }
-    notes = mask_notes(owner, part)
-    if found.at_the_end:
-        notes += (
-            "The parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: choose "
-            "the width by a second measurement.",
-        )
-    return DenoisedMap(part.extend(found.values), "auto", facts, notes)
 
 
 def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:

@@ -1,0 +1,42 @@
+"""A map without its noise, with what is proved of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.summary import Summarized, Summary
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DenoisedMap(Summarized):
+    """A map without its noise.
+
+    Parameters
+    ----------
+    values : (n,) or (n, c) float64
+        NaN outside the mask.
+    method : str
+        "rof", "tgv", "auto" or "heat".
+    certificate : dict
+        What is proved and with which parameters: `relative_gap` and `error_bound` for ROF and TGV.
+    notes : tuple of str
+    """
+
+    values: Floats
+    method: str
+    certificate: dict[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def _summary(self) -> Summary:
+        known = np.isfinite(self.values)
+        facts = {
+            "known values": int(known.sum()),
+            "least": float(self.values[known].min()) if known.any() else None,
+            "largest": float(self.values[known].max()) if known.any() else None,
+            **{name.replace("_", " "): value for name, value in self.certificate.items()},
+        }
+        return Summary(f"map after {self.method}", facts, self.notes)
