@@ -15,6 +15,7 @@ FACE = {
     "geodesic": "surfexp.tasks.skeletons",
     "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
+    "null_maps": "surfexp.tasks.null_maps",
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",
     "reeb_graph": "surfexp.tasks.skeletons",

@@ -1,0 +1,143 @@
+"""Null models of a map: random maps as smooth as it is, to tell a correlation from chance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from surfexp.arrays import Floats
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import SurfacePart
+from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
+from surfexp.nulls.kept import power_error, variogram_error
+from surfexp.nulls.neighbourhoods import nearest_along_surface
+from surfexp.nulls.variogram import variogram_pairs
+from surfexp.nulls.variogram_matching import VariogramMatching
+from surfexp.operators.assembly import mass_matrix
+from surfexp.operators.fem import fem
+from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.summary import Summarized, Summary
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+
+NEIGHBOURS = 1000
+# narrow enough for maps that change within ten vertices; see docs/null_models.md
+FRACTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
+REACH = 0.25
+TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class NullMaps(Summarized):
+    """Random maps that share with a map what their model keeps.
+
+    Parameters
+    ----------
+    values : (n, r) float64
+        A column a null map; NaN outside the mask.
+    method : str
+        "eigenstrapping" or "variogram".
+    certificate : dict
+        What is kept, and how well.
+    notes : tuple of str
+    """
+
+    values: Floats
+    method: str
+    certificate: dict[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def _summary(self) -> Summary:
+        facts = {"null maps": self.values.shape[1]}
+        return Summary(f"null maps by {self.method}", facts | self.certificate, self.notes)
+
+
+def null_maps(
+    surface: SurfaceLike,
+    values: MapLike,
+    count: int = 1000,
+    *,
+    method: Literal["eigenstrapping", "variogram"] = "eigenstrapping",
+    modes: int = 400,
+    seed: int = 0,
+) -> NullMaps:
+    """Make random maps as smooth as a map, against which its correlation with another map can be held.
+
+    "eigenstrapping" turns the coefficients of the map in groups of 3, 5, 7, ... modes of its surface, and adds what the modes
+    leave out with its values in a random order. "variogram" smooths permuted values until their variogram is that of the
+    map. Both take for granted that the map is equally smooth everywhere.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        Its mask, or else the finite values of the map, is the part that takes part.
+    values : str or (n,) float64
+        Name of a map of the surface, or the map; NaN where nothing is known.
+    count : int
+        Number of null maps, r.
+    method : {"eigenstrapping", "variogram"}
+    modes : int
+        Of "eigenstrapping"; they are proved complete.
+    seed : int
+
+    Returns
+    -------
+    NullMaps
+        `values`, and the certificate: share_in_modes (of the map's variance), power_error (of groups, 0 where
+        the modes hold all) and complete, or variogram_error; errors are relative, medians over null maps.
+
+    Raises
+    ------
+    ValueError
+        If the map does not fit, is constant or has several channels, or a number is out of range.
+
+    References
+    ----------
+    Koussis et al.: Generation of surrogate brain maps preserving spatial autocorrelation through random rotation of
+    geometric eigenmodes (2025). Burt et al.: Generative modeling of brain maps with spatial autocorrelation (2020).
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=3)
+    >>> nulls = sx.null_maps(sphere, sphere.mesh.vertices[:, 2], 99, modes=36)
+    >>> nulls.values.shape, bool(nulls.certificate["share_in_modes"] > 0.999)
+    ((642, 99), True)
+    """
+    owner = as_surface(surface)
+    rough = as_map(owner, values)
+    part = part_for(owner, rough)
+    inside = np.asarray(part.restrict(rough), dtype=np.float64)
+    if inside.ndim > 1 or not np.ptp(inside) > 0:
+        shape = f"has {inside.shape[1]} channels" if inside.ndim > 1 else "is constant"
+        raise ValueError(f"the map {shape}: null models take one that varies")
+    makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
+    if method not in makers:
+        raise ValueError(f"method is {method!r}, choose {' or '.join(makers)}")
+    made, certificate = makers[method](owner, part, inside, count, modes, seed)
+    return NullMaps(part.extend(made), method, certificate, mask_notes(owner, part))
+
+
+def _by_modes(
+    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+) -> tuple[Floats, dict[str, Any]]:
+    operator = fem(part.mesh)
+    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), operator, modes, tolerance=TOLERANCE)
+    mass = mass_matrix(operator)
+    nulls = eigenstrapped(system.vectors, mass, inside, count, rest="permute", seed=seed)
+    centred = inside - operator.mass @ inside / operator.mass.sum()
+    held = float(group_powers(system.vectors, mass, inside[:, None])[1:].sum() / (centred @ (mass @ centred)))
+    kept = float(np.median(power_error(system.vectors, mass, inside, nulls)))
+    return nulls, {"share_in_modes": held, "power_error": kept, "modes": modes, "complete": system.complete}
+
+
+def _by_variogram(
+    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+) -> tuple[Floats, dict[str, Any]]:
+    mesh = part.mesh
+    smallest = int(np.bincount(mesh.component_labels).min())
+    pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
+    kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
+    nulls = kernels.nulls(inside, count, seed=seed)
+    return nulls, {"variogram_error": float(np.median(variogram_error(pairs, inside, nulls)))}

@@ -1,0 +1,68 @@
+"""Null maps of the face: what is kept, where nothing is known, what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.operators.fem import fem
+
+BALL = sx.shape("icosphere", levels=3)
+X, Y, Z = BALL.mesh.vertices.T
+MASS = fem(BALL.mesh).mass
+
+
+def test_modes_that_hold_the_map_keep_its_power() -> None:
+    nulls = sx.null_maps(BALL, X * Y + Z, 50, modes=36)
+    assert nulls.certificate["complete"] and nulls.certificate["share_in_modes"] > 0.999
+    assert nulls.certificate["power_error"] < 1e-2
+    squares = MASS @ nulls.values**2 / MASS.sum()
+    assert squares == pytest.approx(MASS @ (X * Y + Z) ** 2 / MASS.sum(), rel=0.02)
+    # the mean null of a map without mean is 0, within four standard errors
+    assert np.abs(nulls.values.mean(axis=1)).max() < 4.0 * np.sqrt(squares.mean() * 3.0 / 50)
+    again = sx.null_maps(BALL, X * Y + Z, 50, modes=36)
+    assert (again.values == nulls.values).all()
+    assert (sx.null_maps(BALL, X * Y + Z, 50, modes=36, seed=1).values != nulls.values).any()
+
+
+def test_what_modes_leave_out_comes_back() -> None:
+    rough = Z + 0.5 * np.random.default_rng(0).standard_normal(len(Z))
+    nulls = sx.null_maps(BALL, rough, 50, modes=9)
+    # in the consistent mass independent noise has half of its variance
+    share = (1 / 3) / (1 / 3 + 0.5 * 0.25)
+    assert nulls.certificate["share_in_modes"] == pytest.approx(share, abs=0.03)
+    variance = MASS @ (nulls.values - MASS @ nulls.values / MASS.sum()) ** 2 / MASS.sum()
+    centred = rough - MASS @ rough / MASS.sum()
+    assert variance.mean() == pytest.approx(MASS @ centred**2 / MASS.sum(), rel=0.05)
+
+
+def test_variograms_are_matched() -> None:
+    smooth, rough = (sx.null_maps(BALL, values, 20, method="variogram") for values in (Z, np.sin(40.0 * X)))
+    for nulls in (smooth, rough):
+        assert nulls.values.shape == (642, 20) and nulls.certificate["variogram_error"] < 0.7
+    ends = BALL.mesh.edges
+
+    def steps(values: np.ndarray) -> float:
+        """Mean square difference along edges over the variance."""
+        return float(((values[ends[:, 0]] - values[ends[:, 1]]) ** 2).mean() / values.var())
+
+    assert steps(smooth.values) < 0.2 * steps(rough.values)
+
+
+def test_the_mask_is_kept() -> None:
+    holed = np.where(Z > -0.5, X, np.nan)
+    nulls = sx.null_maps(BALL, holed, 5, modes=16)
+    assert (np.isfinite(nulls.values).all(axis=1) == np.isfinite(holed)).sum() >= len(Z) - 60
+    assert not np.isfinite(nulls.values[np.isnan(holed)]).any()
+    assert any("these are the mask" in note for note in nulls.notes)
+    assert "null maps by eigenstrapping" in repr(nulls)
+
+
+def test_what_cannot_be_turned_is_refused() -> None:
+    with pytest.raises(ValueError, match="is constant"):
+        sx.null_maps(BALL, np.ones(len(Z)), 5)
+    with pytest.raises(ValueError, match="has 3 channels"):
+        sx.null_maps(BALL, BALL.mesh.vertices, 5)
+    with pytest.raises(ValueError, match="choose eigenstrapping or variogram"):
+        sx.null_maps(BALL, Z, 5, method="spin")  # type: ignore[arg-type]
