@@ -184,6 +184,11 @@ SMALL = {
     ("statistic", "missing_by_kind"): {
         "inputs": {"statistics": {"over": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
     },
+    ("image", "repeated_map"): {"inputs": {"surface": {"surface": "masked_fsaverage5"}}},
+    ("statistic", "carried_over_mask"): {
+        "filter": "neighbour_mean",
+        "inputs": {"surface": {"surface": {"name": "fsaverage5", "sheet": "white"}}},
+    },
     ("statistic", "error_ratios"): RATIOS,
     ("figure", "ratio_table"): {
         "inputs": {"statistics": {"over": "sets", "statistic": {"name": "error_ratios"} | RATIOS}}

@@ -50,9 +50,7 @@ def command(name: str, arguments: list[str]) -> int:
     if name == "report" and given.claims:
         from surfexp.report.reproduction import reproduction
 
-        earlier, preface = (
-            path.read_text(encoding="utf-8") if path else "" for path in (given.beside, given.preface)
-        )
+        earlier, preface = (path.read_text(encoding="utf-8") if path else "" for path in (given.beside, given.preface))
         print(reproduction(plans, given.results.resolve(), earlier, preface))
         return 0
     for plan in plans.values():

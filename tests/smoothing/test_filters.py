@@ -38,7 +38,8 @@ def test_the_polynomial_is_the_exponential_within_its_bound(name: str, time: flo
 def test_no_eigenvalue_exceeds_the_bound(name: str) -> None:
     operator = fem(SHAPES[name].mesh)
     largest = eigh(stiffness(operator).toarray(), np.diag(operator.mass), eigvals_only=True)[-1]
-    assert largest <= largest_eigenvalue_bound(operator) <= 3.0 * largest
+    # on the rectangle both are 576, and the dense solver is off by a rounding
+    assert largest * (1.0 - 1e-14) <= largest_eigenvalue_bound(operator) <= 3.0 * largest
 
 
 @given(st.floats(1e-3, 10.0), st.integers(0, 2**31))
