@@ -18,7 +18,7 @@ from surfexp.report.page import write_report
 from surfexp.report.ranking.drawing import draw
 from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import _interval, rank
-from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, trials_of
+from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, trials_of, _names
 from surfexp.report.table import Comparison, Row
 from surfexp.workflow.plan import Leaf
 
@@ -234,3 +234,12 @@ def test_the_page_shows_the_ranking_and_drops_an_old_picture(tmp_path: Path) -> 
     page = (write_report(plan, tmp_path) / "report.html").read_text()
     assert "Ranked by rmse" in page and "On the 6 problems" in page and "libigl" in page
     assert not stale.exists() and "</svg>" in (stale.parent / "ranking-0-0.svg").read_text()
+
+
+def test_a_method_is_named_by_what_tells_it_apart() -> None:
+    rows = [{"solver.name": "chosen smoothing", "solver.method": method} for method in ("heat flow", "total variation")]
+    modes = {"solver.name": "chosen modes"}
+    assert _names([*rows, modes]) == ["heat flow", "total variation", "chosen modes"]
+    steps = [{"solver.name": name, "solver.steps": f"steps {count}"} for name in ("a", "b") for count in (1, 2)]
+    assert _names(steps) == ["a, steps 1", "a, steps 2", "b, steps 1", "b, steps 2"]
+    assert _names([{"solver.name": "a"}, {"solver.name": "b"}]) == ["a", "b"]

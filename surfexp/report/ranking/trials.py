@@ -68,7 +68,7 @@ def trials_of(group: Comparison) -> list[Trials]:
     of_method = [name for name in group.varying if name not in of_problem]
     names = _telling(rows, of_method)
     of_problem = [name for name in of_problem if _is_task(name)]
-    methods = [", ".join(_said(row, name) for name in names) for row in rows]
+    methods = _names([{name: _said(row, name) for name in names if name in row.parameters} for row in rows])
     problems = [(row.data, tuple(str(row.parameters.get(name)) for name in of_problem)) for row in rows]
     places = dict[tuple[str, Problem], Row]()
     for method, problem, row in zip(methods, problems, rows, strict=True):
@@ -124,9 +124,21 @@ def _telling(rows: Sequence[Row], names: Sequence[str]) -> list[str]:
     return kept
 
 
+def _names(said: Sequence[Mapping[str, str]]) -> list[str]:
+    """What tells each row's method apart, by columns, without a column that the others say already."""
+    kept = [dict(columns) for columns in said]
+    for name in dict.fromkeys(name for columns in said for name in columns):
+        fewer = [{key: text for key, text in columns.items() if key != name or len(columns) == 1} for columns in kept]
+        if len({", ".join(columns.values()) for columns in fewer}) == len(
+            {", ".join(columns.values()) for columns in kept}
+        ):
+            kept = fewer
+    return [", ".join(columns.values()) for columns in kept]
+
+
 def _said(row: Row, name: str) -> str:
-    value = row.parameters.get(name, "–")
-    if name.endswith(".name"):
+    value = row.parameters[name]
+    if name.endswith((".name", ".method")):
         return str(value).replace("_", " ")
     said = format_number(value) if isinstance(value, float) else word(value)
     return f"{short_name(name)} {said}"
