@@ -49,7 +49,11 @@ def lines(quick: bool) -> list[Line]:
     whole = fsaverage5("left", "white")
     surface = cut_to_mask(whole, whole.scalars["thickness"] > 0)
     values = gaussian_fields(fem(surface.mesh), WIDTH, 1, 19)[:, 0]
-    return [_eigenstrapping(surface, values, count), _variogram(surface, values, min(count, BY_VARIOGRAM)), _spins(count)]
+    return [
+        _eigenstrapping(surface, values, count),
+        _variogram(surface, values, min(count, BY_VARIOGRAM)),
+        _spins(count),
+    ]
 
 
 def _eigenstrapping(surface: Surface, values: Floats, count: int) -> Line:

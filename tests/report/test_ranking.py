@@ -18,7 +18,7 @@ from surfexp.report.page import write_report
 from surfexp.report.ranking.drawing import draw
 from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import _interval, rank
-from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, trials_of, _names
+from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, _names, trials_of
 from surfexp.report.table import Comparison, Row
 from surfexp.workflow.plan import Leaf
 
