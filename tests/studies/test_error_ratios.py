@@ -50,6 +50,15 @@ def test_units_of_one_group_are_drawn_together() -> None:
     assert together > 0.8 and apart < together - 0.1
 
 
+def test_the_interval_holds_the_central_95_per_cent() -> None:
+    ratios = np.arange(1.0, 42.0)
+    draws = np.random.default_rng(1).integers(41, size=(4000, 41))
+    _, low, high = median_ratio(ratios, np.arange(41), draws)
+    medians = np.median(ratios[draws], axis=1)
+    assert (medians < low).mean() <= 0.025 <= (medians <= low).mean()
+    assert (medians > high).mean() <= 0.025 <= (medians >= high).mean()
+
+
 def test_what_failed_counts_in_no_ratio_and_leaves_no_verdict() -> None:
     found = members({"none": [1.0, 1.0], "heat": [0.5, 0.5]}, ["a", "b"])
     found = {m: (solution(0.1, False) if m.label == "heat 1" else s) for m, s in found.items()}

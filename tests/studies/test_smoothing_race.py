@@ -20,6 +20,7 @@ from surfexp.studies.smoothing.border_measures import border_measures, false_bor
 from surfexp.studies.smoothing.carried_over_mask import carried_over_mask, iterations_as_wide
 from surfexp.studies.smoothing.chosen_smoothing import chosen_smoothing
 from surfexp.studies.smoothing.planted_maps import planted_parcels, repeated_map
+from surfexp.tasks.spectra import eigenpairs
 from surfexp.variational.image import Image
 
 # a sheet of 120 by 60 mm with edges of 1 mm
@@ -59,7 +60,7 @@ def test_an_island_far_from_the_border_is_false_by_its_length() -> None:
 def test_nothing_found_has_no_distance_and_the_widest_profile() -> None:
     measures = border_measures(SHEET.mesh, FLAT, np.full(len(X), 0.1), UPPER, LEVELS)
     assert "border_distance" not in measures and measures["false_border"] == 0.0
-    assert profile_width(FLAT, np.full(len(X), 0.3), X - MIDDLE, LEVELS) > 25.0
+    assert profile_width(FLAT, np.full(len(X), 0.3), X - MIDDLE, LEVELS) > 28.0
     with pytest.raises(ValueError, match=r"at 7381 of 7381 vertices: there is no border"):
         border_measures(SHEET.mesh, FLAT, X, np.ones(len(X), dtype=bool), LEVELS)
 
@@ -108,6 +109,8 @@ def test_parcels_have_two_levels_and_noise_of_deviation_one() -> None:
     noise = image.values - image.clean
     assert noise.std(axis=0) == pytest.approx(1.0, abs=0.05)
     assert abs(np.corrcoef(noise.T)[0, 1]) < 0.06
+    shares = [planted_parcels(BALL, parcels=30, contrast=3.0, seed=seed).labels["parcels"].mean() for seed in range(6)]
+    assert np.mean(shares) == pytest.approx(0.5, abs=0.08)
     again = planted_parcels(BALL, parcels=8, contrast=3.0, seed=4)
     assert (again.values == image.values).all()
     assert not planted_parcels(BALL, contrast=0.0).labels
@@ -187,9 +190,21 @@ def test_grids_run_from_weak_to_strong() -> None:
     smoother, grid = methods.smoother("total_variation")
     assert smoother(maps, grid[0]).std() < smoother(maps, grid[-1]).std()
     assert methods.all_converged and 0.0 < methods.largest_gap <= 1e-3
+    assert grid == WEIGHTS and methods.smoother("generalised_variation")[1] == COARSE_WEIGHTS
     assert WEIGHTS[0] == 0.125 and WEIGHTS[-1] == 4.0 and COARSE_WEIGHTS == (0.25, 0.5, 1.0, 2.0)
     with pytest.raises(ValueError, match="needs an eigensystem"):
         methods.smoother("truncated_modes")[0](maps, 10.0)
+
+
+def test_truncated_modes_are_a_projection() -> None:
+    mesh, operator = BALL.mesh, fem(BALL.mesh)
+    modes = eigenpairs(BALL, 60)
+    smoother, grid = Methods(mesh, operator, 1.0, modes).smoother("truncated_modes")
+    assert grid == (10.0, 20.0, 50.0)
+    maps = np.random.default_rng(0).standard_normal((len(mesh.vertices), 2))
+    once = smoother(maps, 20.0)
+    assert smoother(once, 20.0) == pytest.approx(once, abs=1e-8)
+    assert smoother(modes.vectors[:, 5:25:19], 20.0) == pytest.approx(modes.vectors[:, 5:25:19] * [1.0, 0.0], abs=1e-8)
 
 
 def test_the_width_of_heat_flow_is_full_at_half_maximum() -> None:
