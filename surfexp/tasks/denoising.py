@@ -43,8 +43,8 @@ def denoise(
     Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle
     of mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor
     leave: the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
-    generalised variation of second order in place of TV, which makes no stairs of slopes. "auto" takes what promises the
-    least error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
+    generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least error by
+    Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
 
     Parameters
     ----------
@@ -82,24 +82,21 @@ def denoise(
     >>> import surfexp as sx
     >>> sphere = sx.shape("icosphere", levels=3)
     >>> noisy = sphere.mesh.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(642)
-    >>> clean = sx.denoise(sphere, noisy)
-    >>> bool(clean.certificate["relative_gap"] <= 1e-4)
+    >>> bool(sx.denoise(sphere, noisy).certificate["relative_gap"] <= 1e-4)
     True
     """
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
-    operator = fem(part.mesh)
-    image = np.asarray(part.restrict(noisy), dtype=np.float64)
+    operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
     sigma = noise_level(operator, image) if noise is None else float(noise)
     if method == "auto":
         return automatically_denoised(owner, part, operator, image, sigma, noise is None)
     data = _data(operator, image, sigma, weight)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
-    if method == "tgv":
-        facts["ratio"] = ratio
+    facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, data, operator, ratio, tolerance, progress)
-    notes = mask_notes(owner, part) + tuple(solution.notes)
+    notes = mask_notes(owner, part) + solution.notes
     return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes)
 
 
