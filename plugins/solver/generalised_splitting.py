@@ -21,7 +21,7 @@ class GeneralisedSplitting(Options):
     tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
     iteration_limit: int = Field(20000, ge=1, description="most iterations")
     penalty: float | None = Field(
-        None, gt=0, description="of grad u - w; default: 3 over the mean length of the gradient of the image"
+        None, gt=0, description="of grad u - w; default: 9 over the mean length of the gradient of the image"
     )
     relaxation: float = Field(1.8, gt=0, lt=2, description="over-relaxation")
 

@@ -6,21 +6,18 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import block_array, csr_array, diags_array
+from scipy.sparse import csr_array
 
 from surfexp.arrays import Floats
-from surfexp.linalg.factorisation import Factorisation, factorise
-from surfexp.operators.calculus import gradient_matrix
-from surfexp.operators.crouzeix_raviart import TangentFields, tangent_fields
+from surfexp.operators.crouzeix_raviart import TangentFields
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Certificate
+from surfexp.variational.generalised_forms import GeneralisedForms
 from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive
 
 BALANCE = 1e-9
 LEAST_SHARE = 1e-8
 PARTS = (2, 4)
-# what depends on the operator and the ratio alone
-SHARED = ("fields", "forms", "adjoint", "_slope_forms", "_balance")
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,28 +68,29 @@ class GeneralisedVariation:
             )
 
     @cached_property
+    def assembled(self) -> GeneralisedForms:
+        """The matrices."""
+        return GeneralisedForms(self.operator, self.ratio)
+
+    @property
     def fields(self) -> TangentFields:
         """The space of w."""
-        return tangent_fields(self.operator)
+        return self.assembled.fields
 
-    @cached_property
+    @property
     def forms(self) -> csr_array:
         """(6 m, n + 2 e) matrix of u and w in one array: on each face two rows of G u - w, then four of ratio D w."""
-        count, fields = len(self.operator.faces), self.fields
-        empty = csr_array((4 * count, self.operator.vertex_count))
-        blocks = [[gradient_matrix(self.operator), -fields.averages], [empty, self.ratio * fields.derivative]]
-        rows = [np.arange(2 * count).reshape(-1, 2), 2 * count + np.arange(4 * count).reshape(-1, 4)]
-        return csr_array(csr_array(block_array(blocks))[np.concatenate(rows, axis=1).ravel()])
+        return self.assembled.forms
 
-    @cached_property
+    @property
     def adjoint(self) -> csr_array:
         """(n + 2 e, 6 m) matrix of the load of a field, the adjoint of `forms` by area."""
-        return csr_array(self.forms.T @ diags_array(np.repeat(self.operator.areas, 6)))
+        return self.assembled.adjoint
 
     def with_fidelity(self, fidelity: SeparableQuadratic) -> GeneralisedVariation:
         """Return the problem of another image or weight on the same mesh, which shares what was assembled."""
         other = replace(self, fidelity=fidelity)
-        other.__dict__.update({name: getattr(self, name) for name in SHARED})
+        other.__dict__["assembled"] = self.assembled
         return other
 
     def energy(self, unknowns: Floats) -> float:
@@ -106,21 +104,18 @@ class GeneralisedVariation:
 
     def feasible(self, dual: Floats) -> Floats:
         """Return the nearest (6 m,) field whose two parts balance at every edge, shrunk to a length of at most 1."""
-        move = self._balance.solve((self.adjoint @ dual)[self.operator.vertex_count :])
-        balanced = dual - self._slope_forms @ move
-        return balanced / max(1.0, *(part.max() for part in lengths(balanced)))
+        if self.assembled.imbalance(dual) > 0.1 * BALANCE:
+            dual = self.assembled.balanced(dual)
+        return dual / max(1.0, *(part.max() for part in lengths(dual)))
 
     def certify(self, unknowns: Floats, dual: Floats) -> Certificate:
         """Return the certificate of u and w by a field; without a lower bound where it is too long or does not balance.
 
         The gap is relative to the energy, which counts as not less than 1e-8 of that of a constant, or than rounding.
         """
-        energy, load = self.energy(unknowns), self.adjoint @ dual
-        count = self.operator.vertex_count
-        forces = abs(self.adjoint[count:]) @ np.abs(dual)
-        balanced = np.abs(load[count:]).max() <= BALANCE * max(forces.max(), np.finfo(float).tiny)
-        feasible = balanced and max(part.max() for part in lengths(dual)) <= 1.0 + BALANCE
-        lower_bound = self.fidelity.dual_value(load[:count]) if feasible else -float(np.inf)
+        energy, longest = self.energy(unknowns), max(part.max() for part in lengths(dual))
+        feasible = self.assembled.imbalance(dual) <= BALANCE and longest <= 1.0 + BALANCE
+        lower_bound = self.fidelity.dual_value(self.values(self.adjoint @ dual)) if feasible else -float(np.inf)
         gap = energy - lower_bound
         error_bound = float(np.sqrt(2.0 * max(gap, 0.0) / self.fidelity.strong_convexity))
         return Certificate(energy, lower_bound, gap / max(energy, self._least_scale), error_bound)
@@ -133,14 +128,6 @@ class GeneralisedVariation:
         steepest = operator.areas @ np.linalg.norm(operator.hat_gradients, axis=2).max(axis=1)
         rounding = np.finfo(float).eps * np.abs(target).max() * steepest
         return max(LEAST_SHARE * self.fidelity.value(constant), float(1e5 * rounding), float(np.finfo(float).tiny))
-
-    @cached_property
-    def _slope_forms(self) -> csr_array:
-        return csr_array(self.forms[:, self.operator.vertex_count :])
-
-    @cached_property
-    def _balance(self) -> Factorisation:
-        return factorise(self.adjoint[self.operator.vertex_count :] @ self._slope_forms)
 
 
 def lengths(field: Floats) -> tuple[Floats, Floats]:

@@ -10,11 +10,13 @@ from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.operators.vertex_averaged import vertex_averaged
+from surfexp.variational.generalised_forms import GeneralisedForms
 from surfexp.variational.generalised_variation import GeneralisedVariation, lengths
 from surfexp.variational.image import Image
 from surfexp.variational.models.rof import ROF
 from surfexp.variational.models.tgv import TGV
 from surfexp.variational.separable_quadratic import convex_chan_vese, rof
+from surfexp.variational.solvers import generalised_splitting as splitting
 from surfexp.variational.solvers.generalised_primal_dual import generalised_primal_dual
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
 from surfexp.variational.solvers.newton import newton
@@ -245,3 +247,36 @@ def test_splitting_needs_few_iterations_whatever_weight_noise_and_unit() -> None
             )
             counts.append(generalised_splitting(problem.with_fidelity(data), tolerance=1e-2).solution.iterations)
         assert counts[0] == counts[1] == counts[2] <= 150
+
+
+def test_the_dual_of_a_step_balances_without_a_factorisation_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise AssertionError("balanced by itself")
+
+    monkeypatch.setattr(GeneralisedForms, "balanced", refuse)
+    solution = generalised_splitting(noisy(2), tolerance=1e-6).solution
+    assert solution.converged and solution.relative_gap <= 1e-6
+    with pytest.raises(AssertionError, match="balanced by itself"):
+        generalised_primal_dual(noisy(2), tolerance=1e-2)
+
+
+def test_cutting_and_balancing_a_dual_proves_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Faces that are too long by a little would shrink the whole field; the optimum is the same without."""
+    plain = noisy()
+    cut_and_balanced = generalised_splitting(plain, iteration_limit=30, tolerance=1e-9).solution
+    monkeypatch.setattr(splitting, "ROUNDS", 0)
+    shrunk = generalised_splitting(plain, iteration_limit=30, tolerance=1e-9).solution
+    assert cut_and_balanced.energy == shrunk.energy
+    assert cut_and_balanced.relative_gap < 0.8 * shrunk.relative_gap
+
+
+def test_imbalance_is_a_share_of_the_largest_force() -> None:
+    forms, rng = noisy(2).assembled, np.random.default_rng(0)
+    dual = rng.standard_normal(forms.forms.shape[0])
+    assert 0.1 < forms.imbalance(dual) <= 1.0
+    assert forms.imbalance(1e6 * dual) == pytest.approx(forms.imbalance(dual))
+    nearest = forms.balanced(dual)
+    assert forms.imbalance(nearest) <= 1e-12 and forms.imbalance(np.zeros_like(dual)) == 0.0
+    # what is taken away is orthogonal by area to all that balances
+    other, areas = forms.balanced(rng.standard_normal(len(dual))), np.repeat(forms.operator.areas, 6)
+    assert abs(other @ (areas * (dual - nearest))) <= 1e-10 * np.linalg.norm(other) * np.linalg.norm(areas * dual)
