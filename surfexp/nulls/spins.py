@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from surfexp.arrays import Floats, Integers
+from surfexp.nulls.nearest_vertices import NearestVertices
 
 OUTSIDE = -1
 ROUND = 1e-2
@@ -78,12 +78,11 @@ def spin_sources(sphere: Floats, rotations: Floats, part: Integers | None = None
         raise ValueError(f"part has {len(inside)} vertices, at least 1 in 0..{len(sphere) - 1} is needed")
     place = np.full(len(sphere), OUTSIDE)
     place[inside] = np.arange(len(inside))
-    directions = sphere / lengths[:, None]
-    tree = KDTree(directions)
-    sources = np.empty((len(inside), len(rotations)), dtype=np.int64)
-    for column, rotation in enumerate(rotations):
-        sources[:, column] = place[tree.query(directions[inside] @ rotation.T)[1]]
-    return sources
+    nearest = NearestVertices.of(sphere / lengths[:, None])
+    sources = np.empty((len(rotations), len(inside)), dtype=np.int64)
+    for row, rotation in zip(sources, rotations, strict=True):
+        row[:] = place[nearest.of_rotated(rotation)[inside]]
+    return sources.T
 
 
 def spun(values: Floats, sources: Integers) -> Floats:
