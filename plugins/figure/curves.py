@@ -35,8 +35,8 @@ def curves_figure(options: Curves, *, statistic: Statistic) -> Figure:
             known = ", ".join(statistic.columns)
             raise ValueError(f"statistic {statistic.name!r} has no column {name!r}, choose one of {known}")
     x = statistic.columns[options.x]
-    lines = {name: statistic.columns[name] for name in options.y}
-    x_label, title = options.x_label or options.x, options.title or statistic.name
+    lines = {name.replace("_", " "): statistic.columns[name] for name in options.y}
+    x_label, title = options.x_label or options.x.replace("_", " "), options.title or statistic.name
     words = {"x_label": x_label, "y_label": options.y_label, "title": title, "caption": options.caption}
     return order_plot(x, lines, **words) if options.orders else sweep_plot(x, lines, log=options.log, **words)
 
