@@ -14,6 +14,7 @@ EXAMPLES = """\
 examples:
   surfexp run                                      the default experiment
   surfexp run experiment=NAME                      another (surfexp list experiment)
+  surfexp run experiment=NAME,NAME                 several, one after the other
   surfexp run solver=primal_dual,split_bregman     a sweep: comma lists, range(1,5), glob(*)
   surfexp run surface=file surface.path=mesh.ply   your own surface
   surfexp info solver/primal_dual                  the options of a plugin"""

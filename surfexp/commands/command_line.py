@@ -12,7 +12,7 @@ from pathlib import Path
 
 from surfexp import __version__
 from surfexp.commands import processes
-from surfexp.commands.error_line import error_line
+from surfexp.commands.error_line import error_line, tell
 from surfexp.extras import MissingExtra, missing_line, missing_module
 from surfexp.workflow.errors import StageFailure, UserError, unknown
 
@@ -109,11 +109,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
     except (UserError, StageFailure, MissingExtra, OSError) as error:
-        if os.environ.get("SURFEXP_DEBUG"):
-            traceback.print_exc()
-        for line in str(error).splitlines():
-            print(f"surfexp: {error_line(line)}", file=sys.stderr)
-        return 1 if isinstance(error, StageFailure) else 2
+        return tell(error)
     except Exception as error:
         if isinstance(error, ImportError) and (missing := missing_module(error)):
             print(f"surfexp: {missing_line(given[0], [missing])}", file=sys.stderr)

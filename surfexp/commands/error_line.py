@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
+import traceback
+
+from surfexp.workflow.errors import StageFailure
 
 # with "surfexp: " before it a line has at most 300
 LONGEST_WORD, LONGEST_LINE = 80, 290
 # the names alone: what a message says after them is its reason and stays
 CHOICES = re.compile(r"((?:choose from|one of): )([^\s,;:()]+(?:, [^\s,;:()]+)+)")
+
+
+def tell(error: Exception) -> int:
+    """Print an expected error on stderr, a line for each of its lines, and return its exit code."""
+    if os.environ.get("SURFEXP_DEBUG"):
+        traceback.print_exc()
+    for line in str(error).splitlines():
+        print(f"surfexp: {error_line(line)}", file=sys.stderr)
+    return 1 if isinstance(error, StageFailure) else 2
 
 
 def error_line(text: str) -> str:

@@ -17,6 +17,7 @@ from surfexp.catalogue.experiment_files import check_files, located
 from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.commands.searching import is_search, joined, repeatable
+from surfexp.commands.several_experiments import apart, each
 from surfexp.workflow.errors import StageFailure, UserError
 
 if TYPE_CHECKING:
@@ -32,6 +33,10 @@ def command(name: str, arguments: list[str]) -> int:
         print(usage(name))
         return 0
     check_arguments(arguments)
+    return each(partial(_one_experiment, name), apart(arguments))
+
+
+def _one_experiment(name: str, arguments: list[str]) -> int:
     arguments = repeatable(arguments)
     doubtful: list[str] = []
     search = name == "run" and is_search(arguments)

@@ -150,6 +150,22 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     )  # that of the older code
 
 
+def test_several_experiments_have_a_page_each_and_one_that_fails_stops_no_other(laboratory: Path) -> None:
+    folder = laboratory / "conf" / "experiment"
+    changes = {"second": ("shift: 1.0", "shift: 2.0"), "without_path": ("surface: toy_triangle", "surface: file")}
+    for name, change in changes.items():
+        (folder / f"{name}.yaml").write_text(CHAIN.replace("experiment: chain", f"experiment: {name}").replace(*change))
+    done = surfexp("run", "experiment=chain,without_path,second", code=2)
+    assert "surface/file.path is required; set surface.path=VALUE" in done.stderr and "Traceback" not in done.stderr
+    assert "surfexp: 1 of 3 experiments did not end: without_path" in done.stderr
+    for name in ("chain", "second"):
+        page = (laboratory / "results" / name / "report.html").read_text()
+        assert f"{name}: 1 configurations" in done.stdout and "toy_distance" in page
+    assert not (laboratory / "results" / "without_path").exists()
+    planned = surfexp("plan", "experiment=chain,second").stdout
+    assert "plan of chain" in planned and "plan of second" in planned and planned.count("0 to compute") == 2
+
+
 def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:
     command = [
         sys.executable,

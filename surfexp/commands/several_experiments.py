@@ -1,0 +1,40 @@
+"""Several experiments in one command, `experiment=FIRST,SECOND`: one after the other, each with its own pages."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+
+from surfexp.commands.error_line import tell
+from surfexp.extras import MissingExtra
+from surfexp.workflow.errors import StageFailure, UserError
+
+# the worst that happened is what the command ends with
+WORST_FIRST = 1, 2, 3
+
+
+def apart(arguments: Sequence[str]) -> list[list[str]]:
+    """Return the arguments of each experiment that a list of names asks for; what is no such list stays as it is."""
+    for place, text in enumerate(arguments):
+        key, _, value = text.partition("=")
+        names = [name.strip() for name in value.split(",")]
+        if key == "experiment" and len(names) > 1 and all(name.isidentifier() for name in names):
+            return [[*arguments[:place], f"experiment={name}", *arguments[place + 1 :]] for name in dict.fromkeys(names)]
+    return [list(arguments)]
+
+
+def each(run: Callable[[list[str]], int], requests: list[list[str]]) -> int:
+    """Run all requests, also after one that failed; return the worst exit code."""
+    if len(requests) == 1:
+        return run(requests[0])
+    codes = []
+    for arguments in requests:
+        try:
+            codes.append(run(arguments))
+        except (UserError, StageFailure, MissingExtra) as error:
+            codes.append(tell(error))
+    failed = [arguments for arguments, code in zip(requests, codes, strict=True) if code in (1, 2)]
+    if failed:
+        names = ", ".join(text.partition("=")[2] for arguments in failed for text in arguments if "experiment=" in text)
+        print(f"surfexp: {len(failed)} of {len(requests)} experiments did not end: {names}", file=sys.stderr)
+    return next((code for code in WORST_FIRST if code in codes), 0)
