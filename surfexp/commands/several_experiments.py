@@ -19,7 +19,9 @@ def apart(arguments: Sequence[str]) -> list[list[str]]:
         key, _, value = text.partition("=")
         names = [name.strip() for name in value.split(",")]
         if key == "experiment" and len(names) > 1 and all(name.isidentifier() for name in names):
-            return [[*arguments[:place], f"experiment={name}", *arguments[place + 1 :]] for name in dict.fromkeys(names)]
+            return [
+                [*arguments[:place], f"experiment={name}", *arguments[place + 1 :]] for name in dict.fromkeys(names)
+            ]
     return [list(arguments)]
 
 
