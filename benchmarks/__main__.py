@@ -28,7 +28,15 @@ FIGURES = {
 }
 
 SECTIONS = {
-    "Variational image processing": ("denoising", "slopes", "segmentation", "parametrization", "scaling", "threads"),
+    "Variational image processing": (
+        "denoising",
+        "slopes",
+        "filters",
+        "segmentation",
+        "parametrization",
+        "scaling",
+        "threads",
+    ),
     "Laplace-Beltrami eigen-geometry": (
         "eigenpairs",
         "eigenpairs_range",
