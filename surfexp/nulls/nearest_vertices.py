@@ -17,19 +17,18 @@ from surfexp.arrays import Floats, Integers
 class NearestVertices:
     """Finds nearest vertices by steps to nearer neighbours in the hull of the points.
 
-    The convex hull of points on a sphere is their Delaunay triangulation, in which a vertex that is not the nearest has
-    a neighbour that is nearer. A vertex starts where a neighbour of it came to, which is a step or two away: a search in
-    a tree, which begins at its root for each vertex, takes several times as long.
+    The convex hull of points on a sphere is their Delaunay triangulation, in which a vertex that is not the nearest
+    has a neighbour that is nearer. A vertex starts where a neighbour of it came to, which is a step or two away: a
+    search in a tree, which begins at its root for each vertex, takes several times as long. Made by `of`.
 
     Parameters
     ----------
     directions : (n, 3) float64
         Of length 1.
-
-    Raises
-    ------
-    ValueError
-        If the points lie in a plane.
+    starts, neighbours : (n + 1,) and (k,) int64
+        Those of vertex i are neighbours[starts[i]:starts[i + 1]].
+    order, parents : (n,) int64
+        Each vertex of the order but the first comes after its parent, which is a neighbour.
 
     References
     ----------
@@ -44,7 +43,18 @@ class NearestVertices:
 
     @classmethod
     def of(cls, directions: Floats) -> NearestVertices:
-        """Triangulate the points and order them so that each but the first follows a neighbour."""
+        """Triangulate the points and order them so that each but the first follows a neighbour.
+
+        Parameters
+        ----------
+        directions : (n, 3) float64
+            Of length 1.
+
+        Raises
+        ------
+        ValueError
+            If the points lie in a plane.
+        """
         try:
             hull = ConvexHull(directions)
         except QhullError as error:

@@ -40,11 +40,11 @@ def denoise(
 ) -> DenoisedMap:
     """Remove noise from a map by total variation (Rudin, Osher and Fatemi), which keeps its edges.
 
-    Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle
-    of mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor
-    leave: the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
-    generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least error by
-    Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
+    Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle of
+    mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor leave:
+    the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
+    generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least
+    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
 
     Parameters
     ----------
@@ -92,10 +92,9 @@ def denoise(
     sigma = noise_level(operator, image) if noise is None else float(noise)
     if method == "auto":
         return automatically_denoised(owner, part, operator, image, sigma, noise is None)
-    data = _data(operator, image, sigma, weight)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
-    solution = _minimised(method, data, operator, ratio, tolerance, progress)
+    solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
     notes = mask_notes(owner, part) + solution.notes
     return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes)
 

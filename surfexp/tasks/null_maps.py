@@ -64,9 +64,9 @@ def null_maps(
 ) -> NullMaps:
     """Make random maps as smooth as a map, against which its correlation with another map can be held.
 
-    "eigenstrapping" turns the coefficients of the map in groups of 3, 5, 7, ... modes of its surface, and adds what the modes
-    leave out with its values in a random order. "variogram" smooths permuted values until their variogram is that of the
-    map. Both take for granted that the map is equally smooth everywhere.
+    "eigenstrapping" turns the coefficients of the map in groups of 3, 5, 7, ... modes of its surface, and adds what
+    the modes leave out with its values in a random order. "variogram" smooths permuted values until their variogram
+    is that of the map. Both take for granted that the map is equally smooth everywhere.
 
     Parameters
     ----------

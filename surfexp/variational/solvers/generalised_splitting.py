@@ -59,7 +59,7 @@ def generalised_splitting(
 
 
 def _penalty(problem: GeneralisedVariation) -> float:
-    """What is shortened, by 1 / penalty, is then a ninth of a slope: of 3, 9 and 18 the one with the least worst case."""
+    """What is shortened, by 1 / penalty, is then a ninth of a slope: the least worst case of 3, 9 and 18 over it."""
     operator = problem.operator
     slopes = np.linalg.norm(gradient(operator, problem.fidelity.target), axis=1)
     mean = float(operator.areas @ slopes / operator.areas.sum())
