@@ -15,6 +15,7 @@ from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
+from surfexp.spectrum import spectrum_slice
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import clusters
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
@@ -106,6 +107,25 @@ def test_every_component_has_its_zero_mode_even_beyond_the_block_size() -> None:
     assert system.clusters[0] == (0, 21) and system.clusters[1] == (21, 84)
     assert_pairs(system, a, b, 87)
     assert any("cuts a cluster" in note and "k = 189" in note for note in system.notes)
+
+
+@pytest.mark.parametrize("lost", [0, 7, -1])
+def test_a_pair_that_lanczos_lost_is_found_by_starting_again(lost: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The count at the edge tells that one is missing; the shift is factorised again, and one more search finds it."""
+    a, b = pencil(torus(40, 18, jitter=0.2).mesh)
+    whole = eigenpairs(a, b, 60, "slicing")
+    iterate, calls = spectrum_slice._iterate, []
+
+    def forgetful(*arguments):
+        values, vectors = iterate(*arguments)
+        calls.append(len(values))
+        return (np.delete(values, lost), np.delete(vectors, lost, axis=1)) if len(calls) == 1 else (values, vectors)
+
+    monkeypatch.setattr(spectrum_slice, "_iterate", forgetful)
+    system = eigenpairs(a, b, 60, "slicing")
+    assert calls == [61, 1] and system.complete
+    assert_pairs(system, a, b, 60)
+    np.testing.assert_allclose(system.values, whole.values, atol=1e-9 * whole.values[-1])
 
 
 def test_thin_tube_where_weyls_law_is_far_off() -> None:

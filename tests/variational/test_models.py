@@ -93,6 +93,8 @@ def test_convex_chan_vese_finds_the_regions(surface: Surface, image: Image, meth
     assert ((field > level) == (solution.segmentation > 0.5)).all()
     assert perimeters(operator, field, np.array([level]))[0] == pytest.approx(solution.metrics["perimeter"])
     assert set(np.unique(solution.segmentation)) == {0.0, 1.0}
+    # phi stays in the box of (2.19), and reaches both ends where the regions are clear
+    assert field.min() == 0.0 and field.max() == 1.0
 
 
 def test_means_that_are_not_divided_by_the_area_do_not_settle(surface: Surface, image: Image) -> None:
