@@ -130,6 +130,23 @@ def test_the_energy_of_a_start_within_the_bounds_is_finite_though_interpolation_
     assert np.isfinite(replace(method, **limit)(FIDELITY, OPERATOR, start).history["energy"]).all()
 
 
+def test_the_level_set_method_tells_its_steps_and_how_the_energy_falls():
+    told = []
+    method = replace(level_set(MESH, 0.3), regularisation=0.1, progress=lambda *row: told.append(row), step_limit=9)
+    solution = method(FIDELITY, OPERATOR)
+    steps, falls = zip(*told, strict=True)
+    assert list(steps) == solution.history["iteration"].tolist() and steps[-1] == 9
+    assert falls[0] == np.inf and np.isfinite(falls[1:]).all()
+
+
+def test_non_convex_chan_vese_says_how_many_steps_it_took():
+    initial = 0.5 - np.arccos(np.clip(MESH.vertices[:, 2], -1, 1))
+    scheme = replace(level_set(MESH, 0.3), regularisation=0.1, step_limit=4)
+    solution = LevelSetChanVese(scheme, mu=1 / (3 * MESH.edge_length))(NOISY, OPERATOR, initial)
+    assert solution.iterations == solution.metrics["iterations"] == solution.history["iteration"][-1] == 4
+    assert not solution.converged and solution.reason == "step limit"
+
+
 @pytest.mark.slow
 def test_non_convex_chan_vese_moves_a_small_curve_to_the_cap():
     height = MESH.vertices[:, 2]

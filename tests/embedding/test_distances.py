@@ -109,6 +109,7 @@ def test_two_directions_may_want_different_signs() -> None:
         first, second = cloud(3, 8, seed), cloud(3, 8, seed + 100)
         published, common = (spectral_distance(first, second, reading) for reading in ("max_of_inf", "inf_of_max"))
         assert published.value <= common.value + 1e-12
+        assert published.optimal and published.lower_bound == published.value
         differ += published.metrics["same_signs"] == 0.0 and published.value < common.value - 1e-3
     assert differ > 3
 
@@ -180,6 +181,18 @@ def test_the_lower_bound_of_blocks_is_that_of_their_lengths() -> None:
     bound = max(float(apart.min(axis=1) @ first.weights), float(apart.min(axis=0) @ second.weights))
     assert found.lower_bound == pytest.approx(bound, rel=1e-9)
     assert found.lower_bound < 0.99 * found.value and not found.optimal
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_what_single_precision_cannot_tell_apart_is_compared_again(count: int) -> None:
+    """Two targets whose distances differ in the ninth digit, in either order."""
+    points = np.random.default_rng(0).normal(size=(count, 8)) + 10.0
+    step = np.full(8, 1.0 / np.sqrt(8.0))
+    for first, second in ((1.0, 1.0 + 1e-9), (1.0 + 1e-9, 1.0)):
+        targets = np.concatenate([points + first * step, points + second * step])
+        rows, found = nearest(points, targets)
+        assert (rows == np.arange(count) + (0 if first < second else count)).all()
+        assert found == pytest.approx(1.0, abs=1e-12)
 
 
 def test_the_correspondence_is_the_nearest_source_point_of_each_target_point() -> None:

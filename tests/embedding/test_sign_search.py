@@ -122,6 +122,18 @@ def test_a_stopped_search_says_so_and_its_bound_holds(limit: int) -> None:
     assert not check_certificate(stopped, by_trees(source, target))
 
 
+@pytest.mark.parametrize("start", [None, np.ones(7, np.int8)])
+def test_every_evaluation_is_counted_once(start: np.ndarray | None) -> None:
+    objective, calls = HausdorffObjective(cloud(7, 40, 7), cloud(7, 40, 8)), []
+
+    def counted(signs: np.ndarray, cutoff: float) -> float:
+        calls.append(signs.copy())
+        return objective(signs, cutoff)
+
+    found = branch_and_bound(counted, 7, start)
+    assert found.optimal and found.evaluations == len(calls)
+
+
 def test_progress_counts_evaluations_and_what_is_left_to_prove() -> None:
     source, target = cloud(9, 40, 7), cloud(9, 40, 8)
     told: list[tuple[int, float]] = []

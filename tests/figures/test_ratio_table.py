@@ -20,6 +20,7 @@ def cell(pixels: np.ndarray, row: int, column: int) -> np.ndarray:
 def test_less_is_blue_and_more_is_red() -> None:
     ratios = np.array([[0.5, 2.0], [1.0, np.nan]])
     drawn = ratio_table(ratios, np.array([[1.0, -1.0], [0.0, 0.0]]), ["a", "b"], ["first one", "second"], width=900)
+    assert drawn.pixels.shape[1] == 900 > drawn.pixels.shape[0]
     less, more, same = (cell(drawn.pixels, *place) for place in ((0, 0), (0, 1), (1, 0)))
     assert less[2] > less[0] + 20 and more[0] > more[2] + 20
     assert np.ptp(same) < 8

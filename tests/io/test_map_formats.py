@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from nibabel import cifti2
 
+from surfexp.io.freesurfer_sizes import check_volume
 from surfexp.io.map_files import read_maps, read_mask, read_scalars, write_maps
 from surfexp.io.reading import hemisphere_of_file, read_mesh
 from surfexp.io.writing import write_mesh
@@ -145,6 +146,9 @@ def test_a_freesurfer_header_one_face_short_is_refused(tmp_path: Path) -> None:
     data = (tmp_path / "lh.pial").read_bytes()
     head = data.find(b"\n\n") + 2
     count = int.from_bytes(data[head + 4 : head + 8], "big")
+    for tag in (2, 20):  # what follows the faces in files of FreeSurfer
+        (tmp_path / "lh.pial").write_bytes(data + tag.to_bytes(4, "big") + bytes(8))
+        assert np.array_equal(read_mesh(tmp_path / "lh.pial")[1], MESH.faces)
     short = data[: head + 4] + (count - 1).to_bytes(4, "big") + data[head + 8 :]
     (tmp_path / "lh.pial").write_bytes(short)
     with pytest.raises(ValueError, match="beyond its"):
@@ -240,6 +244,31 @@ def test_entities_in_xml_expand_to_nothing(tmp_path: Path) -> None:
         (tmp_path / name).write_text(bomb + '<VTKFile type="PolyData">&b;</VTKFile>')
         with pytest.raises(ValueError, match=name):
             read_mesh(tmp_path / name) if name == "a.vtp" else read_scalars(tmp_path / name)
+
+
+def test_another_data_set_in_xml_and_a_file_without_its_end_are_refused(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "a.vtp", MESH)
+    text = (tmp_path / "a.vtp").read_text()
+    for changed in (text.replace('type="PolyData"', 'type="UnstructuredGrid"'), text.removesuffix("</VTKFile>\n")):
+        assert changed != text
+        (tmp_path / "a.vtp").write_text(changed)
+        with pytest.raises(ValueError, match="it is not XML polygonal data, or is cut off"):
+            read_mesh(tmp_path / "a.vtp")
+
+
+def test_a_volume_has_all_its_bytes_or_is_refused(tmp_path: Path) -> None:
+    write_maps(tmp_path / "a.mgh", {"map": VALUES})
+    whole = 284 + 4 * len(VALUES)
+    data = (tmp_path / "a.mgh").read_bytes()
+    for size in (whole, whole - 1):
+        (tmp_path / "a.mgh").write_bytes(data[:size])
+        if size == whole:
+            check_volume(tmp_path / "a.mgh")
+        else:
+            with pytest.raises(
+                ValueError, match=rf"{4 * len(VALUES)} bytes of data from byte 284 on, the file has {size}"
+            ):
+                check_volume(tmp_path / "a.mgh")
 
 
 def test_gzip_that_is_none_is_refused(tmp_path: Path) -> None:

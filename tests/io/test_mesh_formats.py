@@ -181,6 +181,17 @@ def test_scalars_travel_with_ply_and_vtk(tmp_path: Path) -> None:
     assert np.array(words[start : start + 320], dtype=int).reshape(-1, 4)[:, 1:].tolist() == MESH.faces.tolist()
 
 
+def test_a_vtk_file_with_more_numbers_than_it_announces_is_refused(tmp_path: Path) -> None:
+    head = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0%s\n"
+    for more in ("", " 7"):
+        (tmp_path / "a.vtk").write_text(head % more + "POLYGONS 1 4\n3 0 1 2\n")
+        if more:
+            with pytest.raises(ValueError, match="it has 10 numbers where 9 are announced"):
+                read_mesh(tmp_path / "a.vtk")
+        else:
+            assert read_mesh(tmp_path / "a.vtk")[1].tolist() == [[0, 1, 2]]
+
+
 def test_writer_refuses_what_it_cannot_do(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"cannot carry scalar maps \(h\), choose one of \.ply, \.vtk"):
         write_mesh(tmp_path / "a.off", MESH, {"h": HEIGHT})

@@ -143,6 +143,16 @@ def test_the_vertex_that_a_face_names_in_vain_is_told(face: list[int], named: in
         TriangleMesh(np.eye(3), np.array([[0, 1, 2], face]))
 
 
+def test_what_is_cached_of_a_mesh_stays_true() -> None:
+    """Positions and faces cannot be written over, while the arrays that were given can."""
+    given = np.eye(3)
+    mesh = TriangleMesh(given, np.array([[0, 1, 2]]))
+    for array in (mesh.vertices, mesh.faces):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+    given[0] = given[0]
+
+
 def test_repair_of_a_face_without_area_keeps_the_surface() -> None:
     mesh = repair(*zero_area()).mesh
     assert mesh.is_closed and mesh.genus == 0

@@ -1,5 +1,7 @@
 """Assembly into compressed rows against sums of triplets, on meshes and on triangle soups."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -41,3 +43,10 @@ def test_matrices_share_a_pattern_and_no_memory() -> None:
     right.indices[:] = 0
     assert np.abs(left.sum(axis=1)).max() <= 1e-12 and stiffness(operator).indices.max() > 0
     assert mass_matrix(operator).sum() == pytest.approx(operator.areas.sum(), rel=1e-14)
+
+
+def test_given_matrices_are_taken_as_they_are() -> None:
+    operator = fem(icosphere(1).mesh)
+    given = stiffness(operator), mass_matrix(operator)
+    bare = replace(operator, matrices=given)
+    assert stiffness(bare) is given[0] and mass_matrix(bare) is given[1]

@@ -24,6 +24,7 @@ from surfexp.skeleton.flux import (
     weighted_operator,
 )
 from surfexp.skeleton.hamilton_jacobi import _spanning_edges, hamilton_jacobi_skeleton
+from surfexp.skeleton.skeleton import CAP, CONTOUR, JUNCTION
 
 FLAT = rectangle(61, 25, 2.5, 1.0).mesh
 H = FLAT.edge_length
@@ -45,6 +46,18 @@ def test_fast_marching_converges_to_arcs_on_the_sphere():
         arcs = np.arccos(np.clip(mesh.vertices @ mesh.vertices[0], -1, 1))
         errors.append(np.abs(fast_marching(mesh, np.array([0])) - arcs).mean())
     assert errors[0] > 1.35 * errors[1] > 1.8 * errors[2] and errors[2] < 0.02
+
+
+def test_fast_marching_does_not_depend_on_the_numbers_of_vertices() -> None:
+    """As the front takes vertices in the order of their distance, whatever stands where in the heap."""
+    mesh, random = torus(40, 16, jitter=0.3, seed=1).mesh, np.random.default_rng(0)
+    expected = fast_marching(mesh, np.array([5, 300]))
+    for _ in range(5):
+        place = random.permutation(len(mesh.vertices))
+        vertices = np.empty_like(mesh.vertices)
+        vertices[place] = mesh.vertices
+        found = fast_marching(TriangleMesh(vertices, place[mesh.faces]), place[[5, 300]])
+        assert found[place] == pytest.approx(expected, rel=1e-12)
 
 
 def test_fast_marching_is_a_distance_on_unconnected_and_unfit_input():
@@ -121,6 +134,12 @@ def test_hamilton_jacobi_keeps_topology_and_finds_three_arms():
     y = y_patch().mesh
     skeleton = hamilton_jacobi_skeleton(y, boundary_distance(y), -0.5)
     assert (skeleton.metrics["leaves"], skeleton.metrics["b1"], skeleton.metrics["components"]) == (3, 0, 1)
+    degrees = np.bincount(skeleton.arcs.ravel(), minlength=len(skeleton.kinds))
+    assert {kind: set(degrees[skeleton.kinds == kind]) for kind in (CAP, CONTOUR, JUNCTION)} == {
+        CAP: {1},
+        CONTOUR: {2},
+        JUNCTION: {3},
+    }
     ring = torus(40, 16).mesh
     faces = ring.faces[ring.vertices[ring.faces][:, :, 2].mean(axis=1) > 0.05]
     used, numbered = np.unique(faces, return_inverse=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections import Counter
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -13,6 +15,7 @@ from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.planar_patch import clean_mask, triangulate_mask
+from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.strip import strip, y_patch
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
@@ -23,7 +26,7 @@ from surfexp.skeleton.polyline import distance_from_line, evenly_resampled, poly
 from surfexp.skeleton.skeleton import chain_order
 from surfexp.studies.callosum.callosum import callosum, callosum_shape
 from surfexp.studies.callosum.midline import midline_errors
-from surfexp.studies.cingulate.average_cingulate import cingulate
+from surfexp.studies.cingulate.average_cingulate import cingulate, largest_disc
 from surfexp.studies.cingulate.donor_cingulate import donor_cingulate, medial_face
 from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
 from surfexp.studies.skeletons.skeleton_alignment import align, bootstrap_shares, principal_components, rigid_fit
@@ -63,6 +66,8 @@ def test_thinning_acts_at_the_isthmus_alone():
     ratio = thin.half_width / plain.half_width
     assert ratio.min() == pytest.approx(0.6, abs=1e-3) and ratio[-1] == pytest.approx(1.0)
     assert np.array_equal(plain.midline, thin.midline)
+    surface = callosum(3)
+    assert np.array_equal(surface.coordinates, surface.mesh.vertices[:, :2]) and not surface.mesh.vertices[:, 2].any()
     with pytest.raises(ValueError, match=r"0\.\.0\.8"):
         callosum_shape(0, 0.9)
     assert strip().truth.midline is None
@@ -108,6 +113,24 @@ def test_a_y_has_three_leaves_and_bending_changes_no_graph():
     assert alike["chains"] == alike["topologies"] == 1 and alike["members"] == alike["leaves"] == 2
     assert alike["branch_nodes"] == alike["loops"] == 0
     assert np.array_equal(np.diff(poses[0].values[chain_order(poses[0])]) > 0, np.ones(31, dtype=bool))
+
+
+def neighbours(faces: np.ndarray) -> np.ndarray:
+    """How many of the sides of each face belong to another face too."""
+    sides = [[frozenset(pair) for pair in zip(face, np.roll(face, 1), strict=True)] for face in faces]
+    counts = Counter(itertools.chain.from_iterable(sides))
+    return np.array([sum(counts[side] == 2 for side in own) for own in sides])
+
+
+def test_a_disc_loses_what_hangs_on_it_and_keeps_the_rest() -> None:
+    """On the side of a rectangle a tooth, on the tooth another; beside it a triangle."""
+    mesh = rectangle(7, 6).mesh
+    core, used = largest_disc(mesh.faces), len(mesh.vertices)
+    assert neighbours(mesh.faces).min() == 1 and neighbours(core).min() == 2 and len(core) >= len(mesh.faces) - 4
+    (a, b), new = mesh.edges[np.flatnonzero(mesh.edge_face_counts == 1)[3]], used + np.arange(5)
+    teeth = [[b, a, new[0]], [a, new[1], new[0]], new[2:].tolist()]
+    found = largest_disc(np.concatenate([mesh.faces, teeth]))
+    assert neighbours(found).min() == 2 and {*map(frozenset, found.tolist())} == {*map(frozenset, core.tolist())}
 
 
 @pytest.mark.parametrize("hemisphere", ["left", "right"])
@@ -172,6 +195,9 @@ def test_alignment_takes_out_motions_and_reversal():
         copies.append(moved[::-1] if i % 2 else moved)
     aligned = align(np.stack(copies))
     assert np.abs(aligned - aligned[0]).max() < 1e-7
+    different = align(np.stack(copies) + 0.3 * rng.normal(size=(5, 20, 3)))
+    again = np.stack([rigid_fit(one, different.mean(axis=0)) for one in different])
+    assert different.std(axis=0).max() > 0.1 and np.abs(again - different).max() < 1e-7  # nothing moves any more
     doubled = align(np.stack([copies[0], 2.0 * copies[0]]), scale=True)
     assert np.abs(doubled[0] - doubled[1]).max() < 1e-7
     mirrored = line * [1, 1, -1]

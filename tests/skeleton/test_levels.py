@@ -24,6 +24,12 @@ FLAT = rectangle(121, 25, 5.0, 1.0).mesh
 COSINE = -np.cos(np.pi * FLAT.vertices[:, 0] / 5.0)
 
 
+@pytest.mark.parametrize("levels", [[], [1.0, 1.0], [2.0, 1.0], [0.0, np.nan], [np.inf]])
+def test_levels_increase_and_are_numbers(levels: list[float]) -> None:
+    with pytest.raises(ValueError, match=f"{len(levels)} levels given, they must be finite and increase"):
+        level_contours(FLAT, COSINE, np.array(levels))
+
+
 def test_uniform_levels_are_short_by_the_share_of_the_text():
     for count in (10, 50):
         skeleton = reeb_graph(FLAT, COSINE, choose_levels(FLAT, COSINE, count, "uniform"))

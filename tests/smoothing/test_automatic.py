@@ -7,10 +7,13 @@ import pytest
 
 from surfexp.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, AutomaticSmoothing, automatic_smoothing
 from surfexp.studies.smoothing.automatic_trial import automatic_trial
+from surfexp.tasks import automatic_denoising
+from surfexp.tasks.denoising import denoise
 from surfexp.variational.image import Image
 
 BALL = icosphere(3).mesh
@@ -62,6 +65,15 @@ def test_it_refuses_what_it_cannot_do() -> None:
         automatic_smoothing(BALL, OPERATOR, X, candidates=())
     with pytest.raises(ValueError, match="noise"):
         automatic_smoothing(BALL, OPERATOR, X, noise=0.0)
+
+
+@pytest.mark.parametrize("at_the_end", [False, True])
+def test_an_end_of_the_grid_is_said(at_the_end: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = AutomaticSmoothing(X, "heat_polynomial", 4.0, 1.0, {"heat_polynomial": -0.5}, at_the_end, 0.0, True)
+    monkeypatch.setattr(automatic_denoising, "automatic_smoothing", lambda *_: found)
+    result = denoise(Surface(BALL), X, method="auto")
+    assert any("an end of its grid" in note for note in result.notes) == at_the_end
+    assert np.array_equal(result.values, X)
 
 
 def test_the_trial_is_that_of_the_automatic_choice() -> None:

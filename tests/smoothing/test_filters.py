@@ -68,6 +68,9 @@ def test_too_long_times_and_wrong_numbers_are_refused() -> None:
     values = np.ones(operator.vertex_count)
     with pytest.raises(ValueError, match="time is -1"):
         heat_polynomial(operator, values, -1.0)
+    for tolerance in (0.0, -1.0, np.nan):
+        with pytest.raises(ValueError, match="tolerance is"):
+            heat_polynomial(operator, values, 1.0, tolerance)
     with pytest.raises(ValueError, match="take heat_flow"):
         heat_polynomial(operator, values, 1e12)
     with pytest.raises(ValueError, match="iterations is -1"):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 import pytest
 
-from surfexp.spectrum.eigenfunction_error import eigenfunction_errors, midpoint_gain, shape_mesh, values_below
+from surfexp.spectrum.eigenfunction_error import _groups, eigenfunction_errors, midpoint_gain, shape_mesh, values_below
 
 
 @pytest.mark.parametrize("shape", ["sphere", "rectangle"])
@@ -40,3 +42,11 @@ def test_values_lie_above_on_facets_inside_and_below_on_facets_outside() -> None
 def test_a_shape_without_exact_functions_is_refused() -> None:
     with pytest.raises(ValueError, match="'cup' has no exact eigenfunctions here, choose rectangle or sphere"):
         shape_mesh("cup", 2)  # type: ignore[arg-type]
+
+
+def test_eigenspaces_of_the_rectangle_are_those_of_whole_numbers() -> None:
+    """Of sides 3/2 and 1 the eigenvalues are pi^2 / 9 times 4 m^2 + 9 n^2."""
+    numbers = Counter(4 * m**2 + 9 * n**2 for m in range(60) for n in range(60))
+    expected = sorted(numbers)
+    for (first, stop, value, _), number in zip(_groups("rectangle", 400), expected, strict=False):
+        assert stop - first == numbers[number] and value == pytest.approx(np.pi**2 * number / 9.0, rel=1e-12)

@@ -19,7 +19,7 @@ from surfexp.spectrum import spectrum_slice
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import clusters
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
-from surfexp.spectrum.slicing import slicing
+from surfexp.spectrum.slicing import polish, slicing
 
 
 def pencil(mesh: TriangleMesh, lumped: bool = False) -> tuple[csr_array, csr_array]:
@@ -126,6 +126,18 @@ def test_a_pair_that_lanczos_lost_is_found_by_starting_again(lost: int, monkeypa
     assert calls == [61, 1] and system.complete
     assert_pairs(system, a, b, 60)
     np.testing.assert_allclose(system.values, whole.values, atol=1e-9 * whole.values[-1])
+
+
+def test_only_pairs_that_miss_the_tolerance_are_polished() -> None:
+    a, b = pencil(torus(40, 18, jitter=0.2).mesh)
+    shifted = ShiftedPencil(a, b)
+    exact = eigenpairs(a, b, 60).vectors[shifted.order]
+    kept = exact.copy()
+    assert polish(shifted, kept, 1e-8)[1] == 0 and np.array_equal(kept, exact)
+    rough = exact.copy()
+    rough[:, :4] += 1e-8 * np.random.default_rng(0).normal(size=rough[:, :4].shape)
+    measurement, rounds = polish(shifted, rough, 1e-8)
+    assert rounds >= 1 and measurement.residuals.max() <= 1e-8
 
 
 def test_thin_tube_where_weyls_law_is_far_off() -> None:

@@ -18,7 +18,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes
-from surfexp.spectrum.spectral_signature import spectral_signature
+from surfexp.spectrum.spectral_signature import spectral_signature, spectrum_part
 from surfexp.spectrum.surface_spectrum import elements_of, graph_of, surface_spectrum
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
@@ -204,3 +204,23 @@ def test_inertia_equals_dense_counts_at_random_shifts_on_a_clustered_spectrum() 
         used, _ = pencil.factor(float(shift), 1e-8)
         assert pencil.counts[used] == (exact < used).sum()
     assert len(eigenpairs(elements.stiffness, elements.mass, 60).clusters) > 10
+
+
+def test_only_averaged_counts_are_no_whole_numbers() -> None:
+    """The five modes of degree 2 of a sphere are one cluster, whose members have 3 or 4 domains by their basis."""
+    sphere = icosphere(3)
+    system = spectrum(sphere, 9)
+    graph = graph_of(fem(sphere.mesh), system)
+    for counting in ("raw", "filtered"):
+        counts = counted_domains(system, graph, counting)
+        assert (counts == np.round(counts)).all() and (counts[:4] == [1, 2, 2, 2]).all()
+    averaged = counted_domains(system, graph, "averaged")[4:]
+    assert (averaged != np.round(averaged)).any() and 3 <= averaged.min() <= averaged.max() <= 4
+
+
+def test_of_counts_the_constant_modes_of_each_component_are_left_out() -> None:
+    one = icosphere(2).mesh
+    two = TriangleMesh(np.concatenate([one.vertices, one.vertices + 9.0]), np.concatenate([one.faces, one.faces + 162]))
+    for mesh, constant in ((one, 1), (two, 2)):
+        system = spectrum(Surface(mesh), 8)
+        assert spectrum_part(system, np.arange(8.0)).tolist() == list(range(constant, 8))

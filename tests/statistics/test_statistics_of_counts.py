@@ -73,6 +73,9 @@ def test_smooth_trend_of_rectangles_is_their_mean(aspect: float) -> None:
         1.5 * (2.0 * aspect + 2.0) / np.sqrt(4.0 * np.pi * aspect * 20000), rel=0.05
     )
     found = nodal_trend(counts[:300], "rectangle", aspect, 2.0 * aspect + 2.0)
+    assert "smooth mean" in found.columns
+    for known in ({}, {"area": aspect}, {"perimeter": 2.0 * aspect + 2.0}):
+        assert "smooth mean" not in nodal_trend(counts[:300], "rectangle", **known).columns
     assert found.metrics["over_smooth"] == pytest.approx(1.0, abs=0.02)
     assert found.metrics["over_rectangle"] > 1.08 and len(found.columns["smooth mean"]) == 30
 

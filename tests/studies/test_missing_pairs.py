@@ -64,7 +64,7 @@ def test_runs_on_a_rough_sphere_are_complete_and_a_short_spectrum_is_refused() -
     assert found.metrics["runs"] == 4 and found.metrics["missing"] == 0
     assert found.metrics["value_error"] < 1e-10 and found.metrics["span_sine"] < 1e-6
     with pytest.raises(ValueError, match="has 40 values, complete True; more than 40 are needed"):
-        missing_pairs(OPERATOR, CERTIFIED, (40,))
+        missing_pairs(OPERATOR, CERTIFIED, (10, 40))
 
 
 def test_the_interval_of_no_event_and_of_some() -> None:

@@ -49,6 +49,14 @@ def test_the_width_of_a_ramp_is_four_fifths_of_it(ramp: float) -> None:
     assert measures["border_distance"] < FLAT.edge_length
 
 
+def test_the_width_is_that_of_a_narrow_strip_too() -> None:
+    strip = rectangle(121, 3, 120.0, 0.5)
+    operator, x = fem(strip.mesh), strip.mesh.vertices[:, 0]
+    middle = 0.5 * (x.min() + x.max())
+    values = 2.0 * np.clip((x - middle) / 10.0 + 0.5, 0.0, 1.0)
+    assert profile_width(operator, values, x - middle, LEVELS) == pytest.approx(8.0, abs=operator.edge_length)
+
+
 def test_an_island_far_from_the_border_is_false_by_its_length() -> None:
     radius, centre = 8.0, (MIDDLE - 40.0, 0.5 * (Y.min() + Y.max()))
     distance = np.hypot(X - centre[0], Y - centre[1])

@@ -73,6 +73,13 @@ def test_a_picture_says_its_size_not_its_pixels() -> None:
     assert repr(sx.plot(SPHERE, Z, width=200)).startswith("<Picture: ") and len(repr(sx.plot(SPHERE, width=200))) < 60
 
 
+def test_a_picture_is_written_in_a_known_format_or_not_at_all(tmp_path: Path) -> None:
+    picture = sx.plot(SPHERE, width=200)
+    with pytest.raises(ValueError, match=r"ball.bmp has an unknown format, choose one of \.png, \.svg"):
+        picture.save(tmp_path / "ball.bmp")
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_run_says_its_rows_and_shows_its_table() -> None:
     pandas = pytest.importorskip("pandas")
     table = pandas.DataFrame({"rmse": [1.0, 2.0], "failure": ["", "it died"]}, index=["a", "b"])

@@ -27,6 +27,13 @@ def test_two_files_of_one_name_are_two_columns(tmp_path: Path) -> None:
     assert list(sx.fingerprint(tmp_path, count=2).columns) == ["ball.off", "ball.ply", "other"]
 
 
+def test_the_maps_of_a_surface_go_where_there_is_room_for_them(tmp_path: Path) -> None:
+    ball = sx.Surface(BALL.mesh, "ball", "mm", {"height": BALL.mesh.vertices[:, 2]})
+    for suffix, expected in ((".ply", ["height"]), (".vtk", ["height"]), (".off", []), (".stl", [])):
+        sx.write(tmp_path / f"ball{suffix}", ball)
+        assert list(sx.read(tmp_path / f"ball{suffix}").scalars) == expected
+
+
 @pytest.mark.parametrize(("sources", "named"), [(-3, "-3"), ([0, 2.5], "2.5"), (10**6, "1000000")])
 def test_a_source_that_is_no_vertex_is_named(sources: object, named: str) -> None:
     with pytest.raises(ValueError, match=rf"sources name vertex {named}(\.0)?, the vertices are 0\.\."):

@@ -95,6 +95,12 @@ def test_the_checks_of_scikit_learn_that_give_no_data(transformer) -> None:
         clone(transformer).set_params(n=0).fit(BODIES)
 
 
+@pytest.mark.parametrize("count", [0, -3, 2.5, "7", None])
+def test_a_number_of_modes_that_is_none_is_refused_before_any_work(count: object) -> None:
+    with pytest.raises(ValueError, match=f"n is {count!r}, must be an integer from 1 on"):
+        sx.ShapeDNA(n=count).fit([])
+
+
 def test_a_surface_that_is_unfit_is_named() -> None:
     points, faces = BODY.mesh.vertices, BODY.mesh.faces
     two = np.vstack([points, points + 3.0]), np.vstack([faces, faces + len(points)])

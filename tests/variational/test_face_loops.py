@@ -18,6 +18,7 @@ from surfexp.variational.solvers.face_sweeps import (
     fista_step,
     smoothed_normals,
 )
+from surfexp.variational.solvers.threaded_ascent import ThreadedAscent
 
 CHANNELS = 2
 
@@ -63,6 +64,16 @@ def test_steps_are_those_of_the_largest_eigenvalue(fields: Faces) -> None:
 def test_projected_ascent(fields: Faces) -> None:
     expected = in_ball(fields.dual + 0.7 * fields.steps[:, None, None] * fields.gradient)
     dual_ascent(*fields.geometry, fields.steps, 0.7, fields.values, fields.dual, fields.load)
+    assert fields.dual == pytest.approx(expected, abs=1e-12)
+    assert fields.load == pytest.approx(fields.load_of(expected), abs=1e-10)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_loads_of_threads_are_added(fields: Faces, threads: int) -> None:
+    ascent = ThreadedAscent(fields.operator, CHANNELS, threads)
+    expected = in_ball(fields.dual + 0.7 * fields.steps[:, None, None] * fields.gradient)
+    ascent(0.7, fields.values, fields.dual, fields.load)
+    ascent.close()
     assert fields.dual == pytest.approx(expected, abs=1e-12)
     assert fields.load == pytest.approx(fields.load_of(expected), abs=1e-10)
 

@@ -129,6 +129,20 @@ def test_region_1_is_the_brighter_one_from_either_start(surface: Surface, image:
         assert solution.metrics["dice bright"] > 0.97
 
 
+def test_a_curve_is_at_rest_after_so_many_steps_without_a_change() -> None:
+    mesh = icosphere(3).mesh
+    operator, height = fem(mesh), mesh.vertices[:, 2]
+    image = Image(np.where(height > 0.1, 200.0, 20.0) + np.random.default_rng(0).normal(size=len(height)))
+
+    def descended(limit: int, rest: int) -> Solution:
+        return ChanVese(initial=height > 0.6, tolerance=-1.0, rest=rest, iteration_limit=limit).run(image, operator)
+
+    found = descended(1000, 30)
+    assert found.converged and found.reason == "no vertex changed its side in 30 steps"
+    last, before = (descended(found.iterations - steps, 1000).segmentation for steps in (30, 31))
+    assert (last == found.segmentation).all() and (before != found.segmentation).any()
+
+
 def test_several_regions_are_in_the_order_of_their_means(surface: Surface, image: Image) -> None:
     solution = MultiphaseSegmentation(4).run(image, fem(surface.mesh), SOLVE)
     means = [solution.metrics[f"c{j}"] for j in range(1, 5)]

@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
@@ -231,6 +232,18 @@ def test_published_dual_segmentation_is_biased_by_theta(surface: Surface, image:
         run = published_chambolle(fidelity, operator, theta=factor * size, tolerance=1e-9, iteration_limit=1500)
         excess.append((run.energy - best.lower_bound) / float(operator.mass @ np.abs(fidelity.slope)))
     assert excess[0] > 2 * excess[1] > 0
+
+
+def test_split_bregman_goes_on_where_it_ended() -> None:
+    """One step from a solution has its gap: values, multipliers and the mixed variable belong together."""
+    sphere = icosphere(3)
+    operator, rough = fem(sphere.mesh), np.random.default_rng(0).normal(size=len(sphere.mesh.vertices))
+    fidelity = convex_chan_vese(operator.mass, 4.0 * (3.0 * sphere.mesh.vertices[:, 2] + rough))
+    best = split_bregman(fidelity, operator, tolerance=1e-7, iteration_limit=5000)
+    one_step = partial(split_bregman, fidelity, operator, tolerance=1e-12, iteration_limit=1)
+    cold, warm = one_step(), one_step(best)
+    assert best.converged and cold.relative_gap > 0.1
+    assert warm.relative_gap == pytest.approx(best.relative_gap, rel=0.1)
 
 
 def test_averaged_steps_begin_where_they_are_told(surface: Surface, image: Image) -> None:

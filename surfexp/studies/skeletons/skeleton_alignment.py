@@ -62,6 +62,8 @@ def align(lines: Floats, scale: bool = False, reversible: bool = True, tolerance
     reversible : bool
         Whether a line may be run from its other end, as the sign of an eigenfunction is arbitrary; decided once, against the
         first line.
+    tolerance : float
+        How far the mean may move in the last round, in mean sizes of the lines.
 
     Returns
     -------
