@@ -107,7 +107,7 @@ def run_random(options: argparse.Namespace) -> list[str]:
 def run_claims(options: argparse.Namespace) -> list[str]:
     """Return which claims their fault left untouched, and write the page of all that are recorded."""
     problems = []
-    wanted = claims_page.open_faults() if options.open else claims.faults(options.words)
+    wanted = claims_page.open_faults(options.words) if options.open else claims.faults(options.words)
     for trial in claims.try_all(wanted, options.workers):
         counts = Counter(trial.outcome(claim) for claim in trial.before)
         told = ", ".join(f"{counts[outcome]} {outcome}" for outcome in claims.OUTCOMES if counts[outcome])

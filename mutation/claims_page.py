@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Sequence
 
 from mutation import ROOT
 from mutation.claims import OUTCOMES, ClaimFault, Trial, faults, recorded_trials
@@ -51,10 +52,11 @@ def rows_of_page() -> dict[tuple[str, str], tuple[str, str]]:
     return found
 
 
-def open_faults() -> list[ClaimFault]:
-    """The faults that name a claim which the page does not call turned."""
+def open_faults(words: Sequence[str] = ()) -> list[ClaimFault]:
+    """The faults that name a claim which the page does not call turned, of the experiments that `faults` gives."""
     turned = [claim for (_, claim), (outcome, _) in rows_of_page().items() if outcome == OUTCOMES[0]]
-    return [fault for fault in faults() if fault.claim and not any(claim.startswith(fault.claim) for claim in turned)]
+    named = [fault for fault in faults(words) if fault.claim]
+    return [fault for fault in named if not any(claim.startswith(fault.claim) for claim in turned)]
 
 
 def _rank(found: tuple[str, str]) -> int:
