@@ -13,7 +13,7 @@ from mutation.change import Change
 from mutation.fault import Fault
 from mutation.geometry_faults import GEOMETRY_FAULTS
 from mutation.operator_faults import OPERATOR_FAULTS
-from mutation.record import PAGE, add, page, results
+from mutation.record import PAGE, add, explanations, page, results
 from mutation.sample import sample
 from mutation.selection import measured_baseline, selected
 from mutation.trial import Outcome, Trial, prepare, run_all
@@ -34,7 +34,7 @@ def main() -> None:
     drawn.add_argument("--seed", type=int, default=0, help="seed of the sample (default 0)")
     drawn.add_argument("--budget", type=float, default=30.0, help="seconds of tests for a fault (default 30)")
     drawn.add_argument("--only", default="", metavar="WORD", help="faults of files with WORD in their path")
-    drawn.add_argument("--survivors", action="store_true", help="try those again that survived before")
+    drawn.add_argument("--survivors", action="store_true", help="try those again that survived before unexplained")
     drawn.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
     drawn.set_defaults(run=run_random)
     turning = commands.add_parser("claims", help="faults that have to turn a claim; what is recorded is not run again")
@@ -85,7 +85,9 @@ def run_random(options: argparse.Namespace) -> list[str]:
     known = results()
     state = "survived" if options.survivors else ""
     verdicts = {change: known.get(change.identity, {}).get("verdict", "") for change in changes}
+    settled = explanations() if options.survivors else {}
     wanted = [change for change in changes if options.only in change.path and verdicts[change] == state]
+    wanted = [change for change in wanted if (change.path, *change.texts) not in settled]
     problems = []
     if wanted:
         prepare()
