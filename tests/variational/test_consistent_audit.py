@@ -1,4 +1,4 @@
-"""The protocol of published iterations: the relative change of iterates, and the gap of the last under the consistent model."""
+"""How published iterations are judged: by the change of iterates, and the last one by its gap to the full model."""
 
 from __future__ import annotations
 

@@ -212,7 +212,7 @@ def test_a_failed_stage_leaves_its_message_and_no_result(tmp_path: Path) -> None
 def test_where_clocks_matter_the_median_of_calls_after_the_first_counts(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The first call compiles, and of few short ones a slow one is chance; calls end when they have taken long enough."""
+    """The first call compiles, and a slow one among few is chance; calls end when they have taken long enough."""
     configuration = {"target": "surface", "surface": {"name": "toy_triangle", "size": 3.0}}
     method = registry.plugin("surface", "toy_triangle")
     long, short = (0.2, 0.01, 0.01, 0.15, *[0.01] * 20), (0.05, 0.45)
