@@ -54,9 +54,12 @@ def rows_of_page() -> dict[tuple[str, str], tuple[str, str]]:
 
 def open_faults(words: Sequence[str] = ()) -> list[ClaimFault]:
     """The faults that name a claim which the page does not call turned, of the experiments that `faults` gives."""
-    turned = [claim for (_, claim), (outcome, _) in rows_of_page().items() if outcome == OUTCOMES[0]]
-    named = [fault for fault in faults(words) if fault.claim]
-    return [fault for fault in named if not any(claim.startswith(fault.claim) for claim in turned)]
+    turned = [row for row, (outcome, _) in rows_of_page().items() if outcome == OUTCOMES[0]]
+
+    def is_turned(fault: ClaimFault) -> bool:
+        return any(name == fault.experiment and claim.startswith(fault.claim) for name, claim in turned)
+
+    return [fault for fault in faults(words) if fault.claim and not is_turned(fault)]
 
 
 def _rank(found: tuple[str, str]) -> int:

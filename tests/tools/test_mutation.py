@@ -170,6 +170,9 @@ def test_what_a_fault_did_to_each_claim(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setattr(claims, "_recorded", lambda experiment: turned)
     claims_page.write_page()
     assert "3 turned" in page_of_claims.read_text(encoding="utf-8") and claims_page.open_faults() == []
+    elsewhere = dataclasses.replace(fault, experiment="bells")  # another experiment states a claim of the same words
+    monkeypatch.setattr(claims_page, "faults", lambda words=(): [fault, elsewhere])
+    assert claims_page.open_faults() == [elsewhere]
     assert claims_page.rows_of_page()["drums", "fast"][0] == "turned"  # by the earlier run, better than stopped
 
 
