@@ -18,12 +18,12 @@ test: .venv/ready
 test-all: .venv/ready
 	$(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
 
-optional: .venv/ready # open3d, cvxpy, svglib: their tests are skipped without
+optional: .venv/ready # open3d, cvxpy, lapy, svglib, vtk: their tests are skipped without
 	$(BIN)/python -m pip install --quiet --no-deps --no-compile --require-hashes -r requirements-optional.lock
 
 test-optional: optional
 	$(BIN)/python tests/check_licences.py requirements-optional.lock
-	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic or print" tests/io tests/mesh tests/variational tests/test_plugins.py tests/report/test_drawing.py
+	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic or interior_point or brainprint or for_print or vtk" tests/io tests/mesh tests/variational tests/spectrum tests/test_plugins.py tests/report/test_drawing.py
 
 lint: .venv/ready
 	$(BIN)/ruff check .

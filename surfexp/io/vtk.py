@@ -5,6 +5,8 @@ By hand: meshio 5.3 reads no POLYDATA and ends the process when it meets one; th
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -46,9 +48,10 @@ class _Words:
     def __init__(self, data: bytes) -> None:
         self.data, self.at = data, 0
         head = [self.line() for _ in range(3)]
-        if not head[0].lower().startswith("# vtk datafile") or head[2].upper() not in ("ASCII", "BINARY"):
+        version = re.match(r"# vtk datafile version (\d{1,3})\.", head[0], re.I)
+        if not version or head[2].upper() not in ("ASCII", "BINARY"):
             raise ValueError("it has no header of a legacy VTK file")
-        self.binary = head[2].upper() == "BINARY"
+        self.major, self.binary = int(version[1]), head[2].upper() == "BINARY"
 
     def line(self) -> str:
         """Return the next line that is not empty, or nothing at the end."""
@@ -81,6 +84,13 @@ class _Words:
             raise ValueError(f"it has {len(words)} numbers where {count} are announced")
         return np.array(words, dtype=np.float64).astype(dtype)
 
+    def named(self, name: str, count: int) -> list[int]:
+        """Return `count` whole numbers behind a line with this name and their type."""
+        line = self.line().split()
+        if len(line) != 2 or line[0].upper() != name:
+            raise ValueError(f"it has {' '.join(line)[:40]!r} where {name} and a type are needed")
+        return self.numbers(count, line[1]).astype(np.int64).tolist()
+
 
 def read_vtk(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     """Points, polygons and point data (SCALARS and FIELD arrays) of legacy polygonal data.
@@ -99,10 +109,9 @@ def read_vtk(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
         key = line[0].upper()
         if key == "POINTS" and len(line) == 3:
             points = words.numbers(3 * int(line[1]), line[2]).reshape(-1, 3).astype(np.float64)
-        elif key == "POLYGONS" and len(line) == 3:
-            polygons = _legacy_polygons(words, int(line[1]), int(line[2]))
-        elif key in ("VERTICES", "LINES") and len(line) == 3:
-            words.numbers(int(line[2]), "int")
+        elif key in ("POLYGONS", "VERTICES", "LINES") and len(line) == 3:
+            cells = _cells(words, int(line[1]), int(line[2]))
+            polygons = triangulate(cells) if key == "POLYGONS" else polygons
         elif key == "TRIANGLE_STRIPS":
             raise ValueError("it holds triangle strips, which only PLY files may have here: write polygons")
         elif key in ("POINT_DATA", "CELL_DATA"):
@@ -127,13 +136,21 @@ def _keep(maps: dict[str, Floats], at_points: bool, name: str, values: NDArray[n
         maps[name] = columns[:, 0].copy() if width == 1 else columns
 
 
-def _legacy_polygons(words: _Words, count: int, size: int) -> Integers:
-    flat = words.numbers(size, "int").astype(np.int64).tolist()
-    polygons: list[list[int]] = []
-    at = 0
-    for _ in range(count):
-        if at >= len(flat) or at + 1 + flat[at] > len(flat) or flat[at] < 3:
-            raise ValueError(f"polygon {len(polygons)} is cut short or has under 3 corners")
-        polygons.append(flat[at + 1 : at + 1 + flat[at]])
-        at += 1 + flat[at]
-    return triangulate(polygons)
+def _cells(words: _Words, count: int, size: int) -> list[list[int]]:
+    """Read cells: each behind its number of corners, or since version 5.1 all places where one begins, then all corners."""
+    if words.major < 5:
+        flat = words.numbers(size, "int").astype(np.int64).tolist()
+        starts = [0]
+        for _ in range(count):
+            if starts[-1] >= len(flat) or flat[starts[-1]] < 0:
+                raise ValueError(f"cell {len(starts) - 1} of {count} is cut short")
+            starts.append(starts[-1] + 1 + flat[starts[-1]])
+        return [_corners(flat, one + 1, end) for one, end in pairwise(starts)]
+    starts, flat = (words.named(name, length) for name, length in (("OFFSETS", count), ("CONNECTIVITY", size)))
+    return [_corners(flat, one, end) for one, end in pairwise(starts)]
+
+
+def _corners(flat: list[int], start: int, stop: int) -> list[int]:
+    if not 0 <= start <= stop <= len(flat):
+        raise ValueError(f"a cell has the corners {start} to {stop} of {len(flat)}")
+    return flat[start:stop]

@@ -34,7 +34,7 @@ def write_vtp(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     m = len(mesh.faces)
     maps = scalar_channels(scalars or {})
     data = "".join(_xml_array(name, values) for name, values in maps.items())
-    points, corners = _xml_array("Points", mesh.vertices), _xml_array("connectivity", mesh.faces)
+    points, corners = _xml_array("Points", mesh.vertices), _xml_array("connectivity", mesh.faces.ravel())
     offsets = _xml_array("offsets", 3 * np.arange(1, m + 1))
     path.write_text(
         '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
@@ -95,6 +95,7 @@ def _section(text: str, name: str) -> str:
 
 def _xml_arrays(text: str, order: str, header: str) -> dict[str, NDArray[np.generic]]:
     arrays = {}
+    text = re.sub(r"<InformationKey\b.*?</InformationKey>", "", text, flags=re.S)  # VTK writes norms beside numbers
     for number, (tag, body) in enumerate(re.findall(r"<DataArray\b([^>]*)>(.*?)</DataArray>", text, re.S)):
         attributes = dict(re.findall(r'(\w+)="([^"]*)"', tag))
         kind = XML_TYPES.get(attributes.get("type", ""))

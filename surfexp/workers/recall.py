@@ -77,7 +77,8 @@ def _dispatchers(modules: Iterable[str]) -> Iterator[Any]:
     """The functions that are compiled on demand and stand in one of these modules by their own names."""
     for name in modules:
         for value in list(getattr(sys.modules[name], "__dict__", {}).values()):
-            if isinstance(value, Dispatcher) and value.py_func.__module__ == name:
+            # by type: isinstance asks the value for its class too, and an object of a C library may raise at that
+            if issubclass(type(value), Dispatcher) and value.py_func.__module__ == name:
                 yield value
 
 

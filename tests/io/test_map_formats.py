@@ -192,6 +192,88 @@ def test_vtk_itself_reads_what_is_written_and_is_read(tmp_path: Path) -> None:
             assert np.allclose(maps["depth"], VALUES, atol=1e-5)
 
 
+# what VTK writes since version 9: all places where a cell begins, then all corners
+CELLS = """# vtk DataFile Version 5.1
+vtk output
+ASCII
+DATASET POLYDATA
+POINTS 5 double
+0 0 0 1 0 0 1 1 0
+0 1 0 2 0 0
+METADATA
+INFORMATION 1
+NAME L2_NORM_RANGE LOCATION vtkDataArray
+DATA 2 0 2
+
+LINES 2 2
+OFFSETS vtktypeint64
+0 2
+CONNECTIVITY vtktypeint64
+0 4
+POLYGONS 3 7
+OFFSETS vtktypeint64
+0 4 7
+CONNECTIVITY vtktypeint64
+0 1 2 3 1
+4 2
+POINT_DATA 5
+SCALARS depth double
+LOOKUP_TABLE default
+1 2 3 4 5
+"""
+CHANGES = [
+    ("0 4 7", "0 4 8", "a cell has the corners 4 to 8 of 7"),
+    ("0 4 7", "4 0 7", "a cell has the corners 4 to 0 of 7"),
+    ("0 4 7", "0 6 7", "face 1 has 1 vertices, at least 3 are needed"),
+    ("POLYGONS 3 7", "POLYGONS 3 8", "it has 9 numbers where 8 are announced"),
+    ("CONNECTIVITY vtktypeint64\n0 1", "0 1", "it has '0 1 2 3 1' where CONNECTIVITY and a type are needed"),
+    ("Version 5.1", "Version five", "it has no header of a legacy VTK file"),
+]
+
+
+def test_cells_of_version_5_are_read(tmp_path: Path) -> None:
+    (tmp_path / "a.vtk").write_text(CELLS)
+    vertices, faces, maps = read_mesh(tmp_path / "a.vtk")
+    assert vertices.shape == (5, 3) and maps["depth"].tolist() == [1, 2, 3, 4, 5]
+    assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 4, 2]]
+    big = CELLS.replace("ASCII", "BINARY").encode()
+    numbers = {
+        b"0 0 0 1 0 0 1 1 0\n0 1 0 2 0 0": vertices.astype(">f8"),
+        b"0 2\nCONN": np.array([0, 2], ">i8"),
+        b"0 4\nPOLY": np.array([0, 4], ">i8"),
+        b"0 4 7": np.array([0, 4, 7], ">i8"),
+        b"0 1 2 3 1\n4 2": np.array([0, 1, 2, 3, 1, 4, 2], ">i8"),
+        b"1 2 3 4 5": maps["depth"].astype(">f8"),
+    }
+    for text, values in numbers.items():
+        rest = text[-5:] if text[-4:] in (b"CONN", b"POLY") else b""
+        assert big.count(text) == 1
+        big = big.replace(text, values.tobytes() + rest)
+    (tmp_path / "b.vtk").write_bytes(big)
+    again = read_mesh(tmp_path / "b.vtk")
+    assert np.array_equal(again[0], vertices) and np.array_equal(again[1], faces)
+    assert np.array_equal(again[2]["depth"], maps["depth"])
+
+
+@pytest.mark.parametrize(("old", "new", "reason"), CHANGES)
+def test_cells_that_do_not_fit_are_refused(tmp_path: Path, old: str, new: str, reason: str) -> None:
+    assert CELLS.count(old) == 1
+    (tmp_path / "a.vtk").write_text(CELLS.replace(old, new))
+    with pytest.raises(ValueError, match=reason):
+        read_mesh(tmp_path / "a.vtk")
+
+
+def test_corners_in_xml_are_one_number_each_and_norms_beside_numbers_are_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "a.vtp"
+    write_mesh(path, MESH)
+    text = path.read_text()
+    assert 'Name="connectivity" NumberOfComponents="1"' in text  # VTK reads no other
+    norm = '<InformationKey name="L2_NORM_RANGE" location="vtkDataArray" length="1"><Value index="0">1</Value></InformationKey>'
+    path.write_text(text.replace("</DataArray>", f"{norm}</DataArray>"))
+    vertices, faces, _ = read_mesh(path)
+    assert np.array_equal(vertices, MESH.vertices) and np.array_equal(faces, MESH.faces)
+
+
 CUT = [".shape.gii", ".dscalar.nii", ".mgh", ".mgz", ".npy", ".npz", ".vtk", ".vtp", ".stl", "lh.sulc", "lh.pial"]
 
 

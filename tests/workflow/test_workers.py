@@ -8,9 +8,11 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
+from numba.core.dispatcher import Dispatcher
 
 from surfexp.workers.recall import Recall
 from surfexp.workers.stage_process import death
@@ -160,6 +162,19 @@ def test_a_message_that_no_stage_sends_is_passed_over(monkeypatch: pytest.Monkey
     assert ours in sys.modules and ours in recall.modules and unheard not in sys.modules
     with pytest.raises(BlockingIOError):
         recall.here.recv(1)
+
+
+def test_an_object_that_has_no_class_to_tell_is_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Variables:  # as the global variables of a library that SWIG wraps: any name but theirs raises
+        def __getattribute__(self, name: str) -> Any:
+            raise AttributeError(f"Unknown C global variable {name!r}")
+
+    library = ModuleType("wrapped_library")
+    vars(library)["cvar"] = Variables()
+    monkeypatch.setitem(sys.modules, "wrapped_library", library)
+    with pytest.raises(AttributeError, match="__class__"):
+        isinstance(vars(library)["cvar"], Dispatcher)
+    assert "wrapped_library" in Recall().modules
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
