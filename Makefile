@@ -23,7 +23,7 @@ optional: .venv/ready # open3d, cvxpy, lapy, svglib, vtk: their tests are skippe
 
 test-optional: optional
 	$(BIN)/python tests/check_licences.py requirements-optional.lock
-	$(BIN)/pytest -n 2 -m "not slow" -k "open3d or point_cloud or conic or interior_point or brainprint or for_print or vtk" tests/io tests/mesh tests/variational tests/spectrum tests/test_plugins.py tests/report/test_drawing.py
+	$(BIN)/pytest -n 2 -m "optional and not slow"
 
 lint: .venv/ready
 	$(BIN)/ruff check .

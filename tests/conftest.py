@@ -45,6 +45,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Leave what is imported by now out of collections of garbage: statsmodels asks for one at each correction of Holm's."""
+    """Leave what is imported out of collections of garbage: statsmodels asks for one at each correction of Holm's."""
     gc.collect()
     gc.freeze()

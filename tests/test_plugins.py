@@ -454,7 +454,11 @@ SULCAL = (
     "template_distances",
 )
 LONG = {("statistic", name) for name in SULCAL} | {("surface", "cortex")}
-STORED = [pytest.param(*key, marks=[pytest.mark.slow] * (key in LONG)) for key in PLUGINS if KINDS[key[0]].stored]
+STORED = [
+    pytest.param(*key, marks=[pytest.mark.slow] * (key in LONG) + [pytest.mark.optional] * (key in NEEDS))
+    for key in PLUGINS
+    if KINDS[key[0]].stored
+]
 
 
 @pytest.mark.parametrize(("kind", "name"), STORED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,6 +28,29 @@ def triangulate(polygons: Sequence[Sequence[int]]) -> Integers:
         return np.array(polygons, dtype=np.int64)
     corners = [[p[0], p[k], p[k + 1]] for p in polygons for k in range(1, len(p) - 1)]
     return np.array(corners, dtype=np.int64)
+
+
+def polygons_between(starts: Sequence[int], corners: Sequence[int]) -> list[Sequence[int]]:
+    """Cut the corners of all polygons into those of each, as VTK keeps them.
+
+    Parameters
+    ----------
+    starts : (m + 1,) sequence of int
+        Place of the first corner of each polygon, and the number of corners.
+    corners : sequence of int
+
+    Raises
+    ------
+    ValueError
+        If places do not rise from 0 to the number of corners.
+    """
+    if not len(starts) or starts[0] != 0 or starts[-1] != len(corners):
+        ends = f"from {starts[0]} to {starts[-1]}" if len(starts) else "nowhere"
+        raise ValueError(f"its polygons go {ends}, there are {len(corners)} corners")
+    for number, (start, stop) in enumerate(pairwise(starts)):
+        if stop < start:
+            raise ValueError(f"polygon {number} begins at corner {start} and ends at {stop}")
+    return [corners[start:stop] for start, stop in pairwise(starts)]
 
 
 def triangles_of_strips(strips: Sequence[Sequence[int]]) -> Integers:

@@ -6,14 +6,14 @@ By hand: meshio 5.3 reads no POLYDATA and ends the process when it meets one; th
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
-from surfexp.io.polygons import triangulate
+from surfexp.io.polygons import polygons_between, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 TYPES = {"float": "f4", "double": "f8", "int": "i4", "long": "i8", "vtktypeint64": "i8", "vtktypeint32": "i4"}
@@ -136,21 +136,18 @@ def _keep(maps: dict[str, Floats], at_points: bool, name: str, values: NDArray[n
         maps[name] = columns[:, 0].copy() if width == 1 else columns
 
 
-def _cells(words: _Words, count: int, size: int) -> list[list[int]]:
-    """Read cells: each behind its number of corners, or since version 5.1 all places where one begins, then all corners."""
-    if words.major < 5:
-        flat = words.numbers(size, "int").astype(np.int64).tolist()
-        starts = [0]
-        for _ in range(count):
-            if starts[-1] >= len(flat) or flat[starts[-1]] < 0:
-                raise ValueError(f"cell {len(starts) - 1} of {count} is cut short")
-            starts.append(starts[-1] + 1 + flat[starts[-1]])
-        return [_corners(flat, one + 1, end) for one, end in pairwise(starts)]
-    starts, flat = (words.named(name, length) for name, length in (("OFFSETS", count), ("CONNECTIVITY", size)))
-    return [_corners(flat, one, end) for one, end in pairwise(starts)]
-
-
-def _corners(flat: list[int], start: int, stop: int) -> list[int]:
-    if not 0 <= start <= stop <= len(flat):
-        raise ValueError(f"a cell has the corners {start} to {stop} of {len(flat)}")
-    return flat[start:stop]
+def _cells(words: _Words, count: int, size: int) -> list[Sequence[int]]:
+    """Read cells: each behind its number of corners, or since version 5.1 where each begins, then all corners."""
+    if words.major >= 5:
+        starts, corners = words.named("OFFSETS", count), words.named("CONNECTIVITY", size)
+        return polygons_between(starts, corners)
+    flat = words.numbers(size, "int").astype(np.int64).tolist()
+    cells: list[Sequence[int]] = []
+    at = 0
+    for number in range(count):
+        stop = at + 1 + flat[at] if at < len(flat) else -1
+        if not at < stop <= len(flat):
+            raise ValueError(f"cell {number} of {count} is cut short")
+        cells.append(flat[at + 1 : stop])
+        at = stop
+    return cells

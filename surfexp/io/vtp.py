@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.arrays import Floats, Integers
-from surfexp.io.polygons import triangulate
+from surfexp.io.polygons import polygons_between, triangulate
 from surfexp.io.vtk import scalar_channels
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -78,9 +78,7 @@ def read_vtp(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     points = np.asarray(next(iter(arrays["Points"].values())), dtype=np.float64).reshape(-1, 3)
     corners = arrays["Polys"]["connectivity"].astype(np.int64).ravel()
     offsets = arrays["Polys"]["offsets"].astype(np.int64).ravel()
-    if len(offsets) and (offsets[-1] != len(corners) or (np.diff(offsets, prepend=0) < 3).any()):
-        raise ValueError(f"its offsets end at {offsets[-1]}, there are {len(corners)} corners")
-    polygons = triangulate([part.tolist() for part in np.split(corners, offsets[:-1])])
+    polygons = triangulate(polygons_between([0, *offsets.tolist()], corners.tolist()))
     return (
         points,
         polygons,

@@ -20,6 +20,7 @@ def test_too_few_points_are_refused_before_open3d_is_asked_for() -> None:
         reconstruct(POINTS[:20])
 
 
+@pytest.mark.optional
 def test_sphere_comes_back_from_its_points() -> None:
     pytest.importorskip("open3d", exc_type=ImportError)
     mesh = reconstruct(POINTS, depth=6).mesh
@@ -29,6 +30,7 @@ def test_sphere_comes_back_from_its_points() -> None:
     assert (reconstruct(POINTS, depth=6).mesh.vertices == mesh.vertices).all()
 
 
+@pytest.mark.optional
 def test_open3d_reads_what_it_wrote(tmp_path: Path) -> None:
     open3d = pytest.importorskip("open3d", exc_type=ImportError)
     sphere = open3d.geometry.TriangleMesh.create_sphere()

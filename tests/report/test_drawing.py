@@ -80,6 +80,7 @@ def test_what_is_no_drawing_is_none(text: str) -> None:
     assert not is_still(text)
 
 
+@pytest.mark.optional
 def test_a_plot_for_print_has_its_size_and_no_pixels_in_its_lines() -> None:
     pytest.importorskip("svglib", reason="needs svglib: make optional")
     pytest.importorskip("resvg_py", reason="needs resvg-py: make optional")

@@ -76,6 +76,7 @@ def test_a_missing_size_is_named() -> None:
         shape_dna(np.arange(5.0), "mass")
 
 
+@pytest.mark.optional
 def test_brainprint_of_lapy_is_our_reweighted_shape_dna(monkeypatch: pytest.MonkeyPatch) -> None:
     surface = torus(30, 12)
     with monkeypatch.context() as without:

@@ -132,6 +132,7 @@ def test_two_solvers_agree_within_what_they_prove() -> None:
     assert np.all(np.diff(first.history["iteration"]) > 0) and first.history["gap"][-1] == first.relative_gap
 
 
+@pytest.mark.optional
 def test_an_interior_point_solver_agrees() -> None:
     cp = pytest.importorskip("cvxpy")
     problem = noisy(2)

@@ -144,6 +144,7 @@ def test_what_a_solver_cannot_solve_is_refused(surface: Surface, image: Image) -
         published_split_bregman(denoising(surface, image), operator, inner="lu")  # type: ignore[arg-type]
 
 
+@pytest.mark.optional
 def test_conic_agrees_or_names_what_is_missing(surface: Surface, image: Image) -> None:
     operator = fem(surface.mesh)
     if importlib.util.find_spec("cvxpy") is None or importlib.util.find_spec("clarabel") is None:
