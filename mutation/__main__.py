@@ -40,6 +40,11 @@ def main() -> None:
     turning = commands.add_parser("claims", help="faults that have to turn a claim; what is recorded is not run again")
     turning.add_argument("words", nargs="*", metavar="WORD", help="part of the name of an experiment")
     turning.add_argument("--open", action="store_true", help="only those that name a claim which is not turned yet")
+    turning.add_argument(
+        "--reproduced",
+        action="store_true",
+        help="verdicts without a fault are those of docs/reproduction.md where true",
+    )
     turning.set_defaults(run=run_claims)
     for command in (planted, drawn, turning):
         command.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
@@ -110,7 +115,8 @@ def run_claims(options: argparse.Namespace) -> list[str]:
     """Return which claims their fault left untouched, and write the page of all that are recorded."""
     problems = []
     wanted = claims_page.open_faults(options.words) if options.open else claims.faults(options.words)
-    for trial in claims.try_all(wanted, options.workers):
+    before = claims.reproduced_verdicts(wanted) if options.reproduced else {}
+    for trial in claims.try_all(wanted, options.workers, before):
         counts = Counter(trial.outcome(claim) for claim in trial.before)
         told = ", ".join(f"{counts[outcome]} {outcome}" for outcome in claims.OUTCOMES if counts[outcome])
         print(f"{trial.fault.experiment}: {trial.fault.path}: {told}", flush=True)

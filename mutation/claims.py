@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,6 +20,8 @@ from pathlib import Path
 import yaml
 
 from mutation import ROOT
+from surfexp.report.reproduction import sections_of, verdicts_of_section
+from surfexp.report.stamp import PAGE, is_stale
 
 LIST = ROOT / "mutation" / "claims.yaml"
 RESULTS = ROOT / "results" / "mutation" / "claims"
@@ -113,19 +115,35 @@ def recorded_trials() -> list[Trial]:
     return [Trial(fault, **known) for fault in faults() if (known := _recorded(fault.experiment).get(fault.identity))]
 
 
-def try_all(wanted: Sequence[ClaimFault], workers: int) -> Iterator[Trial]:
-    """Run what has no record yet and give the trials of all, an experiment at a time."""
+def reproduced_verdicts(wanted: Sequence[ClaimFault]) -> dict[str, Verdicts]:
+    """The verdicts without a fault that the page of published claims holds of the present stages, by experiment."""
+    page = (ROOT / PAGE).read_text(encoding="utf-8")
+    sections = sections_of(page)
+    names = sorted({fault.experiment for fault in wanted})
+    return {name: verdicts_of_section(sections[name]) for name in names if not is_stale(name, page)}
+
+
+def try_all(
+    wanted: Sequence[ClaimFault], workers: int, known_before: Mapping[str, Verdicts] | None = None
+) -> Iterator[Trial]:
+    """Run what has no record yet and give the trials of all, an experiment at a time.
+
+    Verdicts without a fault are those of `known_before`, or else of a run.
+    """
+    before = known_before or {}
     by_experiment: dict[str, list[ClaimFault]] = {}
     for fault in wanted:
         by_experiment.setdefault(fault.experiment, []).append(fault)
     with ThreadPoolExecutor(workers) as pool:
-        yield from chain.from_iterable(pool.map(_try, by_experiment, by_experiment.values()))
+        yield from chain.from_iterable(
+            pool.map(_try, by_experiment, by_experiment.values(), map(before.get, by_experiment))
+        )
 
 
-def _try(experiment: str, wanted: list[ClaimFault]) -> list[Trial]:
+def _try(experiment: str, wanted: list[ClaimFault], before: Verdicts | None) -> list[Trial]:
     known = _recorded(experiment)
     missing = {fault.identity: fault for fault in wanted if fault.identity not in known}
-    sound = _verdicts(experiment, None) if missing else {}
+    sound = before or (_verdicts(experiment, None) if missing else {})
     for identity, fault in missing.items():
         try:
             known[identity] = {"before": sound, "after": _verdicts(experiment, fault)}

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 
 from mutation import ROOT
 from mutation.claims import OUTCOMES, ClaimFault, Trial, faults, recorded_trials
 from surfexp.language.statements import claims_of
+from surfexp.report.reproduction import cells_of_line
 
 PAGE = ROOT / "docs" / "claim_faults.md"
 NOT_RUN = "not run"
@@ -46,7 +46,7 @@ def rows_of_page() -> dict[tuple[str, str], tuple[str, str]]:
     """Outcome and line of each claim on the page, by experiment and claim."""
     found = {}
     for line in PAGE.read_text(encoding="utf-8").splitlines():
-        cells = [cell.replace("\\|", "|") for cell in re.split(r"(?<!\\) \| ", line[2:-2])]
+        cells = cells_of_line(line)
         if line.startswith("| ") and len(cells) == 6 and cells[-1] in (*OUTCOMES, NOT_RUN):
             found[cells[0], cells[1]] = cells[-1], line + "\n"
     return found

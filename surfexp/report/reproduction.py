@@ -60,6 +60,18 @@ def sections_of(page: str) -> dict[str, str]:
     return {found[1]: part.rstrip("\n") + "\n" for part in parts if (found := NAME.search(part))}
 
 
+def verdicts_of_section(section: str) -> dict[str, list[str]]:
+    """Verdict, number and reason of each claim of a section, as `section` wrote them."""
+    rows = [cells_of_line(line) for line in section.splitlines() if line.startswith("| ")]
+    place = HEADER.index("found (least to largest)")
+    return {row[0]: [row[place + 1].strip("*"), row[place], row[-1]] for row in rows[1:]}
+
+
+def cells_of_line(line: str) -> list[str]:
+    """The cells of a line of a table, of which none is empty."""
+    return [cell.replace("\\|", "|") for cell in re.split(r"(?<!\\) \| ", line[2:-2])]
+
+
 def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str) -> str:
     """The verdicts of one experiment."""
     made = (

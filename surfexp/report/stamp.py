@@ -65,15 +65,17 @@ def cost(plans: Mapping[str, Plan], results: Path) -> str:
 
 def stale_experiments(page: str) -> list[str]:
     """The experiments whose section is not of the present keys and claims, or is missing; each is planned for it."""
+    names = [file.stem for file in _experiment_files() if file.parent.name == "experiment"]
+    return [name for name in names if is_stale(name, page)]
+
+
+def is_stale(experiment: str, page: str) -> bool:
+    """Whether an experiment makes claims and its section is not of the present keys and claims, or is missing."""
     from surfexp.workflow.launch import launch
 
-    recorded, stale = dict(SECTION.findall(page)), []
-    for name in [file.stem for file in _experiment_files() if file.parent.name == "experiment"]:
-        plans: list[Plan] = []
-        launch([f"experiment={name}"], plans.append)
-        if plans[0].settings.claims and recorded.get(name) != state_of_plan(plans[0]):
-            stale.append(name)
-    return stale
+    plans: list[Plan] = []
+    launch([f"experiment={experiment}"], plans.append)
+    return bool(plans[0].settings.claims) and dict(SECTION.findall(page)).get(experiment) != state_of_plan(plans[0])
 
 
 def staleness(page: str) -> str:

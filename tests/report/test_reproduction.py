@@ -10,7 +10,10 @@ from typing import Any
 import pytest
 
 from surfexp.report import reproduction, stamp
+from surfexp.report.claim import read_claims
 from surfexp.report.reproduction import reproduction as page_of
+from surfexp.report.table import rows_of
+from surfexp.report.verdict import judge
 from surfexp.workflow import registry, stage
 from surfexp.workflow.configuration import expand
 from surfexp.workflow.kinds import KINDS
@@ -51,9 +54,23 @@ def test_the_page_has_counts_stamp_and_all_of_a_verdict(
     assert "1 stages, 0 without result" in page and "processor hours" in page and "peak memory" in page
     assert platform.node() not in page.split("##")[0]
     row = next(line for line in page.splitlines() if "**reproduced**" in line)
-    cells = [cell.strip() for cell in row.replace("\\|", "/").strip("|").split("|")]
-    assert cells[1:6] == ["table 9.9: 12.57", "all area", "12.5 to 12.6", CLAIM["because"], "1"]
+    cells = reproduction.cells_of_line(row)
+    assert cells[0] == CLAIM["claim"] and cells[1:6] == [
+        "table 9.9: 12.57",
+        "all area",
+        "12.5 to 12.6",
+        CLAIM["because"],
+        "1",
+    ]
     assert len(cells) == len(reproduction.HEADER) and cells[-1] == "found"
+
+
+def test_verdicts_are_read_back_as_they_were_written(plan: Plan, tmp_path: Path) -> None:
+    claims = [CLAIM, CLAIM | {"claim": "it does not", "between": [1, 2], "cause": ""}]
+    judged = judge(read_claims(claims), rows_of(plan, tmp_path))
+    read = reproduction.verdicts_of_section(reproduction.section("ball", "A ball", judged, "a" * 20))
+    assert read == {item.claim.claim: [item.verdict, item.number, item.why or "–"] for item in judged}
+    assert [found[0] for found in read.values()] == ["reproduced", "not reproduced"]
 
 
 def test_another_state_makes_the_page_stale(monkeypatch: pytest.MonkeyPatch) -> None:

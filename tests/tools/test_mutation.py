@@ -199,3 +199,23 @@ def test_an_experiment_that_takes_too_long_says_nothing_of_its_claims(
     (trial,) = claims.try_all(faults, 1)
     assert trial.fault.new == "other" and trial.outcome("steady") == "untouched"
     assert "drums: surfexp/operators/fem.py: not run, for it took more than" in capsys.readouterr().out
+
+
+def test_verdicts_without_a_fault_are_those_of_the_page_where_its_keys_are_the_present_ones(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fault = claims.ClaimFault("isospectral_drums", "surfexp/operators/fem.py", "sound", "other")
+    monkeypatch.setattr(claims, "is_stale", lambda experiment, page: False)
+    known = claims.reproduced_verdicts([fault])
+    assert set(known["isospectral_drums"]) == {claim for name, claim in claims_page._stated() if name in known}
+    monkeypatch.setattr(claims, "is_stale", lambda experiment, page: True)
+    assert claims.reproduced_verdicts([fault]) == {}
+
+    def verdicts(experiment: str, fault: claims.ClaimFault | None) -> claims.Verdicts:
+        assert fault is not None, "what is on the page is not run again"
+        return {}
+
+    monkeypatch.setattr(claims, "RESULTS", tmp_path)
+    monkeypatch.setattr(claims, "_verdicts", verdicts)
+    (trial,) = claims.try_all([fault], 1, known)
+    assert trial.before == known["isospectral_drums"] and trial.fault == fault
