@@ -15,6 +15,7 @@ from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
+from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
 from surfexp.io.single_precision import check_single_precision_maps
@@ -49,6 +50,7 @@ def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
             raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
         check_declared_sizes(path)
         maps = _read(path, hemisphere)
+        check_map_shapes(maps)
     if len(maps) == 1 and next(iter(maps)) in UNNAMED:
         return {_stem(path): next(iter(maps.values()))}
     return maps

@@ -10,6 +10,7 @@ from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_surface
 from surfexp.io.map_files import read_maps
+from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.npz import read_npz_mesh
 from surfexp.io.numbers import LARGEST_BYTES, checked_geometry
 from surfexp.io.obj import read_obj
@@ -45,6 +46,7 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
     with reading(path, "cannot be read as a mesh"):
         vertices, faces, scalars = _read(path)
         points, corners = checked_geometry(vertices, faces)
+        check_map_shapes(scalars)
         for name, values in scalars.items():
             if len(values) != len(points):
                 raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")

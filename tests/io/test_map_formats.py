@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+from itertools import product
 from pathlib import Path
 
 import nibabel
@@ -164,6 +165,9 @@ def test_geometry_and_maps_come_back_together(tmp_path: Path, suffix: str) -> No
     assert np.array_equal(maps["depth"], VALUES)
 
 
+WAYS = list(product(("Ascii", "Binary", "Appended", "Appended raw"), ("None", "ZLib", "LZMA")))
+
+
 @pytest.mark.optional
 def test_vtk_itself_reads_what_is_written_and_is_read(tmp_path: Path) -> None:
     vtk = pytest.importorskip("vtk", reason="needs vtk: make optional")
@@ -178,15 +182,17 @@ def test_vtk_itself_reads_what_is_written_and_is_read(tmp_path: Path) -> None:
         poly = source.GetOutput()
         assert np.array_equal(vtk_to_numpy(poly.GetPoints().GetData()), MESH.vertices)
         assert np.array_equal(vtk_to_numpy(poly.GetPointData().GetArray("depth")), VALUES)
-        for binary in (False, True):
+        for mode, packing in WAYS if suffix == ".vtp" else [("ASCII", ""), ("Binary", "")]:
             sink = getattr(vtk, writer)()
             sink.SetFileName(str(tmp_path / f"b{suffix}"))
             sink.SetInputData(poly)
             if suffix == ".vtk":
-                sink.SetFileTypeToBinary() if binary else sink.SetFileTypeToASCII()
+                getattr(sink, f"SetFileTypeTo{mode}")()
             else:
-                sink.SetCompressorTypeToNone()
-                sink.SetDataModeToBinary() if binary else sink.SetDataModeToAscii()
+                getattr(sink, f"SetDataModeTo{mode.removesuffix(' raw')}")()
+                getattr(sink, f"SetCompressorTypeTo{packing}")()
+                sink.SetEncodeAppendedData(not mode.endswith("raw"))
+                sink.SetBlockSize(1 << 10)
             sink.Write()
             vertices, faces, maps = read_mesh(tmp_path / f"b{suffix}")
             assert np.allclose(vertices, MESH.vertices, atol=1e-5) and np.array_equal(faces, MESH.faces)
@@ -293,6 +299,23 @@ def test_every_cut_is_refused_in_one_line_with_the_name(tmp_path: Path, name: st
         with pytest.raises(ValueError, match=path.name) as caught:
             read_mesh(path) if is_mesh else read_scalars(path, "left")
         assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize("shape", [(), (2, 3, 4), (N, 1, 1)])
+def test_a_map_has_one_number_or_one_row_for_each_vertex(tmp_path: Path, shape: tuple[int, ...]) -> None:
+    values = np.zeros(shape)
+    np.save(tmp_path / "a.npy", values)
+    np.savez(tmp_path / "a.npz", map=values)
+    for name in ("a.npy", "a.npz"):
+        for read in (read_maps, read_scalars):
+            with pytest.raises(
+                ValueError, match=rf"{name} .* has shape .*, \(vertices,\) or \(vertices, channels\) is"
+            ):
+                read(tmp_path / name)
+    np.savez(tmp_path / "mesh.npz", vertices=MESH.vertices, faces=MESH.faces, depth=values)
+    if shape[:1] == (N,):
+        with pytest.raises(ValueError, match="map 'depth' has shape"):
+            read_mesh(tmp_path / "mesh.npz")
 
 
 def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
