@@ -9,7 +9,15 @@ from typing import Any, Literal
 import click
 
 from surfexp.commands.click_command import run_click, shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
+from surfexp.commands.surface_arguments import (
+    finish,
+    maps_of,
+    named_as,
+    opened,
+    progress_line,
+    result_option,
+    surface_options,
+)
 
 EXAMPLES = {
     "denoise": ("lh.white lh.thickness --to clean.shape.gii", "scan.ply quality --to clean.ply"),
@@ -45,17 +53,19 @@ def denoise(
     **given: Any,
 ) -> None:
     """Remove the noise of a map by total variation, which keeps its edges. MAP is a file, or a map that the surface carries."""
+    from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files)
+    maps = maps_of(surface, map_name, files)
+    values = side_by_side(maps, map_name)
     started = time.perf_counter()
     with progress_line("denoise") as progress:
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
         clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
     chosen = {} if method == "auto" else {"weight": weight, "tolerance": tolerance}
-    finish(target, clean, surface, method, chosen, files, facts, clean.notes)
+    finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
 
 
 def millimetres(text: str) -> float:
@@ -76,14 +86,18 @@ def millimetres(text: str) -> float:
 @result_option()
 def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> None:
     """Smooth a map by heat flow on the surface, as a Gaussian of a given width would."""
+    from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import smooth as task
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files)
+    maps = maps_of(surface, map_name, files)
+    values = side_by_side(maps, map_name)
     started = time.perf_counter()
     smoothed = task(surface, values, width)
     facts = smoothed.certificate | {"seconds": time.perf_counter() - started}
-    finish(target, smoothed, surface, "heat", {"width": width}, files, facts, smoothed.notes)
+    finish(
+        target, named_as(maps, smoothed.values, target), surface, "heat", {"width": width}, files, facts, smoothed.notes
+    )
 
 
 COMMANDS = {command.name: command for command in (denoise, smooth)}

@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ import click
 from surfexp.commands.certificate import write_certificate
 
 if TYPE_CHECKING:
+    from surfexp.arrays import Floats
     from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]
@@ -58,14 +60,46 @@ def opened(
     return surface, [Path(path), *map(Path, named.values()), *masks]
 
 
-def map_of(surface: Surface, given: str, files: list[Path]) -> Any:
-    """Return a map by the name that the surface carries it under, or from a file, which joins the inputs."""
-    from surfexp.io.map_files import read_scalars
+def map_of(surface: Surface, given: str, files: list[Path]) -> Floats:
+    """Return a map by the name that the surface carries it under, or those of a file side by side."""
+    from surfexp.io.map_files import side_by_side
+
+    return side_by_side(maps_of(surface, given, files), given)
+
+
+def maps_of(surface: Surface, given: str, files: list[Path]) -> dict[str, Floats]:
+    """Return a map by the name that the surface carries it under, or those of a file, which joins the inputs.
+
+    Raises
+    ------
+    ValueError
+        If there is neither, or the file cannot be read.
+    """
+    from surfexp.io.map_files import read_maps
 
     if given in surface.scalars:
-        return surface.scalars[given]
+        return {given: surface.scalars[given]}
+    if surface.scalars and not Path(given).exists():
+        known = sorted(surface.scalars)
+        near = get_close_matches(given, known, 1)
+        hint = f"did you mean {near[0]!r}?" if near else f"it carries {', '.join(known)}"
+        raise ValueError(f"{given} is no file, and no map that {surface.name} carries; {hint}")
     files.append(Path(given))
-    return read_scalars(given, surface.hemisphere)
+    return read_maps(given, surface.hemisphere)
+
+
+def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:
+    """Give the columns of a result the names of the maps that it was made of, where the format of the result has room."""
+    import numpy as np
+
+    from surfexp.io.map_files import holds_names
+    from surfexp.io.reading import WITH_MAPS
+
+    if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
+        return {next(iter(maps)): values}
+    widths = [1 if part.ndim == 1 else part.shape[1] for part in maps.values()]
+    parts = np.split(values, np.cumsum(widths)[:-1], axis=1)
+    return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in zip(maps, parts, strict=True)}
 
 
 @contextmanager

@@ -88,7 +88,17 @@ def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
     ValueError
         As `read_maps`, or if the maps have different lengths.
     """
-    maps = read_maps(path, hemisphere)
+    return side_by_side(read_maps(path, hemisphere), path)
+
+
+def side_by_side(maps: dict[str, Floats], path: Path | str) -> Floats:
+    """Return (n,) or (n, c) values: the one map of a file, or its maps as columns.
+
+    Raises
+    ------
+    ValueError
+        If the maps have different lengths.
+    """
     lengths = {len(values) for values in maps.values()}
     if len(lengths) != 1:
         raise ValueError(f"{path} cannot be read as a scalar map: its arrays have lengths {sorted(lengths)}")
@@ -158,6 +168,12 @@ def _listed(file: Path, count: int) -> NDArray[np.bool_]:
     inside = np.zeros(count, dtype=bool)
     inside[numbers] = True
     return inside
+
+
+def holds_names(path: Path | str) -> bool:
+    """Whether a format of maps has room for several maps with their names."""
+    path = Path(path)
+    return path.suffix.lower() in (".npz", *TEXT) or is_cifti(path) or is_gifti(path)
 
 
 def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") -> None:

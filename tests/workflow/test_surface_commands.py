@@ -13,6 +13,7 @@ import pytest
 import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.commands.surface_commands import COMMANDS
+from surfexp.io.map_files import read_maps
 
 
 @pytest.fixture
@@ -25,6 +26,7 @@ def files(working_folder: Path) -> Path:
     noisy = np.where(inside, z + 0.1 * np.random.default_rng(0).standard_normal(len(z)), np.nan)
     sx.write("noisy.shape.gii", noisy, sphere)
     sx.write("inside.npy", inside.astype(float))
+    sx.write("own.vtp", {"height": z}, sphere)
     return working_folder
 
 
@@ -72,9 +74,33 @@ def test_every_other_command_leaves_a_file(files: Path, capsys: pytest.CaptureFi
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_maps_keep_their_names(files: Path) -> None:
+    sphere = sx.read("brain.surf.gii")
+    noise = np.random.default_rng(1).standard_normal((2, len(sphere.mesh.vertices)))
+    sx.write("two.func.gii", {"one": noise[0], "two": noise[1]}, sphere)
+    calls = {
+        "smooth brain.surf.gii two.func.gii --width 0.3 --to both.func.gii": ["one", "two"],
+        "smooth brain.surf.gii two.func.gii --width 0.3 --to both.vtk": ["one", "two"],
+        "smooth brain.surf.gii two.func.gii --width 0.3 --to both.npy": ["both"],
+        "smooth own.vtp height --width 0.3 --to smooth.vtp": ["height"],
+        "denoise own.vtp height --to clean.shape.gii": ["height"],
+        "denoise brain.surf.gii noisy.shape.gii --to clean.csv": ["noisy"],
+    }
+    for call, names in calls.items():
+        assert main(call.split()) == 0
+        name = call.split()[-1]
+        maps = sx.read(name).scalars if name.endswith((".vtk", ".vtp")) else read_maps(name)
+        assert list(maps) == names, call
+    smoothed = read_maps("both.func.gii")
+    together = read_maps("both.npy")["both"]
+    assert np.allclose(np.column_stack(list(smoothed.values())), together, atol=1e-6)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
+        (["plot", "own.vtp", "hieght", "--to", "a.png"], "no map that own carries; did you mean 'height'?"),
+        (["smooth", "own.vtp", "x", "--width", "1", "--to", "a.gii"], "no map that own carries; it carries height"),
         (["denoise", "brain.surf.gii", "nosuch.gii", "--to", "a.gii"], "no such file"),
         (["denoise", "brain.surf.gii", "noisy.shape.gii"], "--to"),
         (["modes", "brain.surf.gii", "--to", "a.xyz"], "unknown format"),
