@@ -133,7 +133,22 @@ def with_counts(*counts: int) -> bytes:
         (with_counts(2, 10, 11), "the last block of an array announces 11 bytes, all others 10"),
         (with_counts(2, 90), "a block of an array announces 90 bytes and has more"),
         (with_counts(2, 110), "a block of an array announces 110 bytes and has 100"),
-        (with_counts(2, BLOCK, 68, 7), "a block of an array"),
+        (with_counts(2, BLOCK, 68, 7), "a block of an array announces 100 bytes and has "),
+        (PACKED.replace(zlib.compress(b"")[:2], b"??"), "a block of an array does not unpack: Error -3"),
+        (file_of("raw", "vtkLZMADataCompressor").replace(b"\xfd7zXZ", b"\xfd7zXX"), "does not unpack: Input format"),
+        (
+            file_of("inline").replace(b'"Float64" Name="vector"', b'"Float32" Name="vector"'),
+            "map 'vector' has 84 values",
+        ),
+        (
+            file_of("raw").replace(b'"UInt16" Name="label"', b'"Float64" Name="label"'),
+            "has 84 bytes, which are no Float64",
+        ),
+        (b"<!DOCTYPE x>" + file_of(), "it declares entities, which VTK files do not have"),
+        (file_of().replace(b"</Piece>", b"<!ENTITY x></Piece>"), "it declares entities, which VTK files do not have"),
+        (file_of().replace(b"Points>", b"Pints>"), "it has no points or no polygons"),
+        (file_of().replace(b"Polys>", b"Plys>"), "it has no points or no polygons"),
+        (file_of().replace(b'"connectivity"', b'"corners"'), "it has no points or no polygons"),
         (with_counts(2, BLOCK, 66), "announces 66 bytes and has more"),
         (file_of().replace(b'type="Float32"', b'type="Float64"'), "depth' has 21 values for 42 vertices"),
         (file_of().replace(b'type="Float32"', b'type="String"'), "numbers of type 'String', known are Float32"),
@@ -151,6 +166,19 @@ def test_what_a_file_announces_is_checked(tmp_path: Path, file: bytes, words: st
     with pytest.raises(ValueError, match=words) as caught:
         read_mesh(tmp_path / "a.vtp")
     assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize("compressor", list(PACK)[1:])
+def test_a_block_is_as_long_as_it_is_announced(compressor: str) -> None:
+    block = PACK[compressor](bytes(1001))
+    for size in (1000, 1001, 1002):
+        data = np.array([1, size, 0, len(block)], "<u4").tobytes() + block
+        stream = counted_bytes.CountedBytes(data, False, np.dtype("<u4"))
+        if size == 1001:
+            assert stream.unpacked(compressor) == bytes(1001)
+        else:
+            with pytest.raises(ValueError, match=f"announces {size} bytes and has {'more' if size < 1001 else 1001}"):
+                stream.unpacked(compressor)
 
 
 def test_no_more_is_unpacked_than_is_announced(monkeypatch: pytest.MonkeyPatch) -> None:
