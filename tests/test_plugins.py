@@ -378,6 +378,9 @@ NEEDS = {
     ("image", "connectivity"): "brainspace",
 }
 
+# what a plugin asks of another kind
+BESIDE: dict[tuple[str, str], dict[str, typing.Any]] = {("image", "connectivity"): {"surface": "resting_fsaverage5"}}
+
 
 def configuration(kind: str, name: str, folder: Path) -> dict[str, typing.Any]:
     method = registry.plugin(kind, name)
@@ -389,7 +392,7 @@ def configuration(kind: str, name: str, folder: Path) -> dict[str, typing.Any]:
         else:
             np.save(folder / "values.npy", np.linspace(0.0, 255.0, 642))
             chosen["path"] = str(folder / "values.npy")
-    context = {**CONTEXT, kind: chosen, "target": kind}
+    context = {**CONTEXT, **BESIDE.get((kind, name), {}), kind: chosen, "target": kind}
     for needed, names in method.accepts.items():
         context[needed] = names[0]
     return context
