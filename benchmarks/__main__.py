@@ -14,12 +14,13 @@ from benchmarks import ROOT
 from benchmarks.gap_curves import gap_curves
 from benchmarks.line import Line
 from benchmarks.record import Record, load, save
-from benchmarks.table import conditions, describe, page
+from benchmarks.table import conditions, describe, page, section_of
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.report.stamp import state_of_code
 
+PAGE = ROOT / "BENCHMARKS.md"
 PICTURE = ROOT / "docs" / "gap_against_time.png"
 # heading of a section, the figure of its lines that have points, and its horizontal axis
 FIGURES = {
@@ -78,17 +79,26 @@ def main() -> None:
 
 
 def _write_page(names: list[str]) -> None:
-    """Write the page if every group has been run, and say which has not."""
+    """Write the sections of which every group has been run here, take over the others, and say which groups have not."""
     known = {name: record for name in names if (record := load(name)) is not None}
+    earlier = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+    sections = {
+        heading: {name: known[name] for name in groups} if set(groups) <= set(known) else {}
+        for heading, groups in SECTIONS.items()
+    }
+    unknown = [heading for heading, records in sections.items() if not records and not section_of(earlier, heading)]
     if missing := [name for name in names if name not in known]:
-        print(f"BENCHMARKS.md is as it was: {', '.join(missing)} have not been run")
+        print(f"Not run here: {', '.join(missing)}; sections that need them stay as they are in {PAGE.name}")
+    if unknown:
+        print(f"{PAGE.name} is as it was: it has no section {', '.join(unknown)}")
         return
-    PICTURE.write_bytes(encode_png(gap_curves().pixels))
-    sections = {heading: {name: known[name] for name in groups} for heading, groups in SECTIONS.items()}
+    if sections["Variational image processing"]:
+        PICTURE.write_bytes(encode_png(gap_curves().pixels))
     for heading, (file, axis) in FIGURES.items():
         found = [line for record in sections[heading].values() for line in record.lines if line.points]
-        file.write_bytes(encode_png(growth_plot(found, axis).pixels))
-    (ROOT / "BENCHMARKS.md").write_text(page(sections), encoding="utf-8")
+        if found:
+            file.write_bytes(encode_png(growth_plot(found, axis).pixels))
+    PAGE.write_text(page(sections, earlier), encoding="utf-8")
 
 
 def growth_plot(lines: Sequence[Line], axis: str) -> Figure:

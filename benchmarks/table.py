@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import re
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 
@@ -35,6 +36,7 @@ conformal and the level-set methods were written here and run on ours. A rival t
 (`pip install 'surfexp[bench]'`) counts as not met. Beside what was seen stands what the run before gave on the same
 code: how far figures spread.
 """
+WHEN = re.compile(r"^\| (\w+) \| (\d{4}-\d\d-\d\d \| .*)$", re.MULTILINE)
 COLUMNS = "| work | rival | asked | seen | run before | verdict | ours, CPU (wall) s | rival, CPU (wall) s | runs |"
 
 
@@ -50,17 +52,24 @@ def conditions() -> str:
     return f"{python}; {', '.join(found)}."
 
 
-def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
+def page(sections: Mapping[str, Mapping[str, Record]], earlier: str = "") -> str:
     """Return the page as Markdown.
 
     Parameters
     ----------
     sections : mapping of heading to its groups' records by name
+        Without records, the section of `earlier` is taken over as it is.
+    earlier : str, optional
+        The page as it was.
     """
     groups = {name: record for records in sections.values() for name, record in records.items()}
-    conditions = list(dict.fromkeys(record.conditions for record in groups.values()))
+    known = [] if all(sections.values()) else re.findall(r"^Python .*$", earlier.partition("\n## ")[0], re.MULTILINE)
+    conditions = list(dict.fromkeys([*known, *(record.conditions for record in groups.values())]))
     parts = [HEAD, *(f"{line}\n" for line in conditions)]
     for heading, records in sections.items():
+        if not records:
+            parts.append(section_of(earlier, heading))
+            continue
         lines = [line for record in records.values() for line in record.lines]
         rows = [_row(line, record.earlier) for record in records.values() for line in record.lines]
         parts.append("\n".join([f"## {heading}\n", COLUMNS, "|---|---|---|---|---|---|---|---|---|", *rows]) + "\n")
@@ -73,16 +82,22 @@ def page(sections: Mapping[str, Mapping[str, Record]]) -> str:
     parts.append(
         "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
     )
-    told = (
+    kept = (
         "Ratios hold, seconds vary with the machine and the hour. Compilation is that of the "
         "first call on a small case,"
     )
-    rows = [
-        f"| {name} | {record.date} | {record.numerics} | {record.compilation:.1f} |" for name, record in groups.items()
-    ]
+    when = {} if all(sections.values()) else dict(WHEN.findall(earlier))
+    when |= {name: f"{record.date} | {record.numerics} | {record.compilation:.1f} |" for name, record in groups.items()}
+    rows = [f"| {name} | {told}" for name, told in when.items()]
     head = ["| group | measured | state of the numerics | compilation, s |", "|---|---|---|---|"]
-    parts.append("\n".join(["## When\n", f"{told} or of reading it from the cache on disk.\n", *head, *rows]) + "\n")
+    parts.append("\n".join(["## When\n", f"{kept} or of reading it from the cache on disk.\n", *head, *rows]) + "\n")
     return "\n".join(parts)
+
+
+def section_of(text: str, heading: str) -> str:
+    """Return a section of a page with its heading, nothing if it has none."""
+    begin = text.find(f"## {heading}\n")
+    return text[begin:].partition("\n\n## ")[0] + "\n" if begin >= 0 else ""
 
 
 def describe(line: Line) -> str:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.__main__ import SECTIONS
 from benchmarks.convex_problem import Excess, Recorded
 from benchmarks.line import Line, race
 from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
@@ -39,6 +40,27 @@ GROUPS = (
     "commands",
     "cohort",
 )
+
+
+def test_sections_that_were_not_run_are_taken_over(tmp_path: Path) -> None:
+    def record(result: str, numerics: str) -> Record:
+        return Record(
+            (Line("work", "a limit", "≤ 2 s", result, True),), 1.0, f"Python of {result}", numerics, "2020-01-01"
+        )
+
+    old = {"First": {"one": record("1 s", "a" * 20)}, "Second": {"two": record("2 s", "b" * 20)}}
+    both = page(old)
+    assert page({"First": {}, "Second": {}}, both) == both
+    renewed = page({"First": {}, "Second": {"two": record("3 s", "c" * 20)}}, both)
+    assert renewed.count("| 1 s |") == renewed.count("| 3 s |") == 1 and "| 2 s |" not in renewed
+    assert "Python of 1 s" in renewed and "Python of 3 s" in renewed
+    assert f"| one | 2020-01-01 | {'a' * 20} |" in renewed and f"| two | 2020-01-01 | {'c' * 20} |" in renewed
+    assert "b" * 20 not in renewed
+
+
+def test_the_page_can_be_taken_over_whole() -> None:
+    text = (ROOT / "BENCHMARKS.md").read_text(encoding="utf-8")
+    assert page({heading: {} for heading in SECTIONS}, text) == text
 
 
 @pytest.mark.parametrize("least", [1, 2, 57, 117, 118, 160])
