@@ -275,7 +275,7 @@ def test_corners_in_xml_are_one_number_each_and_norms_beside_numbers_are_passed_
     path = tmp_path / "a.vtp"
     write_mesh(path, MESH)
     text = path.read_text()
-    assert 'Name="connectivity" NumberOfComponents="1"' in text  # VTK reads no other
+    assert 'type="Int64" Name="connectivity" NumberOfComponents="1"' in text  # VTK reads no other
     norm = '<InformationKey name="L2_NORM_RANGE" location="vtkDataArray"><Value index="0">1</Value></InformationKey>'
     path.write_text(text.replace("</DataArray>", f"{norm}</DataArray>"))
     vertices, faces, _ = read_mesh(path)
