@@ -301,6 +301,21 @@ def test_every_cut_is_refused_in_one_line_with_the_name(tmp_path: Path, name: st
         assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
 
 
+def test_maps_without_names_or_with_one_name_are_counted(tmp_path: Path) -> None:
+    def array(name: str) -> nibabel.gifti.GiftiDataArray:
+        return nibabel.gifti.GiftiDataArray(VALUES.astype(np.float32), meta={"Name": name} if name else {})
+
+    for names, expected in {("",): ["a"], ("", ""): ["map 1", "map 2"], ("one", "one"): ["one", "one 2"]}.items():
+        nibabel.save(nibabel.gifti.GiftiImage(darrays=[array(name) for name in names]), tmp_path / "a.func.gii")
+        assert list(read_maps(tmp_path / "a.func.gii")) == expected
+
+
+def test_an_off_file_that_ends_after_its_counts_says_what_is_missing(tmp_path: Path) -> None:
+    (tmp_path / "a.off").write_text("OFF\n3 1 0\n")
+    with pytest.raises(ValueError, match="it ends after 0 of 3 vertices and 1 faces"):
+        read_mesh(tmp_path / "a.off")
+
+
 @pytest.mark.parametrize("shape", [(), (2, 3, 4), (N, 1, 1)])
 def test_a_map_has_one_number_or_one_row_for_each_vertex(tmp_path: Path, shape: tuple[int, ...]) -> None:
     values = np.zeros(shape)
