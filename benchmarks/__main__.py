@@ -79,7 +79,7 @@ def main() -> None:
 
 
 def _write_page(names: list[str]) -> None:
-    """Write the sections of which every group has been run here, take over the others, and say which groups have not."""
+    """Write the sections of which every group has been run here, take over the others, and say which were not."""
     known = {name: record for name in names if (record := load(name)) is not None}
     earlier = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
     sections = {

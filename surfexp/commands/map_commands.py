@@ -11,7 +11,7 @@ import click
 from surfexp.commands.click_command import run_click, shown
 from surfexp.commands.surface_arguments import (
     finish,
-    maps_of,
+    given_maps,
     named_as,
     opened,
     progress_line,
@@ -57,7 +57,7 @@ def denoise(
     from surfexp.tasks.denoising import denoise as task
 
     surface, files = opened(path, **given)
-    maps = maps_of(surface, map_name, files)
+    maps = given_maps(surface, map_name, files)
     values = side_by_side(maps, map_name)
     started = time.perf_counter()
     with progress_line("denoise") as progress:
@@ -90,7 +90,7 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     from surfexp.tasks.denoising import smooth as task
 
     surface, files = opened(path, **given)
-    maps = maps_of(surface, map_name, files)
+    maps = given_maps(surface, map_name, files)
     values = side_by_side(maps, map_name)
     started = time.perf_counter()
     smoothed = task(surface, values, width)

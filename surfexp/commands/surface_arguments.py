@@ -64,10 +64,10 @@ def map_of(surface: Surface, given: str, files: list[Path]) -> Floats:
     """Return a map by the name that the surface carries it under, or those of a file side by side."""
     from surfexp.io.map_files import side_by_side
 
-    return side_by_side(maps_of(surface, given, files), given)
+    return side_by_side(given_maps(surface, given, files), given)
 
 
-def maps_of(surface: Surface, given: str, files: list[Path]) -> dict[str, Floats]:
+def given_maps(surface: Surface, given: str, files: list[Path]) -> dict[str, Floats]:
     """Return a map by the name that the surface carries it under, or those of a file, which joins the inputs.
 
     Raises
@@ -89,7 +89,7 @@ def maps_of(surface: Surface, given: str, files: list[Path]) -> dict[str, Floats
 
 
 def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:
-    """Give the columns of a result the names of the maps that it was made of, where the format of the result has room."""
+    """Give the columns of a result the names of the maps that it was made of, where its format has room."""
     import numpy as np
 
     from surfexp.io.map_files import holds_names

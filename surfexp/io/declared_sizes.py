@@ -16,7 +16,7 @@ from xml.parsers import expat
 
 from surfexp.io.cifti import is_cifti
 from surfexp.io.freesurfer_sizes import VOLUMES, check_annotation, check_volume
-from surfexp.io.gifti import is_gifti
+from surfexp.io.gifti import POINTS, TRIANGLES, is_gifti
 from surfexp.io.numbers import LARGEST_BYTES
 
 # of the GIFTI standard
@@ -51,10 +51,15 @@ def check_declared_sizes(path: Path) -> None:
 
 def _check_gifti(path: Path) -> None:
     refused: list[str] = []
+    single: set[str] = set()
 
     def begin(name: str, attributes: Mapping[str, str]) -> None:
         if name == "DataArray" and not refused:
             refused.extend(_unfit(attributes))
+            intent = attributes.get("Intent", "")
+            if intent in single:
+                refused.append(f"it has two arrays of {intent}, one is read: write each surface to a file of its own")
+            single.update({intent} & {POINTS, TRIANGLES})
 
     parser = expat.ParserCreate()
     parser.StartElementHandler = begin

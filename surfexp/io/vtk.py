@@ -105,8 +105,12 @@ def read_vtk(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     if [word.upper() for word in kind] != ["DATASET", "POLYDATA"]:
         raise ValueError(f"it holds {' '.join(kind)[:40]!r}, polygons are needed: DATASET POLYDATA")
     points, polygons, maps, at_points = np.zeros((0, 3)), np.zeros((0, 3), np.int64), dict[str, Floats](), False
+    seen: set[str] = set()
     while line := words.line().split():
         key = line[0].upper()
+        if key in ("POINTS", "POLYGONS") and key in seen:
+            raise ValueError(f"it has {key} twice, one is read: merge them")
+        seen.add(key)
         if key == "POINTS" and len(line) == 3:
             points = words.numbers(3 * int(line[1]), line[2]).reshape(-1, 3).astype(np.float64)
         elif key in ("POLYGONS", "VERTICES", "LINES") and len(line) == 3:

@@ -40,8 +40,8 @@ class VtkXml:
     encoding: str
 
     @classmethod
-    def read(cls, path: Path) -> VtkXml:
-        """Read a file.
+    def read(cls, path: Path, kind: str) -> VtkXml:
+        """Read a file of a kind of data, such as PolyData.
 
         Raises
         ------
@@ -53,13 +53,14 @@ class VtkXml:
         end = found.start() if found else len(data)
         appended = data[found.end() :] if found else b""
         text = data[:end].decode("utf-8", "replace")
-        if "<VTKFile" not in text or b"</VTKFile>" not in data[-1000:]:
-            raise ValueError("it is not XML polygonal data, or is cut off")
         # entities stay what they are, text
         if "<!ENTITY" in text or "<!DOCTYPE" in text:
             raise ValueError("it declares entities, which VTK files do not have")
         encoding = _attributes(found[1].decode("latin-1")).get("encoding", "base64") if found else ""
-        return cls(text, appended, encoding)
+        file = cls(text, appended, encoding)
+        if file.head.get("type") != kind or b"</VTKFile>" not in data[-1000:]:
+            raise ValueError(f"it is no XML file of {kind}, or is cut off")
+        return file
 
     @property
     def head(self) -> dict[str, str]:

@@ -50,9 +50,7 @@ def read_vtp(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     ValueError
         If it is another data set, in pieces, of strips, packed by LZ4, or ends early.
     """
-    file = VtkXml.read(path)
-    if file.head.get("type") != "PolyData":
-        raise ValueError("it is not XML polygonal data, or is cut off")
+    file = VtkXml.read(path, "PolyData")
     pieces = re.findall(r"<Piece\b([^>]*)>", file.text)
     if len(pieces) > 1:
         raise ValueError(f"it has {len(pieces)} pieces, one is read: merge them, as ParaView's Merge Blocks does")

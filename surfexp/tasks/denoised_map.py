@@ -24,12 +24,15 @@ class DenoisedMap(Summarized):
     certificate : dict
         What is proved and with which parameters: `relative_gap` and `error_bound` for ROF and TGV.
     notes : tuple of str
+    name : str
+        Under which the surface carries the map that it was made of; what a file calls it.
     """
 
     values: Floats
     method: str
     certificate: dict[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    name: str = "map"
 
     def _summary(self) -> Summary:
         known = np.isfinite(self.values)

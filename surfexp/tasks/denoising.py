@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +13,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
@@ -91,12 +92,14 @@ def denoise(
     operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
     sigma = noise_level(operator, image) if noise is None else float(noise)
     if method == "auto":
-        return automatically_denoised(owner, part, operator, image, sigma, noise is None)
+        found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
+        return replace(found, name=name_of(values))
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
     notes = mask_notes(owner, part) + solution.notes
-    return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes)
+    certificate = facts | _proof(solution, operator)
+    return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
@@ -181,7 +184,7 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     smoothed = heat_flow(operator, np.asarray(part.restrict(rough), dtype=np.float64), time, HEAT_STEPS)
     certificate = {"width": width, "time": time, "steps": HEAT_STEPS}
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, mask_notes(owner, part))
+    return DenoisedMap(part.extend(smoothed), method, certificate, mask_notes(owner, part), name_of(values))
 
 
 def _change_of_mean(operator: SurfaceOperator, part: SurfacePart, before: Floats, after: Floats) -> float:

@@ -18,6 +18,7 @@ from surfexp.mesh.repair import repair as repair_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import require_valid
+from surfexp.tasks.denoised_map import DenoisedMap
 
 PathLike = str | Path
 LABEL_SUFFIXES = (".label.gii", ".annot")
@@ -163,4 +164,4 @@ def maps_of(what: Any) -> dict[str, Floats]:
     array = np.asarray(values)
     if array.dtype.kind not in "buif" or array.ndim not in (1, 2):
         raise ValueError(f"{type(what).__name__} is no map: give an array with one row a vertex, or a result of a task")
-    return {"map": array.astype(np.float64)}
+    return {what.name if isinstance(what, DenoisedMap) else "map": array.astype(np.float64)}

@@ -58,6 +58,11 @@ def _arrays_of(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
     )
 
 
+def name_of(values: MapLike) -> str:
+    """Return the name by which a map was given; "map" where it was given as numbers."""
+    return values if isinstance(values, str) else "map"
+
+
 def as_map(surface: Surface, given: MapLike) -> Floats:
     """Return (n,) or (n, c) float64 values of a map: an array, or the name of one that the surface carries.
 

@@ -316,6 +316,21 @@ def test_an_off_file_that_ends_after_its_counts_says_what_is_missing(tmp_path: P
         read_mesh(tmp_path / "a.off")
 
 
+def test_of_two_surfaces_in_a_file_none_is_read(tmp_path: Path) -> None:
+    (tmp_path / "a.vtk").write_text(CELLS)
+    part = CELLS[CELLS.index("POLYGONS") :]
+    (tmp_path / "a.vtk").write_text(CELLS + part)
+    with pytest.raises(ValueError, match="it has POLYGONS twice, one is read"):
+        read_mesh(tmp_path / "a.vtk")
+    write_mesh(tmp_path / "a.surf.gii", MESH)
+    image = nibabel.load(tmp_path / "a.surf.gii")
+    for array in list(image.darrays):
+        image.add_gifti_data_array(array)
+        nibabel.save(image, tmp_path / "b.surf.gii")
+        with pytest.raises(ValueError, match="it has two arrays of NIFTI_INTENT_POINTSET, one is read"):
+            read_mesh(tmp_path / "b.surf.gii")
+
+
 @pytest.mark.parametrize("shape", [(), (2, 3, 4), (N, 1, 1)])
 def test_a_map_has_one_number_or_one_row_for_each_vertex(tmp_path: Path, shape: tuple[int, ...]) -> None:
     values = np.zeros(shape)
@@ -374,7 +389,7 @@ def test_another_data_set_in_xml_and_a_file_without_its_end_are_refused(tmp_path
     for changed in (text.replace('type="PolyData"', 'type="UnstructuredGrid"'), text.removesuffix("</VTKFile>\n")):
         assert changed != text
         (tmp_path / "a.vtp").write_text(changed)
-        with pytest.raises(ValueError, match="it is not XML polygonal data, or is cut off"):
+        with pytest.raises(ValueError, match="it is no XML file of PolyData, or is cut off"):
             read_mesh(tmp_path / "a.vtp")
 
 

@@ -91,6 +91,10 @@ def test_maps_keep_their_names(files: Path) -> None:
         name = call.split()[-1]
         maps = sx.read(name).scalars if name.endswith((".vtk", ".vtp")) else read_maps(name)
         assert list(maps) == names, call
+    own = sx.read("own.vtp")
+    for k, result in enumerate((sx.smooth(own, "height", 0.3), sx.denoise(own, "height", method="auto", noise=0.1))):
+        sx.write(f"api{k}.shape.gii", result, own)
+        assert list(read_maps(f"api{k}.shape.gii")) == ["height"]
     smoothed = read_maps("both.func.gii")
     together = read_maps("both.npy")["both"]
     assert np.allclose(np.column_stack(list(smoothed.values())), together, atol=1e-6)
