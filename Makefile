@@ -33,10 +33,9 @@ lint: .venv/ready
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python tests/count_lines.py surfexp/workflow 1000
 	$(BIN)/python tests/check_docstrings.py
 	$(BIN)/python tests/check_licences.py
-	$(BIN)/python -m surfexp.report.stamp check
+	$(BIN)/python -m surfexp.reproduction.stamp check
 
 bench: optional # the rivals come with it
 	$(BIN)/python -m benchmarks
@@ -56,7 +55,7 @@ torture-part: .venv/ready
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.
 # Measured data come from a package; without it their sections stay as they are.
 reproduction: .venv/ready
-	results=results/reproduction/$$($(BIN)/python -m surfexp.report.stamp state) && failed="" && \
+	results=results/reproduction/$$($(BIN)/python -m surfexp.reproduction.stamp state) && failed="" && \
 	names="$(EXPERIMENTS)" && beside="$(BESIDE)" && \
 	if [ -n "$(filter %_measured,$(EXPERIMENTS))" ] && ! $(BIN)/surfexp fetch brainspace; then \
 		names="$(filter-out %_measured,$(EXPERIMENTS))"; beside="--beside docs/reproduction.md"; fi && \
@@ -70,9 +69,9 @@ reproduction: .venv/ready
 
 # Only experiments of which a stage's key or a claim has changed; the other sections of the page are still true.
 reproduction-changed: .venv/ready
-	names=$$($(BIN)/python -m surfexp.report.stamp stale) && \
+	names=$$($(BIN)/python -m surfexp.reproduction.stamp stale) && \
 	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs/reproduction.md"; \
-	else $(BIN)/python -m surfexp.report.stamp renew; fi
+	else $(BIN)/python -m surfexp.reproduction.stamp renew; fi
 
 # Pages, API and examples with their pictures, read from disk: build/site/index.html.
 site: optional

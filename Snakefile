@@ -2,7 +2,7 @@
 import importlib.util
 from pathlib import Path
 
-include: str(Path(importlib.util.find_spec("surfexp.workflow").origin).parent / "rules.smk")
+include: str(Path(importlib.util.find_spec("surfexp.lab.running").origin).parent / "rules.smk")
 
 from surfexp.commands import execution
 

@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
-from surfexp.workers import compiled_code
-from surfexp.workflow.fingerprint import compiled_state
+from surfexp.lab.plan.fingerprint import compiled_state
+from surfexp.lab.running import compiled_code
 
 # before numpy and numba are imported, which read these once; a line about two threads sets it for its own processes
 THREADS = "BENCHMARK_THREADS"

@@ -18,7 +18,7 @@ from benchmarks.table import conditions, describe, page, section_of
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
-from surfexp.report.stamp import state_of_code
+from surfexp.reproduction.stamp import state_of_code
 
 PAGE = ROOT / "BENCHMARKS.md"
 PICTURE = ROOT / "docs" / "gap_against_time.png"

@@ -16,7 +16,7 @@ import numpy as np
 import surfexp as sx
 from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import Cost, cost_of_children, measure_both
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
 
 RIVAL = "neuromodes as it installs"

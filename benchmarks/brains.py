@@ -18,7 +18,7 @@ import nibabel
 import numpy as np
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.io.reading import read_mesh
 from surfexp.mesh.repair import repair

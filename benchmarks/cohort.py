@@ -18,10 +18,10 @@ import numpy as np
 from benchmarks.line import Line
 from benchmarks.measurement import cost_of_children
 from surfexp.anatomy.subcortical import subcortical_surface
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.ply import write_ply
+from surfexp.lab.store import store
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow import store
 
 STRUCTURES = ("caudate", "putamen", "hippocampus", "thalamus", "amygdala")
 DONOR, VERTICES, MODES = "9861", 2500, 50

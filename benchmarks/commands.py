@@ -26,8 +26,8 @@ STAGES_ALONE = "all its stages in one process"
 IN_ONE_PROCESS = """
 import sys
 from pathlib import Path
-from surfexp.workflow.plan import read_plan
-from surfexp.workflow.stage import run_stage
+from surfexp.lab.plan.plan import read_plan
+from surfexp.lab.running.stage import run_stage
 path = Path(sys.argv[1])
 plan = read_plan(path)
 assert not any(run_stage(path, node.key, plan) for node in plan.stored)
@@ -36,7 +36,7 @@ TINY_PLUGIN = """
 import numpy as np
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 
 class Tiny(Options):
     size: float = 1.0

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Method

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 from benchmarks.line import Line, not_installed, race, within
 from benchmarks.measurement import Cost, measure, measure_both
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.face_distance import distance_on_faces

@@ -10,7 +10,7 @@ import surfexp as sx
 from benchmarks.line import Line, within
 from benchmarks.measurement import measure
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface

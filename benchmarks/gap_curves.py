@@ -11,7 +11,7 @@ from benchmarks.denoising import CHECKPOINTS, published, solve
 from benchmarks.interior_point import InteriorPoint
 from benchmarks.measurement import measure
 from benchmarks.scenes import cup_scene
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.figures.figure import Figure
 from surfexp.operators.fem import fem

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.rival_maps import INDISTINCT_SHARE, NEGLIGIBLE_ENERGY
 from surfexp.embedding.surface_map import Pair, contested
 from surfexp.io.reading import read_mesh

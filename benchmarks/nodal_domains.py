@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 from benchmarks.line import Line, race
 from benchmarks.measurement import measure_both
 from benchmarks.scenes import cortex_scene
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem

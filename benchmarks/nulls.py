@@ -13,7 +13,7 @@ import surfexp as sx
 from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import measure_both
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface

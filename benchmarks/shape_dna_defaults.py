@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.anatomy.subcortical import subcortical_surface
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.shape_dna import shape_dna

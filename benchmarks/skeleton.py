@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.line import Line, not_installed, race, within
 from benchmarks.measurement import measure, measure_both
 from benchmarks.scenes import cortex_scene
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.shapes.genus_surface import genus_surface
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh

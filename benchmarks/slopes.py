@@ -12,7 +12,7 @@ from benchmarks.interior_point import Conic
 from benchmarks.line import Line, not_installed, race
 from benchmarks.measurement import measure, measure_both
 from benchmarks.scenes import cup_scene
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.fem import fem
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.models.tgv import TGV

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 from benchmarks import THREADS
 from benchmarks.line import Line, not_installed
 from benchmarks.measurement import Cost, apart, measure_with_memory
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness

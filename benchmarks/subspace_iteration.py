@@ -13,7 +13,7 @@ from scipy.sparse import csr_array, vstack
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.linalg.ldlt import ldlt
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from surfexp.figures.figure import Figure
+from surfexp.lab.experiment.configuration import Context, expand
+from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.plan import Node, Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry.registry import open_catalogue
+from surfexp.lab.store import store
+from surfexp.lab.store.kinds import KINDS
 from surfexp.variational.solution import Solution
-from surfexp.workflow import store
-from surfexp.workflow.configuration import Context, expand
-from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Node, Plan
-from surfexp.workflow.registry import open_catalogue
-from surfexp.workflow.resolution import make_plan
 
 TOLERANCES = 100
 ITERATIONS = 5
@@ -76,7 +76,7 @@ def _hollow(result: type) -> Any:
 
 def fill_experiment(experiment: str, results: Path) -> Plan:
     """Store a result without contents for every stage of an experiment; return its plan."""
-    from surfexp.workflow.launch import launch
+    from surfexp.lab.composition.launch import launch
 
     plans: list[Plan] = []
     launch([f"experiment={experiment}", f"results={results}"], plans.append)

@@ -13,12 +13,12 @@ from tempfile import TemporaryDirectory
 from benchmarks.line import Line
 from benchmarks.measurement import Cost, apart, cost_of_children, measure, median_cost, peak_memory
 from benchmarks.synthetic_results import fill, fill_experiment, plan_of, sweep
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan.plan import read_plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry.registry import open_catalogue
+from surfexp.records.tracking import record
 from surfexp.report.page import write_report
-from surfexp.report.tracking import record
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.plan import read_plan
-from surfexp.workflow.registry import open_catalogue
-from surfexp.workflow.resolution import make_plan
 
 LIMIT = "a limit"
 SIZES, QUICK_SIZES = (2_000, 10_000, 100_000), (50, 100, 200)

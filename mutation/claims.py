@@ -20,8 +20,8 @@ from pathlib import Path
 import yaml
 
 from mutation import ROOT
-from surfexp.report.reproduction import sections_of, verdicts_of_section
-from surfexp.report.stamp import PAGE, is_stale
+from surfexp.reproduction.page import sections_of, verdicts_of_section
+from surfexp.reproduction.stamp import PAGE, is_stale
 
 LIST = ROOT / "mutation" / "claims.yaml"
 RESULTS = ROOT / "results" / "mutation" / "claims"
@@ -31,7 +31,7 @@ JUDGE = """
 import json, sys
 from pathlib import Path
 from surfexp.commands.views import latest_plan
-from surfexp.report.claim import read_claims
+from surfexp.lab.experiment.claim import read_claims
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
 results = Path(sys.argv[1])

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from mutation import ROOT
 from mutation.claims import OUTCOMES, ClaimFault, Trial, faults, recorded_trials
-from surfexp.language.statements import claims_of
-from surfexp.report.reproduction import cells_of_line
+from surfexp.lab.experiment.statements import claims_of
+from surfexp.reproduction.page import cells_of_line
 
 PAGE = ROOT / "docs" / "claim_faults.md"
 NOT_RUN = "not run"

@@ -10,8 +10,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.extras import require_installed
-from surfexp.summary import Summarized, Summary
 
 # exit code of `surfexp run` where a row did not converge
 UNCONVERGED = 3
@@ -68,7 +68,7 @@ class ExperimentRun(Summarized):
         ValueError
             If no row has this key, or its stage has not finished.
         """
-        from surfexp.workflow import store
+        from surfexp.lab.store import store
 
         if key not in self._kinds:
             raise ValueError(f"{self.name!r} has no row {key!r}; table.index lists its {len(self._kinds)}")
@@ -130,10 +130,10 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     ValueError: unknown finished experiment in nowhere 'quickstart'; choose from: none
     """
     require_installed("sx.load", *LABORATORY)
-    from surfexp.catalogue.loading import load_known_kinds
     from surfexp.commands.views import latest_plan
+    from surfexp.lab.errors import UserError
+    from surfexp.lab.registry.loading import load_known_kinds
     from surfexp.report.table import rows_of
-    from surfexp.workflow.errors import UserError
 
     root = Path(results).resolve()
     try:

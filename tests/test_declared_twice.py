@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic_core import PydanticUndefined
 
-from surfexp.workflow import registry
+from surfexp.lab.registry import registry
 
 # where an experiment needs another number than a person who calls the function
 DIFFERENT = {

@@ -10,15 +10,17 @@ import pytest
 from pydantic import ValidationError
 from pydantic_core import PydanticUndefined
 
+from surfexp.contract.metric import find_metric
 from surfexp.io.writing import write_mesh
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan.outcome import read_event
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
+from surfexp.lab.store import store
+from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.metric import find_metric
 from surfexp.report.declared import declared
-from surfexp.workflow import registry, stage, store
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.outcome import read_event
-from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))

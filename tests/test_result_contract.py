@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from surfexp.contract.result_contract import check_result, documented_shapes
+from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.result_contract import check_result, documented_shapes
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.variational.solution import Solution
-from surfexp.workflow.kinds import KINDS
 
 
 @dataclass(frozen=True, eq=False)

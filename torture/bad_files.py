@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import surfexp as sx
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.map_files import read_mask, read_named_labels, read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.triangle_mesh import TriangleMesh

@@ -7,7 +7,7 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-from surfexp.workflow.store import faults
+from surfexp.lab.store.store import faults
 from torture.case import HUNG, MENDED, REFUSED, RIGHT, WRONG, Ended, clear
 from torture.laboratory import fresh, run, store_bytes, working_folder
 

@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 from torture import ROOT
 from torture.case import LONGEST_LINE, clear
 
@@ -40,9 +40,9 @@ in one clear line of at most 300 characters, within 10 seconds and 2 GB.
 
 def targets() -> dict[str, Callable[[Path], None]]:
     """Return for each name of a sound file what reads it; imported here, so that coverage is measured."""
-    from surfexp.catalogue.yaml_files import check_variants, read_yaml
     from surfexp.io.map_files import read_maps, read_mask, read_named_labels
     from surfexp.io.reading import read_mesh
+    from surfexp.lab.experiment.yaml_files import check_variants, read_yaml
     from torture.sound_files import LABELS, MAPS, MESHES
 
     def experiment(file: Path) -> None:
@@ -82,7 +82,7 @@ def fuzz(name: str, runs: str, seconds: str) -> None:
     """Give a reader so many inputs in this process, which ends with them."""
     import atheris
 
-    with atheris.instrument_imports(include=["surfexp.io", "surfexp.catalogue.yaml_files", "nibabel", "yaml"]):
+    with atheris.instrument_imports(include=["surfexp.io", "surfexp.lab.experiment.yaml_files", "nibabel", "yaml"]):
         read = targets()[name]
     folder = Path(tempfile.mkdtemp(dir=MEMORY if os.access(MEMORY, os.W_OK) else None))
     file = folder / name

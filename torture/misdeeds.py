@@ -6,12 +6,12 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
-from surfexp.catalogue import contained
-from surfexp.catalogue.contained import contained_description
+from surfexp.lab.registry import contained
+from surfexp.lab.registry.contained import contained_description
 from torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear
 from torture.laboratory import run, working_folder
 
-REGISTER = "from surfexp.workflow.registry import Options, register\n"
+REGISTER = "from surfexp.lab.registry.registry import Options, register\n"
 IMPORT: dict[str, str | bytes] = {
     "exit 0": "import os\nos._exit(0)",
     "exit 3": "import os\nos._exit(3)",
@@ -30,7 +30,7 @@ IMPORT: dict[str, str | bytes] = {
     "null bytes": b"x = 1\x00",
     "tabs and spaces": "if True:\n\tx = 1\n        y = 2",
     "a missing package": "import no_such_package_at_all",
-    "a missing name": "from surfexp.arrays import no_such_name",
+    "a missing name": "from surfexp.contract.arrays import no_such_name",
     "a circular import": "from surfexp.plugins.surface import icosphere as x\nimport itself",
     "SIGKILL": "import os, signal\nos.kill(os.getpid(), signal.SIGKILL)",
     "SIGTERM": "import os, signal\nos.kill(os.getpid(), signal.SIGTERM)",
@@ -88,7 +88,7 @@ import numpy as np
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 
 
 class Nothing(Options):

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import surfexp as sx
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.label_files import write_labels
 from surfexp.io.map_files import write_maps
 from surfexp.io.writing import write_mesh

@@ -1,6 +1,6 @@
 """Which kind of body is it? Spectra of poses against nodal counts, each pose judged by the other poses."""
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.operators.fem import fem
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.statistics.classifiers import classify

@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.classification import Classification
 from surfexp.statistics.classifiers import classify
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.workflow.registry import Options, register
 
 
 class Grouped(Options):

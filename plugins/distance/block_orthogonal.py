@@ -5,14 +5,14 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks, size_at_gap
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 
 class BlockOrthogonal(Options):

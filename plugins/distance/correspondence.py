@@ -2,6 +2,7 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.surface_map import (
     Pair,
@@ -12,10 +13,9 @@ from surfexp.embedding.surface_map import (
     vertex_index_map,
     zoomout_map,
 )
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 
 class Start(Options):

@@ -6,14 +6,14 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.face_distance import distance_on_faces
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 
 class Embedded(Options):

@@ -4,13 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.wasserstein import wasserstein_distance
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 
 class Wasserstein(Options):

@@ -5,6 +5,8 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance_methods import (
     Pairing,
     gap_metrics,
@@ -13,12 +15,10 @@ from surfexp.embedding.distance_methods import (
     unproved_pairs,
 )
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.member import Member
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.workflow.registry import Options, register
 
 
 class Pairs(Options):

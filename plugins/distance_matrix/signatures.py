@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.lab.registry.registry import Options, register
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.signature_distances import signature_distances
-from surfexp.workflow.registry import Options, register
 
 
 class Signatures(Options):

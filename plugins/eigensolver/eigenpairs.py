@@ -4,13 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class Eigenpairs(Options):

@@ -2,7 +2,8 @@
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.multidimensional_scaling import (
     classical_scaling,
@@ -12,7 +13,6 @@ from surfexp.statistics.multidimensional_scaling import (
     stress_majorisation,
 )
 from surfexp.statistics.point_embedding import PointEmbedding
-from surfexp.workflow.registry import Options, register
 
 
 class Scaling(Options):

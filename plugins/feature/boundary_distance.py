@@ -4,11 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.feature import Feature
-from surfexp.workflow.registry import Options, register
 
 
 class BoundaryDistance(Options):

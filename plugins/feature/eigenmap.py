@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.feature import Feature
-from surfexp.workflow.registry import Options, register
 
 
 class Eigenmap(Options):

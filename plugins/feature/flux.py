@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.flux import flux, flux_weights, skeleton_points, weight_far_from_boundary
-from surfexp.workflow.registry import Options, register
 
 
 class Flux(Options):

@@ -3,9 +3,9 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
-from surfexp.workflow.registry import Options, register
 
 
 class Height(Options):

@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
-from surfexp.workflow.registry import Options, register
 
 
 class ScalarMap(Options):

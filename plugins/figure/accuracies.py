@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import MetricName
 from surfexp.figures.figure import Figure
 from surfexp.figures.interval_plot import interval_plot
-from surfexp.metric import MetricName
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.classification import Classification
-from surfexp.workflow.registry import Options, register
 
 
 class Accuracies(Options):

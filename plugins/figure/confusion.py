@@ -5,8 +5,8 @@ from pydantic import Field
 from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, QUIET, canvas, drawn, points, vector
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.classification import Classification
-from surfexp.workflow.registry import Options, register
 
 
 class Confusion(Options):

@@ -4,8 +4,8 @@ from pydantic import Field
 
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.figure import Figure
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class Convergence(Options):

@@ -5,13 +5,13 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.member import Member
 from surfexp.figures.figure import Figure
 from surfexp.figures.order_plot import order_plot
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.member import Member
+from surfexp.lab.registry.registry import Options, register
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class Curves(Options):

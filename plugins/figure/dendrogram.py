@@ -7,8 +7,8 @@ from scipy.spatial.distance import squareform
 from surfexp.figures.axes import add_axes, class_style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, points, vector
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.workflow.registry import Options, register
 
 
 class Dendrogram(Options):

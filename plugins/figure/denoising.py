@@ -8,11 +8,11 @@ from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class Denoising(Options):

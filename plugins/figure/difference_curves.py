@@ -4,11 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class DifferenceCurves(Options):

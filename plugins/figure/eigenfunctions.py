@@ -11,9 +11,9 @@ from surfexp.figures.figure import Figure, compare, noun
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import INK, QUIET
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 
 class Eigenfunctions(Options):

@@ -5,15 +5,15 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.studies.sulci.sulcal_regions import OUTSIDE, names_by_majority
-from surfexp.workflow.registry import Options, register
 
 # widest extent of each cortex and of the larger embedding in the figure
 EXTENTS = (1.0, 0.9)

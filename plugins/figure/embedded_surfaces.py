@@ -3,17 +3,17 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.figures.camera import VIEWS, view_axes
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.workflow.registry import Options, register
 
 IMAGE_VIEW = "oblique"
 

@@ -7,11 +7,11 @@ from pydantic import Field
 from surfexp.figures.figure import Figure, compare, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.statistics.measurement import Measurement
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class Geometry(Options):

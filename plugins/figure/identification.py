@@ -4,8 +4,8 @@ from pydantic import Field
 
 from surfexp.figures.figure import Figure
 from surfexp.figures.grouped_intervals import grouped_intervals
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class IdentificationFigure(Options):

@@ -8,10 +8,10 @@ from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class LevelLines(Options):

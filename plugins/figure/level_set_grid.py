@@ -5,10 +5,10 @@ from pydantic import Field
 
 from surfexp.drawings.patch_grid_drawing import grid_panel
 from surfexp.figures.figure import Figure, sentence
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.patch_grid import patch_grid
-from surfexp.workflow.registry import Options, register
 
 
 class LevelSetGrid(Options):

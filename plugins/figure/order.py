@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric, MetricName
 from surfexp.figures.figure import Figure
 from surfexp.figures.order_plot import order_plot
-from surfexp.metric import Metric, MetricName
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.measurement import Measurement
-from surfexp.workflow.registry import Options, register
 
 
 class Order(Options):

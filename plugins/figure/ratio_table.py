@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.member import Member
 from surfexp.figures.figure import Figure
 from surfexp.figures.ratio_table import ratio_table
-from surfexp.member import Member
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class RatioTable(Options):

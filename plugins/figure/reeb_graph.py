@@ -4,10 +4,10 @@ from pydantic import Field
 
 from surfexp.drawings.skeleton_drawing import SkeletonView, skeleton_panel
 from surfexp.figures.figure import Figure, sentence
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.workflow.registry import Options, register
 
 
 class ReebGraphPicture(Options):

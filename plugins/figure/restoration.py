@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 LOST = np.array([0.84, 0.38, 0.30])
 

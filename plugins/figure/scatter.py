@@ -7,13 +7,13 @@ from pydantic import Field
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
+from surfexp.contract.metric import Metric
 from surfexp.figures.axes import FONT, SPACING, add_axes, class_style, spread
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, vector
 from surfexp.figures.typography import points as text_size
-from surfexp.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.point_embedding import PointEmbedding
-from surfexp.workflow.registry import Options, register
 
 # right end of the axes, the classes stand beyond it
 LEGEND = 0.78

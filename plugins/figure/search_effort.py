@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.member import Member
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.member import Member
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 
 
 class SearchEffort(Options):

@@ -10,12 +10,12 @@ from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.images.initial_curves import disc_distance
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 LIGHT, DARK = np.array([0.96, 0.92, 0.84]), np.array([0.30, 0.38, 0.50])
 

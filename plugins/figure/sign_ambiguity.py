@@ -5,14 +5,14 @@ from itertools import product
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.nearest import mutual_distances
 from surfexp.figures.axes import COLORS
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.typography import canvas, drawn, points
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
-from surfexp.workflow.registry import Options, register
 
 
 class SignAmbiguity(Options):

@@ -6,11 +6,11 @@ from pydantic import Field
 
 from surfexp.drawings.skeleton_drawing import SkeletonView, skeleton_panel
 from surfexp.figures.figure import Figure
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
 from surfexp.studies.skeletons.skeleton_study import group_skeletons
-from surfexp.workflow.registry import Options, register
 
 
 class SkeletonGroup(Options):

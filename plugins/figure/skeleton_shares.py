@@ -7,8 +7,8 @@ from pydantic import Field
 
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class SkeletonShares(Options):

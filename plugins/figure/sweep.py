@@ -5,12 +5,12 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.member import Member, levels_of
+from surfexp.contract.metric import MetricName
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.member import Member, levels_of
-from surfexp.metric import MetricName
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class Sweep(Options):

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.heat_blur import HeatBlur
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise
-from surfexp.workflow.registry import Options, register
 
 
 class Blurred(Options):

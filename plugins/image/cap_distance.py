@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.variational.image import Image
 from surfexp.variational.images.initial_curves import angular_distance
-from surfexp.workflow.registry import Options, register
 
 
 class CapDistance(Options):

@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise
 from surfexp.variational.images.two_phase import coloured_cells
-from surfexp.workflow.registry import Options, register
 
 
 class ColouredCells(Options):

@@ -4,10 +4,10 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.anatomy.resting_run import connectivity_maps, run_on
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 
 class Connectivity(Options):

@@ -6,10 +6,10 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.io.map_files import read_scalars
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise
-from surfexp.workflow.registry import Options, register
 
 
 class File(Options):

@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.nulls.fields import gaussian_fields
 from surfexp.operators.fem import fem
 from surfexp.studies.nulls.planted_length import widths_along
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 
 class GaussianFields(Options):

@@ -3,10 +3,10 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 
 class MeanCurvature(Options):

@@ -6,11 +6,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise, paint
 from surfexp.variational.images.pictures import picture, read_picture
-from surfexp.workflow.registry import Options, register
 
 
 class Picture(Options):

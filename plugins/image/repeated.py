@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.studies.smoothing.planted_maps import planted_parcels, repeated_map
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 
 class PlantedParcels(Options):

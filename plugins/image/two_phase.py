@@ -3,13 +3,13 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.variational.image import Image
 from surfexp.variational.images.initial_curves import angular_distance
 from surfexp.variational.images.painting import add_noise
 from surfexp.variational.images.two_phase import two_phase
-from surfexp.workflow.registry import Options, register
 
 
 class TwoPhase(Options):

@@ -5,7 +5,9 @@ from functools import partial
 from pydantic import Field
 
 from surfexp.baselines.energy_excess import energy_excess
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
@@ -14,8 +16,6 @@ from surfexp.variational.models.convex_chan_vese import ConvexChanVese
 from surfexp.variational.models.rof import ROF
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class EnergyExcess(Options):

@@ -1,15 +1,15 @@
 """How far a denoised surface is from the clean one."""
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.normal_filtering import normal_deviation
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import restoration_metrics
-from surfexp.workflow.registry import Options, register
 
 
 class GeometryError(Options):

@@ -1,12 +1,12 @@
 """The errors of a discrete operator on a function whose derivatives are known, chapter 1."""
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.diagnostics import adjointness_defect, null_modes
 from surfexp.operators.manufactured import manufactured, operator_errors
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.measurement import Measurement
-from surfexp.workflow.registry import Options, register
 
 
 class OperatorErrors(Options):

@@ -3,13 +3,13 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class PartitionEnergy(Options):

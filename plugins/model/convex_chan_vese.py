@@ -2,13 +2,13 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.variational.images.initial_curves import disc_distance
 from surfexp.variational.model import Model
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
 from surfexp.variational.truth_metrics import SEGMENTATION_METRICS
-from surfexp.workflow.registry import Options, register
 
 
 class ConvexChanVeseOptions(Options):

@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.model import Model
 from surfexp.variational.models.deblurring import Deblurring
 from surfexp.variational.truth_metrics import RESTORATION_METRICS
-from surfexp.workflow.registry import Options, register
 
 
 class DeblurringOptions(Options):

@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.model import Model
 from surfexp.variational.models.multiphase import MultiphaseSegmentation
-from surfexp.workflow.registry import Options, register
 
 
 class Multiphase(Options):

@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.models.tgv import TGV
 from surfexp.variational.truth_metrics import RESTORATION_METRICS
-from surfexp.workflow.registry import Options, register
 
 
 class TgvOptions(Options):

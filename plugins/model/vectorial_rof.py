@@ -4,10 +4,10 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.variational.model import Model
 from surfexp.variational.models.rof import ROF
 from surfexp.variational.truth_metrics import RESTORATION_METRICS
-from surfexp.workflow.registry import Options, register
 
 
 class VectorialRof(Options):

@@ -1,9 +1,9 @@
 """Per-face gradients with their exact adjoint."""
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.workflow.registry import Options, register
 
 
 class Fem(Options):

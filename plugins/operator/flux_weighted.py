@@ -4,13 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.flux import flux, flux_weights, weighted_operator
-from surfexp.workflow.registry import Options, register
 
 
 class FluxWeighted(Options):

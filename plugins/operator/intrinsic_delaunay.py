@@ -1,10 +1,10 @@
 """Finite elements on the intrinsic Delaunay triangulation."""
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.workflow.registry import Options, register
 
 
 class IntrinsicDelaunay(Options):

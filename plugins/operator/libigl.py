@@ -1,9 +1,9 @@
 """Operators assembled by libigl."""
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.libigl_operator import libigl_operator
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.workflow.registry import Options, register
 
 
 class Libigl(Options):

@@ -1,9 +1,9 @@
 """Linear elements on a flat torus."""
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_periodic import periodic_operator
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.workflow.registry import Options, register
 
 
 class Periodic(Options):

@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.shuffled_lengths import SWEEPS, shuffled_lengths
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.workflow.registry import Options, register
 
 
 class ShuffledLengths(Options):

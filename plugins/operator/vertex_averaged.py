@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.operators.vertex_averaged import vertex_averaged
-from surfexp.workflow.registry import Options, register
 
 
 class VertexAveraged(Options):

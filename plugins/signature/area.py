@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
-from surfexp.workflow.registry import Options, register
 
 
 class Area(Options):

@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.brainprint import brainprint
 from surfexp.spectrum.signature import Signature
-from surfexp.workflow.registry import Options, register
 
 
 class BrainPrint(Options):

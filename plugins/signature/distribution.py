@@ -4,8 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.shape_distributions import (
     embedding_distances,
@@ -14,7 +15,6 @@ from surfexp.spectrum.shape_distributions import (
     wave_distribution,
 )
 from surfexp.spectrum.signature import Signature
-from surfexp.workflow.registry import Options, register
 
 
 class Distribution(Options):

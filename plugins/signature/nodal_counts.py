@@ -4,14 +4,14 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes
 from surfexp.spectrum.signature import Signature
 from surfexp.spectrum.spectral_signature import spectrum_part
 from surfexp.spectrum.surface_spectrum import graph_of
-from surfexp.workflow.registry import Options, register
 
 
 class NodalCounts(Options):

@@ -5,12 +5,12 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.signature import Signature
-from surfexp.workflow.registry import Options, register
 
 
 class ShapeDna(Options):

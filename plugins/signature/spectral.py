@@ -4,13 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.spectrum.signature import Signature
 from surfexp.spectrum.spectral_signature import spectral_signature
-from surfexp.workflow.registry import Options, register
 
 TRIANGULATIONS = {"fem": fem, "intrinsic_delaunay": intrinsic_delaunay}
 

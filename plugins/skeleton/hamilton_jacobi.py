@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.hamilton_jacobi import hamilton_jacobi_skeleton
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.workflow.registry import Options, register
 
 
 class HamiltonJacobi(Options):

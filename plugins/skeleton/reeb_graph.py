@@ -5,15 +5,15 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.skeleton.skeleton_length import skeleton_lengths
-from surfexp.workflow.registry import Options, register
 
 
 class ReebGraph(Options):

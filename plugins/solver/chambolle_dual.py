@@ -5,14 +5,14 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.published.chambolle import published_chambolle
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.chambolle_dual import chambolle_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class ChambolleDual(Options):

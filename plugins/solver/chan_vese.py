@@ -2,16 +2,16 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.images.initial_curves import disc_distance
 from surfexp.variational.models.chan_vese import ChanVese
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import SEGMENTATION_METRICS
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class ChanVeseOptions(Options):

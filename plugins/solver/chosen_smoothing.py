@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.parameter_choice import Rule
@@ -11,7 +12,6 @@ from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.studies.smoothing.chosen_smoothing import SMOOTHING_METRICS, chosen_smoothing
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 Method = Literal[
     "none",

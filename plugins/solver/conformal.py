@@ -6,15 +6,15 @@ from pydantic import Field
 
 from surfexp.baselines.parameter_domain import Parametrized, conformal_domain
 from surfexp.baselines.sphere_grid import sphere_grid_domain
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class Conformal(Options):

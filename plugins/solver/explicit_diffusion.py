@@ -5,14 +5,14 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.calculus import divergence, gradient
 from surfexp.operators.first_ring import ring_divergence, ring_gradient
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 
 class ExplicitDiffusion(Options):

@@ -4,13 +4,13 @@ from functools import partial
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.fista_dual import fista_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class FistaDual(Options):

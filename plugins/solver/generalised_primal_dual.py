@@ -5,14 +5,14 @@ from typing import cast
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.models.tgv import TGV
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_primal_dual import generalised_primal_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class GeneralisedPrimalDual(Options):

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
 from surfexp.variational.surface_flows import geodesic_curvature_flow
-from surfexp.workflow.registry import Options, register
 
 
 class GeodesicCurvatureFlow(Options):

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -12,7 +13,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.variational.surface_flows import heat_flow
 from surfexp.variational.truth_metrics import RESTORATION_METRICS, restoration_metrics
-from surfexp.workflow.registry import Options, register
 
 
 class HeatFlow(Options):

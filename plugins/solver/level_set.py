@@ -7,14 +7,14 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.baselines.level_set import level_set
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class LevelSetOptions(Options):

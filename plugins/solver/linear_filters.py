@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Floats
-from surfexp.metric import Metric
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.heat_polynomial import heat_polynomial
@@ -16,7 +17,6 @@ from surfexp.spectrum.heat_kernel import diffuse
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import RESTORATION_METRICS, restoration_metrics
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "mean_drift": Metric("change of the mean", "unit of the image", "lower"),

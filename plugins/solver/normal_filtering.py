@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.variational.normal_filtering import NormalFiltering
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class NormalFilteringOptions(Options):

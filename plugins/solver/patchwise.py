@@ -7,15 +7,15 @@ from pydantic import Field
 
 from surfexp.baselines.parameter_domain import Parametrized
 from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class Patchwise(Options):

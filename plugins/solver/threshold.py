@@ -5,13 +5,13 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import SEGMENTATION_METRICS, segmentation_metrics
-from surfexp.workflow.registry import Options, register
 
 
 class Threshold(Options):

@@ -2,13 +2,13 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.modes.agreed_signs import agreed_signs
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "agreed": Metric("leading modes that both maps call their own counterpart with the same sign, a pair"),

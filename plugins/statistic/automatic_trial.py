@@ -2,13 +2,13 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.smoothing.automatic_trial import automatic_trial
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "rmse": Metric("root mean square error by area of the automatic choice", "unit of the image", "lower"),

@@ -4,11 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.smoothing.carried_over_mask import carried_over_mask
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "carried": Metric("share of the map's integral that lies over the mask afterwards", "%", "lower"),

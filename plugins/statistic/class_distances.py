@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class ClassDistances(Options):

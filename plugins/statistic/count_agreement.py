@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.count_agreement import count_agreement, largest_change
-from surfexp.workflow.registry import Options, register
 
 
 class Agreement(Options):

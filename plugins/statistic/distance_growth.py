@@ -5,11 +5,11 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
-from surfexp.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
-from surfexp.workflow.registry import Options, register
 
 
 class DistanceGrowth(Options):

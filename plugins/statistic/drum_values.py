@@ -3,13 +3,13 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.drums.drum_values import drum_values
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
 from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
-from surfexp.workflow.registry import Options, register
 
 # modes 9 and 21 are those of the tile itself, reflected: 5 pi^2 / 4 and twice that
 EXACT = {8: 1.25 * np.pi**2, 20: 2.5 * np.pi**2}

@@ -3,15 +3,15 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
+from surfexp.contract.metric import Metric
 from surfexp.embedding.region_separation import region_separation
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class EmbeddedRoundness(Options):

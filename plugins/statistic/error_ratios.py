@@ -2,12 +2,12 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
-from surfexp.metric import Metric, MetricName
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric, MetricName
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.smoothing.error_ratios import error_ratios
 from surfexp.variational.solution import Solution
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "units": Metric("units on which all methods were tried"),

@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
 from surfexp.skeleton.level_selection import choose_levels
@@ -14,7 +15,6 @@ from surfexp.skeleton.published_reeb_graph import published_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import arc_components
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class GenusCheck(Options):

@@ -3,12 +3,12 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class GeodesicErrors(Options):

@@ -2,14 +2,14 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.modes.geometric_modes import mode_reconstruction, reconstruction_differences
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "area {map}, {basis}": Metric("mean accuracy of a map over log of the number of modes", better="higher"),

@@ -3,11 +3,11 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.skeleton.agreement import length_profile, same_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class GraphAgreement(Options):

@@ -4,11 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.group_power import group_power
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class GroupPower(Options):

@@ -1,11 +1,11 @@
 """The heat trace and its expansion, theorem 3.1.2."""
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.heat_expansion import heat_expansion
-from surfexp.workflow.registry import Options, register
 
 
 class HeatExpansion(Options):

@@ -4,12 +4,12 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.member import Member
-from surfexp.metric import Metric
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.fingerprints.identification import identification
-from surfexp.workflow.registry import Options, register
 
 
 class Identification(Options):

@@ -5,13 +5,13 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
 from surfexp.studies.drums.isospectral_graphs import compare_graphs
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, transplantation_pairs
-from surfexp.workflow.registry import Options, register
 
 NAMED = {"gordon_webb_wolpert": "Gordon-Webb-Wolpert drums", "berard": "drums of Berard's transplantation"}
 

@@ -2,13 +2,13 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
-from surfexp.metric import Metric
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.modes.missing_pairs import missing_by_kind, missing_pairs
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "runs": Metric("runs of the usual solver"),

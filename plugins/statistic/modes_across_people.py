@@ -2,14 +2,14 @@
 
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.modes.modes_across_people import modes_of_people, modes_of_twins, pooled
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 METRICS = {
     "pairs": Metric("pairs of surfaces"),

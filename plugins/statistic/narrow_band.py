@@ -4,10 +4,10 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.baselines.level_set import level_set
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
-from surfexp.workflow.registry import Options, register
 
 
 class NarrowBandOptions(Options):

@@ -3,12 +3,12 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.nodal_trend import nodal_trend
-from surfexp.workflow.registry import Options, register
 
 
 class Trend(Options):

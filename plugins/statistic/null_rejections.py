@@ -2,8 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.nulls.variogram import variogram_pairs
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -11,7 +12,6 @@ from surfexp.statistics.statistic import Statistic
 from surfexp.studies.nulls.null_methods import OneSurface
 from surfexp.studies.nulls.null_rejections import Design, null_rejections
 from surfexp.variational.image import Image
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "pairs": Metric("pairs of independent maps"),

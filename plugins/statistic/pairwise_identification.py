@@ -4,15 +4,15 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
 from surfexp.embedding.distance_methods import Pairing
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.member import Member
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.fingerprints.pairwise_identification import pairwise_identification
-from surfexp.workflow.registry import Options, register
 
 
 class PairwiseIdentification(Options):

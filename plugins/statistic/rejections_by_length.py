@@ -1,10 +1,10 @@
 """Rejections of null models against the correlation length."""
 
-from surfexp.member import Member, levels_of
-from surfexp.metric import Metric
+from surfexp.contract.member import Member, levels_of
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.nulls.null_rejections import rejections_by_length
-from surfexp.workflow.registry import Options, register
 
 METRICS = {
     "lengths": Metric("correlation lengths"),

@@ -5,12 +5,12 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.skeleton_study import compactness, group_skeletons, miss_metrics, topology_metrics
-from surfexp.workflow.registry import Options, register
 
 
 class SkeletonStudy(Options):

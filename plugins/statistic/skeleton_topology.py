@@ -3,12 +3,12 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.skeleton.agreement import topology
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.skeleton_study import topology_metrics
-from surfexp.workflow.registry import Options, register
 
 
 class SkeletonTopology(Options):

@@ -4,13 +4,13 @@ from typing import Literal
 
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
-from surfexp.workflow.registry import Options, register
 
 
 class SpectrumError(Options):

@@ -3,16 +3,16 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.sulci.asymmetry import asymmetry_study, measured, power_study
 from surfexp.studies.sulci.fresh_populations import fresh_study
 from surfexp.studies.sulci.length_table import chosen, length_columns, table_of
 from surfexp.studies.sulci.population_study import Table, measure_population
 from surfexp.studies.sulci.sulcal_template import make_template
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class SulcalPopulation(Options):

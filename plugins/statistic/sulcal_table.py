@@ -3,17 +3,17 @@
 import numpy as np
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.sulci.length_table import length_columns
 from surfexp.studies.sulci.population import Side
 from surfexp.studies.sulci.population_study import SIDES
 from surfexp.studies.sulci.sulcal_measurement import DEFAULT, TRUE, measure_sulci
 from surfexp.studies.sulci.sulcal_template import make_template
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 FREESURFER = {"lh": "left", "rh": "right"}
 

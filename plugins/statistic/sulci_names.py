@@ -3,14 +3,14 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.sulci.population import synthetic_subject
 from surfexp.studies.sulci.population_study import name_regions
 from surfexp.studies.sulci.sulcal_template import make_template
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class SulciNames(Options):

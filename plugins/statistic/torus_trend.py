@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.spectrum.torus_modes import torus_modes
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.nodal_trend import nodal_trend
-from surfexp.workflow.registry import Options, register
 
 
 class TorusTrend(Options):

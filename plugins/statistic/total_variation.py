@@ -3,8 +3,9 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.statistic import Statistic
@@ -14,7 +15,6 @@ from surfexp.variational.coarea import (
     jump_variation,
     level_line_length,
 )
-from surfexp.workflow.registry import Options, register
 
 
 class Coarea(Options):

@@ -3,12 +3,12 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.positionwise_comparison import false_positive_share, pointwise_test, widths_along
 from surfexp.studies.skeletons.skeleton_study import group_skeletons
-from surfexp.workflow.registry import Options, register
 
 
 class WidthTest(Options):

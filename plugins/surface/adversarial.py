@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.studies.modes.adversarial_meshes import coarse, side_by_side, with_slivers
-from surfexp.workflow.registry import Options, register
 
 
 class Coarse(Options):

@@ -4,10 +4,10 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.studies.populations.articulated import articulated_body
-from surfexp.workflow.registry import Options, register
 
 
 class Articulated(Options):

@@ -2,10 +2,10 @@
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.studies.callosum.callosum import callosum
-from surfexp.workflow.registry import Options, register
 
 
 class Callosum(Options):

@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.studies.cingulate.average_cingulate import cingulate
-from surfexp.workflow.registry import Options, register
 
 
 class Cingulate(Options):

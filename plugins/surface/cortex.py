@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.shapes.cortex import cortex
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class Cortex(Options):

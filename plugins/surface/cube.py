@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.shapes.cube import cube
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class Cube(Options):

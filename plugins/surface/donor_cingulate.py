@@ -4,10 +4,10 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.studies.cingulate.donor_cingulate import donor_cingulate
-from surfexp.workflow.registry import Options, register
 
 
 class DonorCingulate(Options):

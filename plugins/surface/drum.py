@@ -5,6 +5,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.flat_domain import boundary_angles
 from surfexp.mesh.flat_shapes import Polygon
 from surfexp.mesh.shape_metrics import with_metrics
@@ -13,7 +14,6 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
 from surfexp.studies.drums.isospectral_drums import glued_drum, tile_mesh
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
-from surfexp.workflow.registry import Options, register
 
 
 class DrumOptions(Options):

@@ -8,10 +8,10 @@ from pydantic import Field, model_validator
 
 from surfexp.io.map_files import read_scalars
 from surfexp.io.tosca import shape_files
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.files import read
-from surfexp.workflow.registry import Options, register
 
 
 class File(Options):

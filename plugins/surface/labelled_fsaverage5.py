@@ -9,8 +9,8 @@ from pydantic import Field
 from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.embedding.labels import desikan_killiany
 from surfexp.io.label_files import read_labels
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class LabelledFsaverage5(Options):

@@ -5,9 +5,9 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class MaskedFsaverage5(Options):

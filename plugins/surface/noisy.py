@@ -4,9 +4,9 @@ from typing import Literal
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class Noisy(Options):

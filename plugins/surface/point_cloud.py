@@ -5,8 +5,8 @@ from pathlib import Path
 from pydantic import Field
 
 from surfexp.io.point_cloud import read_points, reconstruct
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class PointCloud(Options):

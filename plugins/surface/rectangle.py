@@ -2,9 +2,9 @@
 
 from pydantic import Field
 
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class Rectangle(Options):

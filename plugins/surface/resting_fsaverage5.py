@@ -5,8 +5,8 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.anatomy.resting_run import resting_fsaverage5
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
 
 
 class RestingFsaverage5(Options):

@@ -9,10 +9,10 @@ from surfexp.baselines.conformal_flow import conformal_flow
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import image_mesh
 from surfexp.baselines.spherical_map import spherical_map
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
-from surfexp.workflow.registry import Options, register
-from surfexp.workflow.stage import report_progress
 
 
 class SphericalMap(Options):

@@ -5,9 +5,9 @@ from typing import Literal
 from pydantic import Field
 
 from surfexp.anatomy.subcortical import subcortical_surface
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
-from surfexp.workflow.registry import Options, register
 
 
 class Subcortical(Options):

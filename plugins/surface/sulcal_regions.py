@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.studies.sulci.sulcal_regions import sulcal_regions
-from surfexp.workflow.registry import Options, register
 
 
 class SulcalRegions(Options):

@@ -5,13 +5,13 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
+from surfexp.contract.metric import Metric
 from surfexp.io.reading import read_mesh
 from surfexp.io.tosca import read_mat, shape_files
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.repair import repair
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
-from surfexp.workflow.registry import Options, register
 
 
 class Tosca(Options):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.anatomy.data_packages import BRAINSPACE, MAPS, SURFACES
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.shape_metrics import with_metrics

@@ -6,7 +6,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.shape_metrics import with_metrics

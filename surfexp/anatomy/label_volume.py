@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import MissingExtra, missing_line
 
 DONORS = ("9861", "10021", "12876", "14380", "15496", "15697")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from surfexp.anatomy.conte69 import SIDES
 from surfexp.anatomy.data_packages import BRAINSPACE, RUN
 from surfexp.anatomy.fsaverage5 import Hemisphere, fsaverage5
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.freesurfer import read_volume_map
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume, label_of, label_volume
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import require_installed
 from surfexp.mesh.remeshing import remesh
 from surfexp.mesh.shape_metrics import with_metrics

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats
 from surfexp.baselines.data_term_transfer import transported
 from surfexp.baselines.narrow_band import Indices, NarrowBand
+from surfexp.contract.arrays import Floats
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 
 WEIGHTED_RADIUS = 3.0

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
 from surfexp.baselines.band_energy import BandEnergy
 from surfexp.baselines.grid_interpolation import GridInterpolation
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import SeparableQuadratic

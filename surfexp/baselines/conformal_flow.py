@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
 from surfexp.baselines.moebius import centred
 from surfexp.baselines.spherical_map import check_sphere
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Fidelity

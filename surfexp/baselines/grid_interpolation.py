@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats
 from surfexp.baselines.narrow_band import Indices, NarrowBand, locate
+from surfexp.contract.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

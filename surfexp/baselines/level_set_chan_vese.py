@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
 from surfexp.baselines.level_set import LevelSet
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive

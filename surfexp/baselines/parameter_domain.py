@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse import csr_array, eye_array
 
-from surfexp.arrays import Floats
 from surfexp.baselines.data_term_transfer import transported
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem

@@ -6,10 +6,10 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from surfexp.arrays import Floats, Integers
 from surfexp.baselines.disk_map import disk_map
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import ParameterDomain, conformal_operator, image_mesh
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 

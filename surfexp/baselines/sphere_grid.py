@@ -6,8 +6,8 @@ import igl
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
 from surfexp.baselines.parameter_domain import ParameterDomain, image_mesh, reweighted
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 

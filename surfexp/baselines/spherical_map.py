@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
 from surfexp.baselines.moebius import centred
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import stiffness

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from surfexp.catalogue.folders import experiments, installed_packages, package_folder
-from surfexp.catalogue.plugins import Catalogue, catalogue
-from surfexp.workflow.configuration import Settings
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.lab.errors import UserError, unknown
+from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.registry.catalogue import Catalogue, catalogue
+from surfexp.lab.registry.folders import experiments, installed_packages, package_folder
 
 EXAMPLES = """\
 examples:

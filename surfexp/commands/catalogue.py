@@ -8,11 +8,11 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.catalogue.folders import experiments
-from surfexp.catalogue.plugins import Catalogue, catalogue
 from surfexp.commands.parser import Parser
-from surfexp.workflow.errors import UserError, check_known, unknown
-from surfexp.workflow.kinds import KINDS
+from surfexp.lab.errors import UserError, check_known, unknown
+from surfexp.lab.registry.catalogue import Catalogue, catalogue
+from surfexp.lab.registry.folders import experiments
+from surfexp.lab.store.kinds import KINDS
 
 START = "Where to start"
 CHAPTERS = {

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from surfexp.catalogue.folders import experiments, plugin_files
-from surfexp.catalogue.plugins import Catalogue, remembered
+from surfexp.lab.registry.catalogue import Catalogue, remembered
+from surfexp.lab.registry.folders import experiments, plugin_files
 
 FIXED = {"mesh": ["check", "repair"], "fetch": ["tosca"]}
 

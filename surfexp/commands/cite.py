@@ -6,12 +6,12 @@ from contextlib import suppress
 from pathlib import Path
 
 from surfexp import __version__
-from surfexp.catalogue.experiment_files import methods_named, read_experiment
-from surfexp.catalogue.plugins import catalogue
 from surfexp.commands.parser import Parser
 from surfexp.commands.views import latest_plan
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.experiment_files import methods_named, read_experiment
+from surfexp.lab.registry.catalogue import catalogue
 from surfexp.report.citation import bibliography
-from surfexp.workflow.errors import UserError
 
 
 def command(name: str, arguments: list[str]) -> int:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from surfexp.commands.execution import hold_results
 from surfexp.commands.parser import Parser
+from surfexp.lab.errors import UserError
+from surfexp.lab.plan.plan import read_plan
 from surfexp.report.overview import is_ours
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import read_plan
 
 # what runs make below a results folder, which may hold other files as well
 MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",

@@ -15,7 +15,7 @@ def shown(name: str, *arguments: str) -> dict[str, Any]:
 
 def run_click(command: click.Command, arguments: list[str]) -> int:
     """Run a command; whatever is wrong with its arguments or files is the user's mistake, in one line."""
-    from surfexp.workflow.errors import UserError
+    from surfexp.lab.errors import UserError
 
     try:
         code = command.main(arguments, prog_name=f"surfexp {command.name}", standalone_mode=False)

@@ -12,7 +12,8 @@ from rich.console import Console
 from rich.progress import track
 
 from surfexp.commands.parser import Parser
-from surfexp.language.collections import (
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.collections import (
     AXIS,
     CLASS_OF_NAME,
     PATTERNS,
@@ -21,8 +22,7 @@ from surfexp.language.collections import (
     name_of_collection,
     unused_columns,
 )
-from surfexp.workflow import registry
-from surfexp.workflow.errors import UserError
+from surfexp.lab.registry import registry
 
 EXAMPLES = """\
 examples:

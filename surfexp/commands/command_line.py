@@ -14,7 +14,7 @@ from surfexp import __version__
 from surfexp.commands import processes
 from surfexp.commands.error_line import error_line, tell
 from surfexp.extras import MissingExtra, missing_line, missing_module
-from surfexp.workflow.errors import StageFailure, UserError, unknown
+from surfexp.lab.errors import StageFailure, UserError, unknown
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "modes": ("surface_commands", "eigenpairs of a surface: surfexp modes SURFACE -k 400 --to modes.npz"),

@@ -51,8 +51,8 @@ def diff(first: str, second: str, results: Path) -> int:
 
 def _row(results: Path, name: str) -> Row:
     from surfexp.commands.exporting.selection import find
+    from surfexp.lab.errors import UserError
     from surfexp.report.table import rows_of
-    from surfexp.workflow.errors import UserError
 
     plan, key = find(results, name)
     found = [row for row in rows_of(plan, results.resolve()) if row.leaf.key == key]

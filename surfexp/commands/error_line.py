@@ -7,7 +7,7 @@ import re
 import sys
 import traceback
 
-from surfexp.workflow.errors import StageFailure
+from surfexp.lab.errors import StageFailure
 
 # with "surfexp: " before it a line has at most 300
 LONGEST_WORD, LONGEST_LINE = 80, 290

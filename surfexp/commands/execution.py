@@ -11,16 +11,17 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from surfexp.catalogue.plugins import code_state
 from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
-from surfexp.workers import compiled_code
-from surfexp.workflow import registry, store
-from surfexp.workflow.errors import StageFailure, UserError, unknown
-from surfexp.workflow.fingerprint import digest
-from surfexp.workflow.outcome import event_path, read_event
-from surfexp.workflow.plan import Node, Plan, read_plan
+from surfexp.lab.errors import StageFailure, UserError, unknown
+from surfexp.lab.plan.fingerprint import digest
+from surfexp.lab.plan.outcome import event_path, read_event
+from surfexp.lab.plan.plan import Node, Plan, read_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.registry.catalogue import code_state
+from surfexp.lab.running import compiled_code
+from surfexp.lab.store import store
 
 HELD = "SURFEXP_HOLDS_RESULTS"
 SECONDS_TO_CANCEL = 15.0
@@ -90,12 +91,12 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
 
 
 def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> None:
-    rules = Path(store.__file__).with_name("rules.smk")
+    rules = Path(compiled_code.__file__).with_name("rules.smk")
     profile = _profile(plan.settings.profile or "default")
     settings = slurm_jobs.settings_of(profile) if plan.settings.profile else {}
     slurm = settings.get("executor") == "slurm"
     cores = 1 if plan.settings.timing else plan.settings.cores or settings.get("cores") or os.cpu_count() or 1
-    command = [sys.executable, "-P", "-m", "surfexp.workers.snakemake", str(os.getpid())]
+    command = [sys.executable, "-P", "-m", "surfexp.lab.running.snakemake", str(os.getpid())]
     command += ["--snakefile", str(rules), "--workflow-profile", str(profile), "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
     command += ["--cores", str(cores), "--config", f"plan={path}"]
@@ -174,9 +175,9 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
         and done.read_text() == state
     ):
         return
-    from surfexp.report.origin import forget_origin, write_origin
+    from surfexp.records.origin import forget_origin, write_origin
+    from surfexp.records.tracking import record
     from surfexp.report.page import write_report  # which draws with matplotlib
-    from surfexp.report.tracking import record
 
     done.unlink(missing_ok=True)
     with _told("the report is not written"):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.catalogue.folders import experiments
 from surfexp.commands.run import plan_and_act
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Plan
+from surfexp.lab.errors import UserError
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.registry.folders import experiments
 
 
 def check_experiment(file: Path) -> str:

@@ -10,8 +10,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.catalogue.experiment_files import methods_named, read_experiment
-from surfexp.catalogue.plugins import Catalogue
+from surfexp.lab.experiment.experiment_files import methods_named, read_experiment
+from surfexp.lab.registry.catalogue import Catalogue
 from surfexp.report.words import duration
 
 # what an experiment draws says little of what it asks

@@ -9,7 +9,7 @@ from typing import Any
 from surfexp.anatomy.data_packages import PACKAGES, DataPackage
 from surfexp.commands.parser import Parser
 from surfexp.extras import require_installed
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 
 # the high-resolution shapes as .vert and .tri (Bronstein, Bronstein and Kimmel 2008)
 COLLECTIONS = {"tosca": "http://tosca.cs.technion.ac.il/data/toscahires-asci.zip"}

@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
-from surfexp.catalogue.folders import experiments
 from surfexp.commands.parser import Parser
-from surfexp.workflow import registry
-from surfexp.workflow.configuration import NAME
-from surfexp.workflow.errors import UserError, unknown
-from surfexp.workflow.kinds import KINDS
+from surfexp.lab.errors import UserError, unknown
+from surfexp.lab.experiment.configuration import NAME
+from surfexp.lab.registry import registry
+from surfexp.lab.registry.folders import experiments
+from surfexp.lab.store.kinds import KINDS
 
 INPUTS = {"surface": (), "image": ("surface",), "operator": ("surface",), "model": (), "figure": ("surface", "solver")}
 ROLES = {"solver": "solution"}

@@ -6,7 +6,7 @@ import webbrowser
 from pathlib import Path
 
 from surfexp.commands.parser import Parser
-from surfexp.workflow.errors import UserError, unknown
+from surfexp.lab.errors import UserError, unknown
 
 
 def command(name: str, arguments: list[str]) -> int:

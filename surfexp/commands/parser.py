@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import NoReturn
 
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 
 
 class Parser(argparse.ArgumentParser):

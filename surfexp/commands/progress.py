@@ -17,8 +17,8 @@ from rich.progress_bar import ProgressBar
 from rich.text import Text
 
 from surfexp.commands.stage_words import stage_words
-from surfexp.workflow.outcome import event_path, read_event
-from surfexp.workflow.plan import Node
+from surfexp.lab.plan.outcome import event_path, read_event
+from surfexp.lab.plan.plan import Node
 
 console = Console(stderr=True)
 # running stages that the live view shows

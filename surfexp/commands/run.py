@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.table import Table
 
-from surfexp.catalogue.experiment_files import check_files, located
-from surfexp.catalogue.planned import place, remember, remembered
 from surfexp.commands.arguments import check_arguments, usage
 from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.commands.several_experiments import apart, each
-from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.lab.errors import StageFailure, UserError
+from surfexp.lab.experiment.experiment_files import check_files, located
+from surfexp.lab.plan.remembered_plans import place, remember, remembered
 
 if TYPE_CHECKING:
-    from surfexp.workflow.plan import Plan
+    from surfexp.lab.plan.plan import Plan
 
 LINES_OF_WARNING = 10
 ROWS_PRINTED = 200
@@ -66,9 +66,9 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
     from hydra.errors import HydraException
     from omegaconf.errors import OmegaConfBaseException
 
+    from surfexp.lab.composition.launch import launch
     from surfexp.report.combination import check_combinations
     from surfexp.report.declared import check_names
-    from surfexp.workflow.launch import launch
 
     plans: list[Plan] = []
 

@@ -17,8 +17,8 @@ def command(name: str, arguments: list[str]) -> int:
     )
     parser.add_argument("--to", type=Path, help="file; default: print it")
     given = parser.parse_args(arguments)
-    from surfexp.language.schema import schema_of
-    from surfexp.workflow import registry
+    from surfexp.lab.experiment.schema import schema_of
+    from surfexp.lab.registry import registry
 
     registry.load_all(Path.cwd())
     text = json.dumps(schema_of(registry.PLUGINS), indent=1)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from surfexp.workflow.plan import Plan
+    from surfexp.lab.plan.plan import Plan
 
 SEED = "hydra.sweeper.sampler.seed"
 
@@ -27,7 +27,7 @@ def repeatable(arguments: list[str]) -> list[str]:
 
 def joined(before: Plan, plan: Plan) -> Plan:
     """Return the plan of all trials so far: rows in the order in which they were asked for."""
-    from surfexp.workflow.plan import Plan
+    from surfexp.lab.plan.plan import Plan
 
     known = {leaf.key for leaf in before.leaves}
     leaves = [*before.leaves, *(leaf for leaf in plan.leaves if leaf.key not in known)]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from surfexp.commands.error_line import tell
 from surfexp.extras import MissingExtra
-from surfexp.workflow.errors import StageFailure, UserError
+from surfexp.lab.errors import StageFailure, UserError
 
 # the worst that happened is what the command ends with
 WORST_FIRST = 1, 2, 3

@@ -16,8 +16,8 @@ from typing import Any
 
 import yaml
 
-from surfexp.workflow.outcome import read_event
-from surfexp.workflow.plan import Node, stored_inputs
+from surfexp.lab.plan.outcome import read_event
+from surfexp.lab.plan.plan import Node, stored_inputs
 
 PAUSE = 20.0
 LEAST_MEMORY, LEAST_MINUTES = 2000.0, 10.0
@@ -188,7 +188,7 @@ def _lines(*command: str) -> list[str]:
 
 def tell_of_ended(log: str, missing: Iterable[Node], results: Path) -> None:
     """Write how the Slurm job ended, from Snakemake's output, of each stage that left no word of its own."""
-    from surfexp.workers.stage_process import write_death
+    from surfexp.lab.running.stage_process import write_death
 
     ended = ended_jobs(log)
     for node in missing:

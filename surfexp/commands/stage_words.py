@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from surfexp.workflow.plan import Node, flat_parameters
+from surfexp.lab.plan.plan import Node, flat_parameters
 
 # beyond so many stages the differences of all are no longer looked for
 MOST_STAGES = 3000

@@ -15,7 +15,7 @@ import click
 from surfexp.commands.certificate import write_certificate
 
 if TYPE_CHECKING:
-    from surfexp.arrays import Floats
+    from surfexp.contract.arrays import Floats
     from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]

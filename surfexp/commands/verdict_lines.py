@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.markup import escape
 
-from surfexp.report.claim import read_claims
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.plan import Plan
 from surfexp.report.table import Row
 from surfexp.report.verdict import Verdict, judge
-from surfexp.workflow.plan import Plan
 
 STYLES = {
     "reproduced": "green",

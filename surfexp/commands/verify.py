@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from surfexp.commands.parser import Parser
-from surfexp.workflow.errors import StageFailure, UserError
-from surfexp.workflow.store import faults
+from surfexp.lab.errors import StageFailure, UserError
+from surfexp.lab.store.store import faults
 
 
 def command(name: str, arguments: list[str]) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from surfexp.commands.parser import Parser
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 
 
 def command(name: str, arguments: list[str]) -> int:

@@ -15,12 +15,12 @@ from rich.table import Table
 
 from surfexp.commands.parser import Parser
 from surfexp.commands.verdict_lines import print_verdicts
+from surfexp.lab.errors import UserError, unknown
+from surfexp.lab.plan.plan import Plan, read_plan
+from surfexp.records.tracking import tracking_uri
 from surfexp.report.repeats import Repeats, repeats_of, spread
 from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
-from surfexp.report.tracking import tracking_uri
 from surfexp.report.words import word
-from surfexp.workflow.errors import UserError, unknown
-from surfexp.workflow.plan import Plan, read_plan
 
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
@@ -48,7 +48,7 @@ def command(name: str, arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
     if name == "report" and given.claims:
-        from surfexp.report.reproduction import reproduction
+        from surfexp.reproduction.page import reproduction
 
         earlier, preface = (path.read_text(encoding="utf-8") if path else "" for path in (given.beside, given.preface))
         print(reproduction(plans, given.results.resolve(), earlier, preface))
@@ -73,9 +73,9 @@ def _tables(plan: Plan, results: Path, form: str) -> None:
         print_tables(groups, wide_console())
         print_verdicts(plan, rows, wide_console())
         return
+    from surfexp.records.origin import read_origin
     from surfexp.report.declared import declared_by
     from surfexp.report.latex import latex_table
-    from surfexp.report.origin import read_origin
 
     experiment = plan.settings.experiment
     made_by = read_origin(results / experiment).get("command", f"surfexp run experiment={experiment}")

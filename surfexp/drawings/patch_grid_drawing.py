@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.camera import View, unit_camera
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, QUIET, canvas, drawn, points

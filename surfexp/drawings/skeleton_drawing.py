@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.camera import View, fit_camera, projected_extent, unit_camera
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours

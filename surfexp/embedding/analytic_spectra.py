@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import eigh_tridiagonal
 from scipy.special import sph_harm_y
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights
 from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import Blocks
 from surfexp.embedding.functional_map import orthogonal_map, vertex_map

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
-from surfexp.metric import Metric
-from surfexp.summary import Summarized, Summary
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.metric import Metric
+from surfexp.contract.summary import Summarized, Summary
 
 
 @dataclass(frozen=True, eq=False, repr=False)

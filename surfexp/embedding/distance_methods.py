@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.nearest import mutual_distances

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 Blocks = tuple[tuple[int, int], ...]
 RELATIVE_GAP = 0.03

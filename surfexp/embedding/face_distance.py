@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.mean_hausdorff import Summary, summarised
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair

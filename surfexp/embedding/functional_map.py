@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
 

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.surface import Surface

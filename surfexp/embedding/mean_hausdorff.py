@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.nearest import BLOCK, mutual_distances, rounding_error
 from surfexp.embedding.sign_search import Signs
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 
 Rule = Literal["skewness", "largest"]
 # a mode has one counterpart at most with more than half of its square, for the target's modes are orthonormal (Bessel)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.functional_map import functional_map, vertex_map
 from surfexp.embedding.mean_hausdorff import HausdorffObjective
 from surfexp.embedding.sign_search import Signs

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.mean_hausdorff import Direction, HausdorffObjective, Summary, Undecided
 from surfexp.embedding.nearest import nearest

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.eigensystem import EigenSystem
 
 Weighting = Literal["global_point", "biharmonic", "heat_kernel", "diffusion"]

@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.eigenvalue_blocks import Blocks
 from surfexp.embedding.mean_hausdorff import Summary
 from surfexp.embedding.nearest import mutual_distances

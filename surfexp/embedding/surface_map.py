@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.functional_map import spectral_icp, vertex_map
 from surfexp.embedding.labels import map_metrics

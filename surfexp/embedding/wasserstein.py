@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.nearest import nearest
 from surfexp.embedding.sign_search import Signs, search_signs

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.typography import points
 
 # Okabe and Ito (2008) without the yellow, which is too light for lines; told apart in every common colour blindness

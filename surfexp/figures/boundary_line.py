@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # where the line is, as a share of the way from the rim to the next vertex inside

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 View = str | tuple[float, float]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.panel_layout import Grid, Layout
 from surfexp.figures.render import SurfaceView

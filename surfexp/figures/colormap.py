@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 # matplotlib's diverging maps: their middle means zero
 DIVERGING = frozenset(

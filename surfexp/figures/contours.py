@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.camera import Camera
 from surfexp.figures.level_set import level_set
 from surfexp.figures.rasterizer import Raster

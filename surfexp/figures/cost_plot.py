@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, vector

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import FONT, add_axes, class_style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, QUIET, canvas, drawn, points, vector

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import COLORS, FONT, add_axes
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import QUIET, canvas, drawn, points, vector

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, canvas, drawn, points, vector

@@ -8,7 +8,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.figures.ambient_occlusion import ambient_occlusion
 from surfexp.figures.camera import Camera, View, fit_camera
 from surfexp.figures.colormap import MISSING, ColorScale

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.figures.camera import Camera
 from surfexp.figures.rasterizer import Raster
 from surfexp.mesh.triangle_mesh import TriangleMesh

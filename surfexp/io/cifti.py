@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.foreign import parsing
 from surfexp.io.numbers import real_array
 from surfexp.mesh.label_map import LabelMap

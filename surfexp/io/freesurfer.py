@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
 from surfexp.io.numbers import real_array
 from surfexp.mesh.triangle_mesh import TriangleMesh

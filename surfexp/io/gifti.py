@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
 from surfexp.io.numbers import real_array
 from surfexp.mesh.label_map import LabelMap

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.io.cifti import is_cifti, read_cifti_labels
 from surfexp.io.foreign import parsing
 from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io import freesurfer
 from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes

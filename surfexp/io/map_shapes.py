@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 def check_map_shapes(maps: Mapping[str, Floats]) -> None:

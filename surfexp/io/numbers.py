@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 
 # areas are products of two lengths: beyond these they overflow or vanish in double precision
 LARGEST_COORDINATE, LARGEST_BYTES = 1e75, 4 << 30

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 
 MESH_SUFFIXES = {".glb", ".gltf", ".fbx", ".3ds", ".dae"}
 POINT_SUFFIXES = {".xyz", ".xyzn", ".xyzrgb", ".pcd", ".pts"}

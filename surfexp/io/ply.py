@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.polygons import triangles_of_strips, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import real_array
 from surfexp.io.open3d_files import import_open3d

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 
 
 def triangulate(polygons: Sequence[Sequence[int]]) -> Integers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io import freesurfer
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import cell
 from surfexp.io.numbers import real_array
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.numbers import index_array
 
 TABLES = (".vert", ".tri")

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.polygons import polygons_between, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

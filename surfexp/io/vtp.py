@@ -10,7 +10,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.polygons import polygons_between, triangulate
 from surfexp.io.vtk import scalar_channels
 from surfexp.io.vtk_xml import VtkXml

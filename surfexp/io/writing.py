@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.freesurfer import hemisphere_of, write_freesurfer_geometry
 from surfexp.io.gifti import write_gifti
 from surfexp.io.npz import write_npz_mesh

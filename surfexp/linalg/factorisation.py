@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import csc_array, sparray
 from scipy.sparse.linalg import splu
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 RESIDUAL_LIMIT = 1e-11
 

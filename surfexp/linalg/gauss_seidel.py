@@ -5,7 +5,7 @@ from __future__ import annotations
 from numba import njit
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 
 
 def gauss_seidel(matrix: csr_array, right_hand_side: Floats, start: Floats, sweeps: int) -> Floats:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, sparray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve import solve_lanes

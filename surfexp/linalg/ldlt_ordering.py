@@ -7,7 +7,7 @@ from numba import njit
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.linalg.ldlt_bisection import POLES, bisect, forget_distances, measure_distances
 from surfexp.linalg.ldlt_leaf import order_leaf
 from surfexp.linalg.ldlt_separator import refine

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.linalg.ldlt_bisection import SEPARATOR
 
 HEAVIEST = 0.6

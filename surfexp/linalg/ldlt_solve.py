@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.linalg.lanes import load, minus_product, quotient, store
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_array, sparray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.linalg.ldlt_ordering import nested_dissection
 
 

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.exact_spectra import sphere_spectrum
 from surfexp.mesh.smooth_shape import SmoothShape
 

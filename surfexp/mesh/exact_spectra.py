@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import jn_zeros, jnp_zeros
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 def sphere_spectrum(count: int, radius: float = 1.0) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import later_copies, repeated_index_faces, zero_area_faces
 

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.curved_shapes import Sphere
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum
 from surfexp.mesh.flat_domain import boundary_angles, is_flat

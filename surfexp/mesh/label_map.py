@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 
 
 @dataclass(frozen=True, eq=False)

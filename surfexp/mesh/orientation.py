@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Mask = NDArray[np.bool_]

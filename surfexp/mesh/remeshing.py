@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.edge_operations import collapse_edges, flip_edges, split_edges
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import boundary_edges

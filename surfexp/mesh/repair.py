@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.face_repair import drop_bad_faces, drop_faces_at_crowded_edges, flip_zero_area_faces
 from surfexp.mesh.orientation import (
     corner_fans,

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 TOLERANCE = 1e-9

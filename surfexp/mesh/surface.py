@@ -8,13 +8,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.metric import Metric
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.metric import Metric
-from surfexp.summary import Summarized, Summary
 
 
 @dataclass(frozen=True, eq=False)

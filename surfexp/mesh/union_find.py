@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 
 
 @njit(cache=True, nogil=True)

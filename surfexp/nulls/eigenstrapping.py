@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.nulls.values_of_map import checked_map, matched_to_values, permuted_values
 
 Rest = Literal["drop", "permute"]

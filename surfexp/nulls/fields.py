@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.geodesic_gaussian import WIDTH_OF_DEVIATION

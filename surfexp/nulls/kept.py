@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.nulls.eigenstrapping import group_powers
 from surfexp.nulls.variogram import VariogramPairs
 

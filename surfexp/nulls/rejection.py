@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 ROUNDING = 1e-12
 DRAWS = 2000

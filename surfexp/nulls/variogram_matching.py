@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.nulls.values_of_map import checked_map, matched_to_values, permuted_values
 from surfexp.nulls.variogram import VariogramPairs
 

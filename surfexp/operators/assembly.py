@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.assembly_pattern import AssemblyPattern, Indices, assembly_pattern
 from surfexp.operators.surface_operator import SurfaceOperator
 

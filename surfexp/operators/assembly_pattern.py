@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 
 Indices = NDArray[np.int32]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import divergence, gradient_matrix
 from surfexp.operators.surface_operator import SurfaceOperator
 

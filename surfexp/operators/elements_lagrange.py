@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import roots_jacobi, roots_legendre
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 ORDERS = (1, 2, 3)
 

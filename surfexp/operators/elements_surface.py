@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_lagrange import LagrangeElement, lagrange_element
 from surfexp.operators.elements_nodes import ElementNodes, flat_positions, number_nodes

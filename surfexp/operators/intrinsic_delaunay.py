@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.edge_flips import flip_to_delaunay, triangle_areas, twin_sides
 from surfexp.operators.fem import check_mesh

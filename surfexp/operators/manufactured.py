@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.mesh.curved_shapes import UP, Sphere, Torus
 from surfexp.mesh.surface import Surface

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.assembly_pattern import AssemblyPattern, assembly_pattern
 
 WITH_GRADIENTS = ("fem", "intrinsic_delaunay", "libigl")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from surfexp.lab.errors import UserError
+from surfexp.lab.plan.plan import Node, Plan
 from surfexp.variational.requirements import SOLVABLE_MODELS, check_combination
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Node, Plan
 
 AS_PUBLISHED = {"split_bregman": "published_split_bregman", "chambolle_dual": "published_chambolle"}
 AVERAGED = "vertex_averaged"

@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surfexp.catalogue.plugins import catalogue
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.plan.outcome import outcome
+from surfexp.lab.plan.plan import Node, Plan
+from surfexp.lab.registry.catalogue import catalogue
+from surfexp.lab.store.kinds import KINDS
 from surfexp.report.declared import declared
 from surfexp.report.table import Comparison, comparisons, rows_of
-from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.outcome import outcome
-from surfexp.workflow.plan import Node, Plan
 
 UNCONVERGED = 3
 # a relative gap of 1: the energy may be as far above the least one as the model's own scale

@@ -8,15 +8,15 @@ from typing import Any
 
 from pydantic.fields import FieldInfo
 
-from surfexp.catalogue.loading import load_known_kinds
-from surfexp.metric import NAMES_METRIC, Metric, find_metric
-from surfexp.report.claim import read_claims
+from surfexp.contract.metric import NAMES_METRIC, Metric, find_metric
+from surfexp.lab.errors import UserError, unknown
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.plan import Leaf, Node, Plan
+from surfexp.lab.registry.loading import load_known_kinds
+from surfexp.lab.registry.registry import names_of, plugin
+from surfexp.lab.store.kinds import KINDS
 from surfexp.report.table import Row
 from surfexp.report.verdict import equal, selected
-from surfexp.workflow.errors import UserError, unknown
-from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import Leaf, Node, Plan
-from surfexp.workflow.registry import names_of, plugin
 
 SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
 

@@ -14,11 +14,11 @@ from typing import Any
 
 from markupsafe import Markup
 
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import store
 from surfexp.report.render import render
 from surfexp.report.table import Row
 from surfexp.report.verdict import Verdict
-from surfexp.workflow import store
-from surfexp.workflow.plan import Plan
 
 FILE = "summary.json"
 PICTURE = re.compile(r"[\w-]+\.(png|svg)")

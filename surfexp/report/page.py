@@ -12,23 +12,23 @@ from typing import Any
 
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
-from surfexp.report.claim import read_claims
+from surfexp.lab.errors import DamagedResult
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import store
+from surfexp.records.origin import read_origin
+from surfexp.records.run_addresses import run_addresses
 from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
 from surfexp.report.drawing import is_still
-from surfexp.report.origin import read_origin
 from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.repeats import Repeats, repeats_of
-from surfexp.report.run_addresses import run_addresses
 from surfexp.report.search import search_of, write_search
 from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
-from surfexp.workflow import store
-from surfexp.workflow.errors import DamagedResult
-from surfexp.workflow.plan import Plan
 
 # beyond these a browser becomes slow; the page says what it leaves out and where it stands
 ROWS_SHOWN, FIGURES_SHOWN, FAILURES_SHOWN = 500, 200, 20

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from surfexp.lab.store import store
 from surfexp.report.table import Row, format_number
-from surfexp.workflow import store
 
 PICTURE = "search.svg"
 WIDTH, HEIGHT = 1000, 430
@@ -78,7 +78,7 @@ def search_of(rows: Sequence[Row], objective: str | None, command: str) -> Searc
     objective : str or None
         The metric.
     command : str
-        As `surfexp.report.origin` notes it.
+        As `surfexp.records.origin` notes it.
     """
     arguments = shlex.split(command)[2:]
     if not objective or not rows or not any(text.startswith("hydra/sweeper=") for text in arguments):

@@ -11,10 +11,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from surfexp.contract.metric import Metric, find_metric
 from surfexp.io.csv_cells import cells
-from surfexp.metric import Metric, find_metric
-from surfexp.workflow.outcome import outcome
-from surfexp.workflow.plan import Leaf, Plan
+from surfexp.lab.plan.outcome import outcome
+from surfexp.lab.plan.plan import Leaf, Plan
 
 # the kinds whose results are given: rows on other data have no common best
 DATA = ("surface", "image")

@@ -8,9 +8,9 @@ from itertools import product
 from statistics import fmean
 from typing import Any
 
-from surfexp.report.claim import Claim
+from surfexp.lab.experiment.claim import Claim
+from surfexp.lab.plan.outcome import NOT_COMPUTED
 from surfexp.report.table import Comparison, Row, format_number
-from surfexp.workflow.outcome import NOT_COMPUTED
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.vertex_star import vertex_stars
 
 Flags = NDArray[np.bool_]

@@ -7,7 +7,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.extras import require_installed
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_star import boundary_edges

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.skeleton.polyline import polyline_length
 from surfexp.skeleton.skeleton import KINDS, Skeleton
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import gradient
 from surfexp.operators.fem import fem

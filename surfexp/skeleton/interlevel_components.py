@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.union_find import find_root
 from surfexp.skeleton.level_contours import LevelContours

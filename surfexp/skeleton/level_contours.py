@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.adjacency import opposite_sides
 from surfexp.skeleton.feature import checked_feature

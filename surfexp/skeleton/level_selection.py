@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.contour_geometry import contour_lengths, representatives, resampled
 from surfexp.skeleton.level_contours import level_contours

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.skeleton.skeleton import CAP, JUNCTION, Skeleton, graph_metrics
 
 Arcs = list[set[int]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.interlevel_components import slab_components
 from surfexp.skeleton.level_contours import level_contours

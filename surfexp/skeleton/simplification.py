@@ -6,7 +6,7 @@ from heapq import heappop, heappush
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.skeleton.exact_reeb_graph import ReebGraph
 
 Neighbours = list[list[list[int]]]

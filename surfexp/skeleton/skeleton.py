@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
-from surfexp.metric import Metric
-from surfexp.summary import Summarized, Summary
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.metric import Metric
+from surfexp.contract.summary import Summarized, Summary
 
 if TYPE_CHECKING:
     import networkx

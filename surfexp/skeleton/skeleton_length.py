@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import choose_levels, distances_between_levels

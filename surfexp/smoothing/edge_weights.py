@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import gradient
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.surface_flows import heat_flow

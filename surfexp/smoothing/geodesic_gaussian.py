@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array, vstack
 from scipy.sparse.csgraph import dijkstra
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.variational.separable_quadratic import check_positive
 

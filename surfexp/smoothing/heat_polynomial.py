@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.special import ive
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.variational.separable_quadratic import check_positive
 
 Rule = Literal["hold_out", "stein", "discrepancy"]

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.dense import factor_above
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, clusters, measure, measured

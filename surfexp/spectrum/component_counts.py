@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.spectrum.counting_function import guess_eigenvalue
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.shifted_pencil import ShiftedPencil

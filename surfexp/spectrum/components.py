@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.spectrum.component_counts import CountedShift, count_at, counted_shift
 from surfexp.spectrum.dense import LARGEST_DENSE_SIZE, dense_pairs
 from surfexp.spectrum.eigensolver_error import EigensolverError

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, clusters, mean_spacing, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil

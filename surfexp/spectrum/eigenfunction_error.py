@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy.special import sph_harm_y
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.exact_spectra import rectangle_spectrum, sphere_spectrum
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.rectangle import rectangle

@@ -8,11 +8,11 @@ from typing import ClassVar
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.metric import Metric
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
-from surfexp.metric import Metric
-from surfexp.summary import Summarized, Summary
 
 SMALLEST_GAP = 1e-6
 COLUMNS_AT_ONCE = 64

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 Condition = Literal["closed", "dirichlet", "neumann"]
 SIGNS = {"closed": 0.0, "dirichlet": -1.0, "neumann": 1.0}

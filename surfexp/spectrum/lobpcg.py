@@ -11,7 +11,7 @@ from scipy.sparse import csc_array, csr_array
 from scipy.sparse.linalg import LinearOperator, spilu
 from scipy.sparse.linalg import lobpcg as scipy_lobpcg
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.eigensystem import EigenSystem, measure, measured
 
 ITERATIONS = 400

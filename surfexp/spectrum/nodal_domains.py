@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_graph import NodalGraph
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, tril
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.operators.elements_nodes import ElementNodes
 
 # small triangles of an element, by its local nodes (see `LagrangeElement.nodes`)

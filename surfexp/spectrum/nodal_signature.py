@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_domains import (
     cluster_averaged_counts,

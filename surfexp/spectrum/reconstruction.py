@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 # beyond this condition of the normed Gram matrix the second pass of Cholesky QR cannot mend the first one
 LARGEST_CONDITION = 1e12

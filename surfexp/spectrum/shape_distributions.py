@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.heat_kernel import heat_kernel_signature
 from surfexp.spectrum.heat_trace import heat_trace

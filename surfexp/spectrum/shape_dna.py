@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 Normalisation = Literal["raw", "area", "volume", "first", "slope"]
 NORMALISATIONS = ("raw", "area", "volume", "first", "slope")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.block_products import multiply_lanes
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt import LDLT

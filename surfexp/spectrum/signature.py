@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 @dataclass(frozen=True, eq=False)

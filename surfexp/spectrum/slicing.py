@@ -9,7 +9,7 @@ from scipy.linalg import eigh
 from scipy.sparse import sparray
 from threadpoolctl import threadpool_limits
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.block_lanczos import BLOCK
 from surfexp.linalg.ldlt import LDLT
 from surfexp.spectrum.counting_function import guess_eigenvalue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.ldlt import LDLT
 from surfexp.spectrum.counting_function import guess_eigenvalue
 from surfexp.spectrum.eigensolver_error import EigensolverError

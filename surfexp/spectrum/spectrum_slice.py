@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.block_lanczos import BLOCK, BlockLanczos
 from surfexp.linalg.ldlt import LDLT
 from surfexp.spectrum.eigensystem import SMALLEST_GAP

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
 from surfexp.operators.elements_patches import patch_positions

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import eigh
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 # waves around the tube beyond those of the last mode, for spectral accuracy of the modes themselves
 MORE_WAVES = 24

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from surfexp.arrays import Integers
-from surfexp.metric import Metric
+from surfexp.contract.arrays import Integers
+from surfexp.contract.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.statistics.classification import Classification
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.resampling import bootstrap_interval, permuted

@@ -7,8 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from surfexp.arrays import Floats
-from surfexp.metric import Metric
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from math import comb
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 
 
 def energy_distance(distances: Floats, first: Integers, second: Integers) -> float:

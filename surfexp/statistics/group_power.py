@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.energy_distance_test import p_value
 from surfexp.statistics.resampling import exact_interval

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import require_installed
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.point_embedding import PointEmbedding

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 
 BOOTSTRAPS = 2000
 CENTRAL = (2.5, 97.5)

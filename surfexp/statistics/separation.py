@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 def separation(distances: Floats, classes: Sequence[str]) -> dict[str, float]:

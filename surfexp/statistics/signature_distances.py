@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from surfexp.arrays import Floats
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.separation import separation

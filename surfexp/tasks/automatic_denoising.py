@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
-from surfexp.summary import Summarized, Summary
+from surfexp.contract.arrays import Floats
+from surfexp.contract.summary import Summarized, Summary
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting

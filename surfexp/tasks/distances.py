@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, Blocks, eigenvalue_blocks
@@ -19,7 +20,6 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 # pairs of points that a search compares at most where no limit is given: about a minute

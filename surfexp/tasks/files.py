@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.label_files import write_labels
 from surfexp.io.map_files import read_maps, read_mask, read_named_labels, write_maps
 from surfexp.io.reading import hemisphere_of_file, read_mesh

@@ -14,12 +14,12 @@ import numpy as np
 from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure_surface, structures_in
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.summary import Summarized, Summary
 from surfexp.tasks.files import PathLike, read
 from surfexp.tasks.inputs import part_for
 

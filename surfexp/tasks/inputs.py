@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh

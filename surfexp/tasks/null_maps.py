@@ -7,7 +7,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
@@ -18,7 +19,6 @@ from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 
 NEIGHBOURS = 1000

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import require_installed
 from surfexp.figures.camera import View
 from surfexp.figures.colormap import ColorScale

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.summary import Summarized, Summary
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import Choice, choose_levels

@@ -11,7 +11,7 @@ import numpy as np
 from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import check_is_fitted
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.tasks.inputs import SurfaceLike
 
 Surfaces = Sequence[SurfaceLike]

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 

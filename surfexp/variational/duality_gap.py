@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import adjoint_gradient, total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Fidelity, Progress

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.solution import Solution
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import block_array, csr_array, diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import Factorisation, factorise
 from surfexp.operators.calculus import gradient_matrix
 from surfexp.operators.crouzeix_raviart import TangentFields, tangent_fields

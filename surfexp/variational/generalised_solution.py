@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.variational.duality_gap import with_certificate
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation

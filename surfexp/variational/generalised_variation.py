@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.crouzeix_raviart import TangentFields
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Certificate

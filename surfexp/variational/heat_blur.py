@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import Factorisation, factorise
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator

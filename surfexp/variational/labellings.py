@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.surface_operator import SurfaceOperator
 
 Mask = NDArray[np.bool_]

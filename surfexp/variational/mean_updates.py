@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.variational.solution import Solution
 
 SETTLED = 1e-4

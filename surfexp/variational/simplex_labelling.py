@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.variational.separable_quadratic import LEAST_SPREAD
 
 

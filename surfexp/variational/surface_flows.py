@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.operators.assembly import assemble, stiffness
 from surfexp.operators.calculus import gradient

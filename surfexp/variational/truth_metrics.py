@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
-from surfexp.metric import Metric
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from surfexp.io.tosca import read_mat
+from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
-from surfexp.workflow import registry
 
 PLUGIN = Path(__file__).resolve().parents[2] / "plugins" / "surface" / "tosca.py"
 

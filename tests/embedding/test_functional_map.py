@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import lstsq
 from scipy.spatial.distance import cdist
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.functional_map import functional_map, orthogonal_map, vertex_map
 from surfexp.embedding.zoomout import refine_with_field, zoomout
 from surfexp.spectrum.eigensystem import EigenSystem

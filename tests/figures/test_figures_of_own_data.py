@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise
 from surfexp.variational.solution import Solution
-from surfexp.workflow import registry
 
 registry.load_all(Path("/nonexistent"))
 SURFACE = icosphere(3)

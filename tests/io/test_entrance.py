@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.catalogue.yaml_files import read_yaml
 from surfexp.io.cifti import write_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import LONGEST_REASON, reading, reason
@@ -17,7 +16,8 @@ from surfexp.io.gifti import write_gifti_maps
 from surfexp.io.label_files import write_labels
 from surfexp.io.map_files import read_maps, read_mask, read_named_labels
 from surfexp.io.reading import read_mesh
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.yaml_files import read_yaml
 
 LONG = b"-" + b"\\" * 300 + b"\x00" * 300
 PLY = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty %s x\nproperty double y\nproperty double z\nelement face 1\n"

@@ -9,8 +9,8 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from surfexp.language.written_out import named, written_out
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.written_out import named, written_out
 
 WORDS = [
     *("surface", "image", "operator", "solver", "distance", "statistic", "figure", "target", "grid", "repeat", "parts"),

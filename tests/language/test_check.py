@@ -10,9 +10,9 @@ import jsonschema
 import pytest
 import yaml
 
-from surfexp.catalogue.folders import experiments
 from surfexp.commands.command_line import main
-from surfexp.language.lines import with_line
+from surfexp.lab.experiment.lines import with_line
+from surfexp.lab.registry.folders import experiments
 
 GOOD = """\
 title: Does the error grow with the noise?

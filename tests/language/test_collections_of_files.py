@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from surfexp.commands.command_line import main
 from surfexp.io.writing import write_mesh
-from surfexp.language.collections import collection_of_files, is_of_files, name_of_collection, unused_columns
+from surfexp.lab.composition.launch import launch
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.collections import collection_of_files, is_of_files, name_of_collection, unused_columns
+from surfexp.lab.plan.plan import Plan
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.launch import launch
-from surfexp.workflow.plan import Plan
 
 FILES = ("ball0.off", "ball1.off", "ring0.off", "ring1.off")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from surfexp.language.schema import _model
+from surfexp.lab.experiment.schema import _model
 
 
 class Inner(BaseModel):

@@ -10,13 +10,13 @@ from typing import Any, get_args
 import pytest
 import yaml
 
-from surfexp.catalogue.folders import experiments
 from surfexp.commands.run import plan_and_act
-from surfexp.language.statements import BELOW, QUANTITIES
-from surfexp.language.written_out import named, written_out
-from surfexp.report.claim import Claim, read_claims
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Plan
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.claim import Claim, read_claims
+from surfexp.lab.experiment.statements import BELOW, QUANTITIES
+from surfexp.lab.experiment.written_out import named, written_out
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.registry.folders import experiments
 
 SHORT = """
 title: Does the error grow with the noise?

@@ -10,12 +10,12 @@ import pytest
 
 import surfexp as sx
 from surfexp.io.label_files import write_labels
+from surfexp.lab.errors import UserError
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface, Truth
-from surfexp.workflow import registry
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 BALL = sx.shape("icosphere", levels=3)

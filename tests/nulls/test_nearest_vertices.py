@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.nulls.nearest_vertices import NearestVertices
 from surfexp.nulls.spins import random_rotations
 

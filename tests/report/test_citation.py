@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.catalogue.experiment_files import methods_named
-from surfexp.catalogue.folders import experiments
 from surfexp.commands import cite
 from surfexp.commands.command_line import main
+from surfexp.lab.experiment.experiment_files import methods_named
+from surfexp.lab.registry import registry
+from surfexp.lab.registry.folders import experiments
 from surfexp.report.citation import ALWAYS, bibliography, cited, references
-from surfexp.workflow import registry
 
 NEEDED = {
     "article": {"author", "title", "journal", "year"},

@@ -7,17 +7,17 @@ from typing import Any
 
 import pytest
 
-from surfexp.language.statements import claims_of
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.experiment.statements import claims_of
+from surfexp.lab.plan.plan import Leaf
+from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
-from surfexp.report.claim import read_claims
-from surfexp.report.reproduction import section
 from surfexp.report.table import Row
 from surfexp.report.verdict import Verdict, judge
-from surfexp.workflow import registry
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Leaf
+from surfexp.reproduction.page import section
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "conf" / "experiment"
 PUBLISHED = {"published": {"table": "2.2", "value": "2"}}

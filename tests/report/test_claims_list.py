@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
-from surfexp.language.statements import claims_of
+from surfexp.lab.experiment.statements import claims_of
 
 ROOT = Path(__file__).resolve().parents[2]
 STATEMENTS: list[dict[str, Any]] = yaml.safe_load((ROOT / "docs" / "claims.yaml").read_text(encoding="utf-8"))[

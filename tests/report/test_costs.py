@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from surfexp.figures.cost_plot import cost_plot
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report.costs import cost_figure
 from surfexp.report.table import Comparison, Row
-from surfexp.workflow.plan import Leaf
 
 
 def row(name: str, tolerance: float, seconds: float, gap: float | None = None, failure: str = "") -> Row:

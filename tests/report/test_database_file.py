@@ -12,9 +12,9 @@ import pytest
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.commands import execution
-from surfexp.report import database_file, tracking
-from surfexp.report.database_file import prepare, schema, unusable
-from surfexp.workflow.plan import Plan
+from surfexp.lab.plan.plan import Plan
+from surfexp.records import database_file, tracking
+from surfexp.records.database_file import prepare, schema, unusable
 
 
 @pytest.fixture(scope="module")
@@ -211,7 +211,7 @@ def test_a_deleted_experiment_is_restored(database: Path, tmp_path: Path) -> Non
     assert len(client.search_runs([experiment.experiment_id])) == 3
 
 
-@pytest.mark.parametrize("part", ["surfexp.report.tracking.record", "surfexp.report.page.write_report"])
+@pytest.mark.parametrize("part", ["surfexp.records.tracking.record", "surfexp.report.page.write_report"])
 def test_neither_the_report_nor_mlflow_stops_a_run(
     cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], part: str
 ) -> None:

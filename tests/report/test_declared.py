@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
-from surfexp.metric import Metric, find_metric
+from surfexp.contract.metric import Metric, find_metric
+from surfexp.lab.composition.launch import plan_for_snakemake
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
 from surfexp.report.declared import check_names, declared
-from surfexp.workflow import registry
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.launch import plan_for_snakemake
-from surfexp.workflow.plan import Plan
-from surfexp.workflow.resolution import make_plan
 
 registry.load_all(Path("/nonexistent"))
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report.latex import WORDS, escape, latex_table, number
 from surfexp.report.table import Comparison, Row
-from surfexp.workflow.plan import Leaf
 
 DECLARED = {"rmse": Metric("root of the mean squared error", "mm", "lower"), "psnr": Metric("", "dB", "higher")}
 

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.metric import Metric, find_metric
+from surfexp.contract.metric import Metric, find_metric
+from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report import page
 from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report
 from surfexp.report.render import prose
 from surfexp.report.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
 from surfexp.report.verdict import _quantity
-from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Leaf
 
 
 def test_text_is_escaped_and_backticks_are_code() -> None:
@@ -132,7 +132,7 @@ def test_work_grows_with_the_rows_and_each_file_is_read_once(tmp_path: Path, mon
 
 
 def test_ratios_lie_between_those_of_the_extremes() -> None:
-    from surfexp.report.claim import Claim
+    from surfexp.lab.experiment.claim import Claim
 
     claim = Claim(claim="c", quantity="ratio", metric="gap", over={"a": 1}, between=(0, 1), because="b")
     random = np.random.default_rng(0)

@@ -14,12 +14,12 @@ from rich.console import Console
 
 from benchmarks.synthetic_results import fill, plan_of
 from surfexp.commands.views import print_tables
-from surfexp.metric import Metric
+from surfexp.contract.metric import Metric
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report.latex import latex_table
 from surfexp.report.page import write_report
 from surfexp.report.repeats import mean_and_deviation, repeats_of
 from surfexp.report.table import Comparison, Row
-from surfexp.workflow.plan import Leaf
 
 METRICS = {"rmse": Metric("error", "mm", "lower"), "psnr": Metric("", "dB", "higher")}
 LEAF = Leaf("key", "", {"target": "solver"})

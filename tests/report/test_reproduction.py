@@ -9,16 +9,18 @@ from typing import Any
 
 import pytest
 
-from surfexp.report import reproduction, stamp
-from surfexp.report.claim import read_claims
-from surfexp.report.reproduction import reproduction as page_of
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
+from surfexp.lab.store.kinds import KINDS
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
-from surfexp.workflow import registry, stage
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.kinds import KINDS
-from surfexp.workflow.plan import Plan
-from surfexp.workflow.resolution import make_plan
+from surfexp.reproduction import page as reproduction
+from surfexp.reproduction import stamp
+from surfexp.reproduction.page import reproduction as page_of
 
 registry.load_all(Path("/nonexistent"))
 STATE = "a" * 20, "b" * 20

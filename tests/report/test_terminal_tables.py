@@ -8,8 +8,8 @@ import pytest
 from rich.console import Console
 
 from surfexp.commands.views import print_tables
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report.table import Comparison, Row, format_number
-from surfexp.workflow.plan import Leaf
 
 NUMBERS = [9.4512e-5, -611.7, 3607872.0, 0.9891, 566211.0, 1.5e8, 20000.0]
 

@@ -15,12 +15,12 @@ import pytest
 import sqlalchemy
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.report import run_database, tracking
+from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import store
+from surfexp.records import run_database, tracking
+from surfexp.records.run_addresses import run_addresses
 from surfexp.report.page import write_report
-from surfexp.report.run_addresses import run_addresses
-from surfexp.workflow import store
-from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Plan
 
 OWN = {"current": "true", "failure": ""}
 

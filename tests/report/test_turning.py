@@ -16,6 +16,9 @@ from hypothesis.extra import numpy as arrays
 from turning_page import results_of, torus, turning_page, turning_plan
 
 import surfexp.figures.shading as shading
+from surfexp.lab.composition.launch import launch
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import store
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.report.turning import scene as scene_module
 from surfexp.report.turning.fields import MODES, feature_field, image_fields, mode_field
@@ -28,9 +31,6 @@ from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow import store
-from surfexp.workflow.launch import launch
-from surfexp.workflow.plan import Plan
 
 TEMPLATES = Path(scene_module.__file__).parents[1] / "templates"
 VIEWER = Path(__file__).resolve().parents[2] / "viewer"

@@ -9,8 +9,8 @@ from typing import Any, cast
 from rich.console import Console
 
 from surfexp.commands.verdict_lines import STYLES, print_verdicts
+from surfexp.lab.plan.plan import Leaf, Plan
 from surfexp.report.table import Row
-from surfexp.workflow.plan import Leaf, Plan
 
 CLAIM: dict[str, Any] = {"quantity": "all", "metric": "energy", "rows": {}, "because": "why not"}
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.figures.figure import Figure
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import store
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.report.page import write_report
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow import store
-from surfexp.workflow.plan import Plan
 
 STILL = Figure(np.full((60, 80, 3), (10, 200, 30), np.uint8), "The still picture.", "Denoising")
 

@@ -14,6 +14,7 @@ import pytest
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
+from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.planar_patch import clean_mask, triangulate_mask
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.strip import strip, y_patch
@@ -36,7 +37,6 @@ from surfexp.studies.skeletons.skeleton_study import (
     miss_metrics,
     topology_metrics,
 )
-from surfexp.workflow import registry
 
 
 @pytest.mark.parametrize("seed", [0, 7, 15])

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.strip import strip
 from surfexp.mesh.surface import Surface
@@ -18,7 +19,6 @@ from surfexp.skeleton.level_selection import area_below, choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton_length import skeleton_lengths
 from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
-from surfexp.workflow import registry
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh
 COSINE = -np.cos(np.pi * FLAT.vertices[:, 0] / 5.0)

@@ -33,7 +33,7 @@ from pathlib import Path
 import numpy as np
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 
 class Nothing(Options):
     pass

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.smoothing.methods import Methods

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.linalg import eigh
 from scipy.sparse import block_diag, csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus

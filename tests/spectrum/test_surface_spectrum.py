@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
 from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shapes.disk import disk

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from sklearn.metrics import silhouette_score
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings

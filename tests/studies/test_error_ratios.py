@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.studies.smoothing.error_ratios import error_ratios, median_ratio, verdict
 from surfexp.variational.solution import Solution
 

@@ -8,10 +8,10 @@ from scipy.linalg import eigh
 
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.anatomy.subcortical import surface_of_label
+from surfexp.contract.member import Member
 from surfexp.embedding.distance_methods import Pairing
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.figures.grouped_intervals import grouped_intervals
-from surfexp.member import Member
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.icosphere import icosphere

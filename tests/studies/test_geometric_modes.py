@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix

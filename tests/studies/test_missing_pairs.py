@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus

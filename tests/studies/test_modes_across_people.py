@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from surfexp.contract.member import Member
 from surfexp.embedding.mode_pairs import ModePairs
-from surfexp.member import Member
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.surface import Surface

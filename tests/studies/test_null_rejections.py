@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.nulls.fields import gaussian_fields

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.contract.summary import Summary
 from surfexp.experiments import ExperimentRun
 from surfexp.mesh.surface import Surface
-from surfexp.summary import Summary
 from surfexp.tasks.fingerprints import Fingerprints
 
 SPHERE = sx.shape("icosphere", levels=2)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 from torture.fuzzing import CORPUS, EXPERIMENT, judged, targets
 from torture.laboratory import EXPERIMENT as SMALL
 from torture.sound_files import write_sound_files

@@ -192,8 +192,8 @@ def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -
     "victim",
     [
         pytest.param("surfexp.commands.command_line", marks=pytest.mark.slow),
-        pytest.param("surfexp.workers.snakemake", marks=pytest.mark.slow),
-        pytest.param("surfexp.workers.stage_server", marks=pytest.mark.slow),
+        pytest.param("surfexp.lab.running.snakemake", marks=pytest.mark.slow),
+        pytest.param("surfexp.lab.running.stage_server", marks=pytest.mark.slow),
     ],
 )
 def test_kill_in_the_middle_and_the_next_run_continues(laboratory: Path, victim: str) -> None:

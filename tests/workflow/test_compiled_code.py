@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.workers import compiled_code
+from surfexp.lab.running import compiled_code
 
 PROGRAM = """
 import sys
-from surfexp.workers import compiled_code
+from surfexp.lab.running import compiled_code
 compiled_code.use("state")
 sys.path.insert(0, sys.argv[1])
 import function
@@ -88,7 +88,7 @@ def test_a_full_disk_is_no_failure(cache: Path, tmp_path: Path) -> None:
 
 
 def test_two_processes_that_compile_for_two_signatures_write_two_files(cache: Path, tmp_path: Path) -> None:
-    from surfexp.workers.numba_cache import CheckedFiles
+    from surfexp.lab.running.numba_cache import CheckedFiles
 
     first, second = (CheckedFiles(str(tmp_path), "function", "stamp") for _ in range(2))
     write = first._save_data

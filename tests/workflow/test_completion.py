@@ -14,10 +14,10 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.catalogue.plugins import Catalogue, Described
-from surfexp.catalogue.user_cache import Memory
 from surfexp.commands import choices
 from surfexp.commands.command_line import COMMANDS, main
+from surfexp.lab.registry.catalogue import Catalogue, Described
+from surfexp.lab.user_cache import Memory
 
 BREAKS = " \t\n\"'@><=;|&(:"
 HEAVY = {"numpy", "scipy", "numba", "hydra", "pydantic", "snakemake", "mlflow", "rich"}
@@ -166,8 +166,8 @@ def test_the_scripts_are_those_of_the_shells(capsys: pytest.CaptureFixture[str])
 
 
 def test_the_memory_of_the_catalogue_keeps_its_latest_states(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("surfexp.catalogue.user_cache.user_cache", lambda part: tmp_path / part)
-    monkeypatch.setattr("surfexp.catalogue.user_cache.atexit.register", lambda function: function)
+    monkeypatch.setattr("surfexp.lab.user_cache.user_cache", lambda part: tmp_path / part)
+    monkeypatch.setattr("surfexp.lab.user_cache.atexit.register", lambda function: function)
     for number in range(5):
         memory = Memory("states", 3)
         memory.put(f"state {number}", number)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from surfexp.commands.command_line import main
 from surfexp.commands.error_line import LONGEST_LINE, error_line
-from surfexp.workflow.errors import unknown
+from surfexp.lab.errors import unknown
 
 
 def test_a_long_value_is_cut_and_a_path_is_not() -> None:

@@ -12,16 +12,18 @@ import pytest
 
 from surfexp.commands import execution
 from surfexp.commands import run as run_command
-from surfexp.metric import Metric
-from surfexp.report.claim import read_claims
+from surfexp.contract.metric import Metric
+from surfexp.lab.errors import StageFailure, UserError
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
+from surfexp.lab.store import store
 from surfexp.report.convergence import reason, unconverged
 from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
-from surfexp.workflow import registry, stage, store
-from surfexp.workflow.errors import StageFailure, UserError
-from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Plan
-from surfexp.workflow.resolution import make_plan
 
 CONFIGURATION = {
     "experiment": "toy",
@@ -226,7 +228,7 @@ def test_a_row_that_did_not_converge_is_named_and_ends_with_3(
     target: str,
 ) -> None:
     plan = loose(tmp_path, target, **options)
-    monkeypatch.setattr("surfexp.workflow.launch.launch", lambda arguments, action: action(plan))
+    monkeypatch.setattr("surfexp.lab.composition.launch.launch", lambda arguments, action: action(plan))
     monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
     assert run_command.command("run", []) == 3
     (line,) = capsys.readouterr().err.splitlines()
@@ -237,7 +239,7 @@ def test_a_row_that_did_not_converge_is_named_and_ends_with_3(
 def test_a_run_within_its_bounds_ends_with_0(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
     # the second row says that it converged: by a bound of its own, such as the change of a published iteration
     plan = loose(tmp_path, gap=1e-3, tolerance=1e-4)
-    monkeypatch.setattr("surfexp.workflow.launch.launch", lambda arguments, action: action(plan))
+    monkeypatch.setattr("surfexp.lab.composition.launch.launch", lambda arguments, action: action(plan))
     monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
     assert run_command.command("run", []) == 0
     assert unconverged(plan, tmp_path / "results") == []

@@ -28,6 +28,14 @@ from surfexp.figures.figure import Figure
 from surfexp.io.csv_cells import cell
 from surfexp.io.label_files import read_labels
 from surfexp.io.reading import read_mesh
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.plan.fingerprint import digest
+from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.store.kinds import KINDS, stage_kind
+from surfexp.lab.store.store import save
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
@@ -43,14 +51,6 @@ from surfexp.statistics.point_embedding import PointEmbedding
 from surfexp.statistics.statistic import Statistic
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
-from surfexp.workflow import registry
-from surfexp.workflow.configuration import Settings
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.fingerprint import digest
-from surfexp.workflow.kinds import KINDS, stage_kind
-from surfexp.workflow.plan import Leaf, Node, Plan, flat_parameters
-from surfexp.workflow.resolution import make_plan
-from surfexp.workflow.store import save
 
 RNG = np.random.default_rng(1)
 LABELS, CLASSES = ("../../evil", ".hidden", "Zoë, b"), ("a", "a", "b")
@@ -306,7 +306,7 @@ class Thickness:
 def test_a_kind_of_ones_own_leaves_as_arrays_and_metrics(
     laboratory: Laboratory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("surfexp.workflow.kinds.KINDS", KINDS)
+    monkeypatch.setattr("surfexp.lab.store.kinds.KINDS", KINDS)
     stage_kind("toy_thickness", Thickness)
     try:
         result = Thickness(np.arange(3.0), {"../up": np.ones(2)}, {"mean": 1 / 3, "odd": float("nan")})
@@ -446,8 +446,8 @@ def test_one_run_is_exported_by_the_key_of_its_row(
 def test_a_run_of_the_dashboard_is_exported_by_its_id(laboratory: Laboratory, sphere: Surface, tmp_path: Path) -> None:
     from mlflow.tracking import MlflowClient
 
+    from surfexp.records.tracking import record
     from surfexp.report.page import write_report
-    from surfexp.report.tracking import record
 
     surface = laboratory.stage("surface", "ball", sphere)
     laboratory.leaf(surface, surface__name="ball")

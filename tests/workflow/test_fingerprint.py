@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from surfexp import source_code
-from surfexp.workflow import fingerprint
+from surfexp.lab.plan import fingerprint, source_code
 
 
 @pytest.fixture
@@ -60,7 +59,7 @@ def test_only_meaning_counts(package: Path) -> None:
 
 
 def test_the_framework_is_not_part_of_a_key() -> None:
-    import surfexp.workflow.registry as registry
+    import surfexp.lab.registry.registry as registry
 
     plugins = registry.package_folder("surfexp.plugins")
     files, packages = fingerprint.code_closure(plugins / "operator" / "fem.py")
@@ -74,7 +73,7 @@ def test_the_framework_is_not_part_of_a_key() -> None:
 
 
 def test_nothing_that_shows_results_is_part_of_any_key() -> None:
-    from surfexp.workflow import registry
+    from surfexp.lab.registry import registry
 
     registry.load_all(Path("/nonexistent"))
     shown = {fingerprint.PACKAGE / room for room in ("report", "commands", "catalogue", "workers")}
@@ -223,7 +222,7 @@ def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> N
 
 
 def test_every_plugin_of_the_package_is_told_apart() -> None:
-    from surfexp.workflow import registry
+    from surfexp.lab.registry import registry
 
     registry.load_all(Path("/nonexistent"))
     shipped = registry.package_folder("surfexp.plugins")

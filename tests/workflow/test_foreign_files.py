@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 
 import surfexp as sx
-from surfexp import result_tree
 from surfexp.commands import execution
 from surfexp.commands.clean import command as clean
-from surfexp.hydra_guard import refuse_code
-from surfexp.workflow import launch
-from surfexp.workflow.configuration import settings_of
-from surfexp.workflow.errors import DamagedResult, UserError
-from surfexp.workflow.plan import Plan
+from surfexp.lab.composition import launch
+from surfexp.lab.composition.hydra_guard import refuse_code
+from surfexp.lab.errors import DamagedResult, UserError
+from surfexp.lab.experiment.configuration import settings_of
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.store import result_tree
 
 RAN = "import pathlib; pathlib.Path(r'{}').touch()\n"
 
@@ -36,7 +36,7 @@ def test_a_stored_class_of_a_foreign_package_is_not_imported(evil: Path) -> None
         result_tree.decoded({"class": "evil:X", "fields": {}}, {})
     assert not evil.exists()
     with pytest.raises(DamagedResult, match="is not a dataclass"):
-        result_tree.decoded({"class": "surfexp.workflow.store:save", "fields": {}}, {})
+        result_tree.decoded({"class": "surfexp.lab.store.store:save", "fields": {}}, {})
 
 
 def test_a_plan_of_others_loads_no_file_that_it_names(evil: Path, tmp_path: Path) -> None:

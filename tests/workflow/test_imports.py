@@ -25,11 +25,11 @@ def call(*arguments: str) -> str:
 
 
 def test_a_stage_imports_no_laboratory(tmp_path: Path) -> None:
-    assert not loaded_by("import surfexp.workflow.stage", cwd=tmp_path) & LABORATORY
+    assert not loaded_by("import surfexp.lab.running.stage", cwd=tmp_path) & LABORATORY
 
 
 def test_a_warm_process_imports_no_laboratory_but_what_plugins_need(tmp_path: Path) -> None:
-    assert not loaded_by("import surfexp.workers.stage_server", cwd=tmp_path) & LABORATORY
+    assert not loaded_by("import surfexp.lab.running.stage_server", cwd=tmp_path) & LABORATORY
 
 
 @pytest.mark.parametrize(

@@ -12,10 +12,13 @@ import pytest
 
 from surfexp.io.map_files import read_scalars
 from surfexp.io.writing import write_mesh
+from surfexp.lab.plan import fingerprint, outcome
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
+from surfexp.lab.store import store
 from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.workflow import fingerprint, outcome, registry, stage, store
-from surfexp.workflow.plan import Plan
-from surfexp.workflow.resolution import make_plan
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 

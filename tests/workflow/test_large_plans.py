@@ -9,12 +9,13 @@ from typing import Any
 
 import pytest
 
-from surfexp.catalogue import planned
-from surfexp.workflow import registry, resolution
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.fingerprint import file_digest
-from surfexp.workflow.plan import Plan, read_plan
-from surfexp.workflow.resolution import _Resolver, make_plan
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan import remembered_plans as planned
+from surfexp.lab.plan import resolution
+from surfexp.lab.plan.fingerprint import file_digest
+from surfexp.lab.plan.plan import Plan, read_plan
+from surfexp.lab.plan.resolution import _Resolver, make_plan
+from surfexp.lab.registry import registry
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 
@@ -194,7 +195,7 @@ def test_the_code_of_plugins_outside_of_packages_is_read_again(cache: Path, monk
     plan, arguments = toy_plan(), ["experiment=toys"]
     remember(arguments, plan)
     assert remembered(arguments) == plan
-    monkeypatch.setattr("surfexp.workflow.fingerprint.code_digest", lambda file, function: "edited")
+    monkeypatch.setattr("surfexp.lab.plan.fingerprint.code_digest", lambda file, function: "edited")
     assert remembered(arguments) is None
 
 

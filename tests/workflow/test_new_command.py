@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands.new import command
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.kinds import KINDS
+from surfexp.lab.errors import UserError
+from surfexp.lab.store.kinds import KINDS
 
 OWN = sorted(name for name, kind in KINDS.items() if kind.path.startswith("surfexp."))
 

@@ -8,13 +8,13 @@ import pytest
 import yaml
 
 from surfexp.io.writing import write_mesh
+from surfexp.lab.composition.launch import launch
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.own_data import CLAIMS_LEFT_OUT, with_collections, without_foreign_words
+from surfexp.lab.plan.plan import Plan
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.own_data import CLAIMS_LEFT_OUT, with_collections, without_foreign_words
 from surfexp.report.page import write_report
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.launch import launch
-from surfexp.workflow.plan import Plan
 
 EXPERIMENT = {
     "experiment": "cup",

@@ -9,11 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.workflow import outcome, registry, stage, store
-from surfexp.workflow.configuration import expand
-from surfexp.workflow.errors import UserError
-from surfexp.workflow.plan import Plan, read_plan, stored_inputs
-from surfexp.workflow.resolution import make_plan
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan import outcome
+from surfexp.lab.plan.plan import Plan, read_plan, stored_inputs
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
+from surfexp.lab.store import store
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 CHAIN = {
@@ -235,7 +238,7 @@ def test_where_clocks_matter_the_median_of_calls_after_the_first_counts(
 
 def test_no_stage_kind_needs_a_plus_on_the_command_line(working_folder: Path) -> None:
     """`operator=` is in the list of Hydra's defaults and `eigensolver=` is not: nobody should have to know."""
-    from surfexp.workflow.launch import launch
+    from surfexp.lab.composition.launch import launch
 
     plans: list[Plan] = []
     launch(["experiment=spectral_mds", "eigensolver=arpack", "operator=fem"], plans.append)

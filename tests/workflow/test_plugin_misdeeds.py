@@ -7,15 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.catalogue import contained, plugins
-from surfexp.catalogue.contained import contained_description
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
+from surfexp.lab.registry import catalogue as plugins
+from surfexp.lab.registry import contained
+from surfexp.lab.registry.contained import contained_description
 
 GOOD = '''"""A plugin that works."""
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 
 
 class Well(Options):

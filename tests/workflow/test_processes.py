@@ -84,7 +84,7 @@ def test_what_outlives_snakemake_is_ended_with_it(tmp_path: Path) -> None:
 def test_a_stage_dies_with_the_process_that_started_it() -> None:
     alive, hold = os.pipe()
     ready, tell = os.pipe()
-    stage = "from surfexp.workers.lifetime import die_with_parent; import os, time; die_with_parent(os.getppid())"
+    stage = "from surfexp.lab.running.lifetime import die_with_parent; import os, time; die_with_parent(os.getppid())"
     stage += f"; os.write({tell}, b'1')"
     parent = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {stage + '; time.sleep(1e5)'!r}], close_fds=False)"
     for end in (hold, tell):
@@ -100,7 +100,7 @@ def test_a_stage_dies_with_the_process_that_started_it() -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells a process of its parent's death")
-@pytest.mark.parametrize("module", ["surfexp.workers.snakemake", "surfexp.workers.stage_server"])
+@pytest.mark.parametrize("module", ["surfexp.lab.running.snakemake", "surfexp.lab.running.stage_server"])
 def test_a_process_whose_parent_died_while_it_was_starting_ends(module: str) -> None:
     """Its imports take seconds, in which whoever started it may be killed: an orphan is another one's child by then."""
     begin = f"import subprocess, sys, os; subprocess.Popen([sys.executable, '-m', {module!r}, *sys.argv[1:], str(os.getpid())"

@@ -15,8 +15,8 @@ from rich.console import Console
 
 from surfexp.commands.progress import Progress, _view, clock
 from surfexp.commands.stage_words import LONGEST, stage_words
-from surfexp.workflow.outcome import event_path
-from surfexp.workflow.plan import Node
+from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.plan import Node
 
 
 def node(key: str, plugin: str, kind: str = "solver", inputs: dict[str, str] | None = None, **options: object) -> Node:

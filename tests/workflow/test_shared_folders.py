@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from surfexp.commands import execution
+from surfexp.lab.store import store
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow import store
 
 SURFACE = Surface(TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
 

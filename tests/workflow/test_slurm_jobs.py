@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands import slurm_jobs
-from surfexp.workers.stage_process import death
-from surfexp.workflow.plan import Node
-from surfexp.workflow.registry import package_folder
+from surfexp.lab.plan.plan import Node
+from surfexp.lab.registry.registry import package_folder
+from surfexp.lab.running.stage_process import death
 
 LOG = """\
 Job 16 has been submitted with SLURM jobid 110 (log: /w/.snakemake/slurm_logs/rule_solver/a4/110.log).

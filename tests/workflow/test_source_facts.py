@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from surfexp import source_code
-from surfexp.catalogue import source_facts, user_cache
-from surfexp.catalogue.source_facts import SourceFacts
-from surfexp.catalogue.user_cache import Memory
-from surfexp.workflow import fingerprint, registry
+from surfexp.lab import user_cache
+from surfexp.lab.plan import fingerprint, source_code, source_facts
+from surfexp.lab.plan.source_facts import SourceFacts
+from surfexp.lab.registry import registry
+from surfexp.lab.user_cache import Memory
 
 
 @pytest.fixture

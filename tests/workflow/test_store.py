@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_array
 
+from surfexp.lab.errors import DamagedResult
+from surfexp.lab.store import store
+from surfexp.lab.store.kinds import stage_kind
+from surfexp.lab.store.result_tree import encoded
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.result_tree import encoded
-from surfexp.workflow import store
-from surfexp.workflow.errors import DamagedResult
-from surfexp.workflow.kinds import stage_kind
 
 KEY = "ab" * 10
 

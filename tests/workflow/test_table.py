@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from surfexp.lab.plan.plan import Leaf
 from surfexp.report.table import Comparison, Row
-from surfexp.workflow.plan import Leaf
 
 
 def row(metrics: dict[str, float] | None = None, **parameters: Any) -> Row:

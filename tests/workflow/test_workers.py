@@ -14,18 +14,19 @@ from typing import Any
 import pytest
 from numba.core.dispatcher import Dispatcher
 
-from surfexp.workers.recall import Recall
-from surfexp.workers.stage_process import death
-from surfexp.workflow import registry, store
-from surfexp.workflow.outcome import read_event
-from surfexp.workflow.plan import Plan
-from surfexp.workflow.resolution import make_plan
+from surfexp.lab.plan.outcome import read_event
+from surfexp.lab.plan.plan import Plan
+from surfexp.lab.plan.resolution import make_plan
+from surfexp.lab.registry import registry
+from surfexp.lab.running.recall import Recall
+from surfexp.lab.running.stage_process import death
+from surfexp.lab.store import store
 
 ENDS = """
 import os, signal, sys
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.workflow.registry import Options, register
+from surfexp.lab.registry.registry import Options, register
 import numba
 import numpy as np
 
@@ -86,7 +87,7 @@ class Server:
     def __init__(self, plan: Plan, path: Path) -> None:
         self.logs = path.parent.parent / "logs"
         state = next(iter(plan.nodes.values())).cache
-        command = [sys.executable, "-m", "surfexp.workers.stage_server", str(path), state, str(os.getpid())]
+        command = [sys.executable, "-m", "surfexp.lab.running.stage_server", str(path), state, str(os.getpid())]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def ask(self, keys: list[str]) -> dict[str, dict[str, Any]]:
@@ -129,7 +130,7 @@ def test_a_stage_that_dies_is_named_and_the_others_go_on(results: Path) -> None:
 def test_a_stage_alone_is_named_as_well(results: Path) -> None:
     plan, path = plan_of(results, ("signal", 11.0))
     (leaf,) = plan.leaves
-    command = [sys.executable, "-m", "surfexp.workers.stage_process", str(path), leaf.key]
+    command = [sys.executable, "-m", "surfexp.lab.running.stage_process", str(path), leaf.key]
     assert subprocess.run(command, capture_output=True).returncode == 1
     assert "signal 11 (SIGSEGV)" in read_event(results, "surface", leaf.key)["failure"]
 

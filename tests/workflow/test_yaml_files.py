@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.catalogue.folders import experiments
-from surfexp.catalogue.yaml_files import check_variants, read_yaml
 from surfexp.commands.command_line import main
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.yaml_files import check_variants, read_yaml
+from surfexp.lab.registry.folders import experiments
 
 BOMB = "a0: &a0 [x, x]\n" + "".join(f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9)}]\n" for k in range(1, 9))
 MISTAKES = {

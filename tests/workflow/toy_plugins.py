@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from pydantic import Field
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.store.kinds import stage_kind
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.metric import Metric
 from surfexp.variational.solution import Solution
-from surfexp.workflow.kinds import stage_kind
-from surfexp.workflow.registry import Options, register
 
 
 @dataclass(frozen=True, eq=False)

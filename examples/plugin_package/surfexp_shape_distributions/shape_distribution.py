@@ -3,10 +3,10 @@
 import numpy as np
 from pydantic import Field
 
+from surfexp.contract.metric import Metric
+from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
-from surfexp.metric import Metric
 from surfexp.spectrum.signature import Signature
-from surfexp.workflow.registry import Options, register
 from surfexp_shape_distributions.distances import distance_quantiles
 
 

@@ -11,7 +11,7 @@ from types import TracebackType
 from typing import Any
 
 from surfexp.io.csv_cells import cell, cells
-from surfexp.workflow.errors import UserError
+from surfexp.lab.errors import UserError
 
 INDEX = "index.csv"
 FIRST = ("file", "kind", "plugin", "comparison", "label")

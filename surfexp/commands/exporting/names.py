@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.commands.exporting.selection import upstream
+from surfexp.lab.plan.plan import Plan
 from surfexp.report.table import comparisons, rows_of
-from surfexp.workflow.plan import Plan
 
 TITLE, VALUE, STEM = 24, 28, 80
 

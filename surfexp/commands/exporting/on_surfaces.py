@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
 from surfexp.commands.exporting.names import slug
 from surfexp.commands.exporting.writers import Place, arrays_of, maps_of, write, write_arrays, write_csv
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.gifti import write_gifti, write_gifti_labels
 from surfexp.io.label_files import label_colors
 from surfexp.io.map_files import write_maps

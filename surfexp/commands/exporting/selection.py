@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from surfexp.catalogue.folders import experiments
-from surfexp.catalogue.loading import load_known_kinds
 from surfexp.commands.views import latest_plan
-from surfexp.report.tracking import tracking_uri
-from surfexp.workflow.errors import UserError, check_known, unknown
-from surfexp.workflow.plan import Node, Plan, read_plan
+from surfexp.lab.errors import UserError, check_known, unknown
+from surfexp.lab.plan.plan import Node, Plan, read_plan
+from surfexp.lab.registry.folders import experiments
+from surfexp.lab.registry.loading import load_known_kinds
+from surfexp.records.tracking import tracking_uri
 
 ON_VERTICES = ("surface", "image", "feature")
 KEY, RUN = re.compile(r"[0-9a-f]{8,20}"), re.compile(r"[0-9a-f]{32}")

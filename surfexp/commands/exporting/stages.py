@@ -18,11 +18,11 @@ from surfexp.commands.exporting.names import Named, names_of
 from surfexp.commands.exporting.selection import surfaces_of
 from surfexp.commands.exporting.sulci import TABLE, write_sulci
 from surfexp.commands.exporting.writers import Place, maps_of, write
+from surfexp.lab.errors import DamagedResult
+from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
+from surfexp.lab.plan.plan import Node, Plan
+from surfexp.lab.store import store
 from surfexp.mesh.surface import Surface
-from surfexp.workflow import store
-from surfexp.workflow.errors import DamagedResult
-from surfexp.workflow.outcome import NOT_COMPUTED, Outcome, outcome
-from surfexp.workflow.plan import Node, Plan
 
 
 class Export:

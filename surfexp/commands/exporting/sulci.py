@@ -7,8 +7,8 @@ from pathlib import Path
 
 from surfexp.commands.exporting.names import slug
 from surfexp.commands.exporting.writers import Place
-from surfexp.workflow import store
-from surfexp.workflow.plan import Node, Plan
+from surfexp.lab.plan.plan import Node, Plan
+from surfexp.lab.store import store
 
 TABLE = ("statistic", "sulcal_table")
 

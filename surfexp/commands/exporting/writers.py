@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import issparse
 
-from surfexp.arrays import Floats
 from surfexp.commands.exporting.folder import ExportFolder
+from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import cells
 from surfexp.mesh.surface import Surface
 

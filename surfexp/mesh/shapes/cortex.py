@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.remeshing import remesh
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere

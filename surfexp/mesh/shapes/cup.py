@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.implicit_surface import mesh_implicit, smooth_intersection, smooth_union
 from surfexp.mesh.surface import Surface

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.flat_shapes import Disk
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface

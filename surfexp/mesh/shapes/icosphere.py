@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.curved_shapes import Sphere
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.subdivision import subdivide

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.extras import require_installed
 from surfexp.mesh.remeshing import Implicit, remesh
 from surfexp.mesh.triangle_mesh import TriangleMesh

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.torus import periodic_grid_faces

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.rectangle import grid_faces
 from surfexp.mesh.surface import Surface

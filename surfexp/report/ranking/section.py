@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from surfexp.lab.store import store
 from surfexp.report.ranking.trials import trials_of
 from surfexp.report.repeats import mean_and_deviation
 from surfexp.report.table import Comparison, format_number
-from surfexp.workflow import store
 
 if TYPE_CHECKING:
     from surfexp.report.ranking.ranking import Ranking

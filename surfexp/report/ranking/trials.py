@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
-from surfexp.metric import Metric
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
 from surfexp.report.table import ANSWERS, OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.drawings.skeleton_drawing import CAPS, JUNCTIONS, LEVELS, LINE
 from surfexp.figures.boundary_line import without_rim
 from surfexp.figures.colormap import ColorScale

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 LAST = 65535  # the largest code; that of NaN where there are gaps
 Codes = NDArray[np.unsignedinteger[Any]]

@@ -10,11 +10,11 @@ import numpy as np
 
 from surfexp.figures.camera import VIEWS, View, viewing_direction
 from surfexp.figures.colormap import ColorScale
+from surfexp.lab.plan.plan import Node
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.report.turning.fields import Field, Step, feature_field, image_fields, mode_field
 from surfexp.variational.solution import Solution
-from surfexp.workflow.plan import Node
 
 Load = Callable[[str, str], Any]
 # results that belong to a surface, with their stages, by kind and label

@@ -7,11 +7,11 @@ from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
 
+from surfexp.lab.errors import DamagedResult
+from surfexp.lab.plan.plan import Node
+from surfexp.lab.store import store
 from surfexp.report.turning.payload import Payload
 from surfexp.report.turning.scene import scene_of
-from surfexp.workflow import store
-from surfexp.workflow.errors import DamagedResult
-from surfexp.workflow.plan import Node
 
 # in the order in which a page runs them; the library is the largest part of a page without surfaces
 SCRIPTS = tuple(f"turning/{name}.js" for name in ("three.bundle", "arrays", "surface", "panel", "turning"))

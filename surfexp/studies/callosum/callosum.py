@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.planar_patch import triangulate_region
 from surfexp.mesh.surface import Surface, Truth

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.skeleton.polyline import distance_from_line, polyline_length
 
 

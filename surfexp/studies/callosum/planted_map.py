@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 if TYPE_CHECKING:
     from surfexp.studies.callosum.callosum import Callosum

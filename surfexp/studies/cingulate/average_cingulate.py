@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.anatomy.fsaverage5 import Hemisphere, fsaverage5
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
 from surfexp.mesh.repair import repair

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.anatomy.label_volume import LabelVolume, label_of, label_volume
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.planar_patch import Mask, clean_mask, triangulate_mask
 from surfexp.mesh.surface import Surface

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.surface_of_revolution import PROFILES, surface_of_revolution

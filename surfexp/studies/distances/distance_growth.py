@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.nearest import mutual_distances
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, check_pair

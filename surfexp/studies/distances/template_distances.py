@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.mesh.surface import Surface

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.elements_surface import Boundary
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.studies.drums.isospectral_drums import drum_elements, glued_drum, tile_mesh

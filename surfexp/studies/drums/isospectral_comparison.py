@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.elements_surface import Boundary
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem, measure

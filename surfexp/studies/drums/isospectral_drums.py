@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.elements_nodes import flat_positions, number_nodes
 from surfexp.operators.elements_surface import Boundary, SurfaceElements, assemble_elements
 from surfexp.studies.drums.transplantation_pairs import TILES, Gluing

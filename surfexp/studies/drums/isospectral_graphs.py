@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.studies.drums.transplantation_pairs import TILES, Gluing, TransplantationPair
 
 # a vertex for each side of the tile, joined in a path, and one more that tells the ends of the path apart

@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.elements_nodes import ElementNodes
 from surfexp.operators.elements_surface import Boundary
 from surfexp.studies.drums.transplantation_pairs import TILES, Gluing, TransplantationPair

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.spatial.distance import cdist, pdist
 
-from surfexp.arrays import Floats
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic

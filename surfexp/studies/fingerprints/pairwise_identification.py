@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfexp.contract.member import Member
 from surfexp.embedding.distance_methods import Pairing
 from surfexp.embedding.spectral_embedding import SpectralEmbedding
-from surfexp.member import Member
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.fingerprints.recognition import by_change, donors_of, recognition

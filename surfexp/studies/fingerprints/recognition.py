@@ -8,8 +8,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.member import Member
 from surfexp.statistics.resampling import bootstrap_interval, exact_interval
 
 Person = tuple[str, float]

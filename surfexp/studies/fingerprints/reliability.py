@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.statistics.intraclass import intraclass_correlation
 from surfexp.statistics.resampling import CENTRAL
 

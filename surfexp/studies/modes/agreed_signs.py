@@ -7,7 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
-from surfexp.member import Member
+from surfexp.contract.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic

@@ -8,8 +8,8 @@ from itertools import combinations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.surface_operator import SurfaceOperator

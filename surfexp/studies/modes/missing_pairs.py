@@ -9,8 +9,8 @@ from scipy.sparse import csr_array
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh, splu
 from scipy.stats import binomtest
 
-from surfexp.arrays import Floats
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem

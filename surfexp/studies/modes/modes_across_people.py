@@ -7,9 +7,9 @@ from itertools import combinations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.embedding.mode_pairs import ModePairs
-from surfexp.member import Member
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Integers
+from surfexp.contract.arrays import Integers
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.mode_pairs import (
     ModePairs,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.nulls.eigenstrapping import eigenstrapped
 from surfexp.nulls.neighbourhoods import nearest_along_surface

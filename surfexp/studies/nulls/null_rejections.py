@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats
+from surfexp.contract.member import Member
 from surfexp.nulls.kept import power_error, values_error, variogram_error
 from surfexp.nulls.rejection import correlations, crossed_interval, p_values, parametric_p_values
 from surfexp.operators.assembly import mass_matrix

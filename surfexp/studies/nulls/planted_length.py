@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 def widths_along(vertices: Floats, width: float, ratio: float, axis: int = 1) -> Floats:

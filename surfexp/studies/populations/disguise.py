@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.edge_operations import collapse_edges, flip_edges, split_edges
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface, Truth

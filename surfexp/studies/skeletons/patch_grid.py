@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.boundary_distance import boundary_distance
 from surfexp.skeleton.level_selection import choose_levels

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.skeleton.polyline import trunk
 from surfexp.skeleton.skeleton import Skeleton
 

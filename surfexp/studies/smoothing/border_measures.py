@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.contour_geometry import contour_steps
 from surfexp.skeleton.fast_marching import fast_marching

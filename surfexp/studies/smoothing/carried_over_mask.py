@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
+from surfexp.contract.metric import Metric
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.metric import Metric
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.methods import MethodName, Methods
 from surfexp.smoothing.parameter_choice import RULES, Rule, smooth_on_grid

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
-from surfexp.member import Member
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.member import Member
 from surfexp.statistics.statistic import Statistic
 from surfexp.variational.solution import Solution
 

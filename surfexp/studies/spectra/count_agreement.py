@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
 

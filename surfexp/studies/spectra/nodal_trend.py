@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.statistics.statistic import Statistic
 
 # limits of count_n / n: the mean on a rectangle (Blum, Gnutzmann and Smilansky 2002); no plane domain stays above the other

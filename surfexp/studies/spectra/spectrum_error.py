@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from surfexp.contract.member import Member, levels_of
 from surfexp.figures.order_plot import convergence_order
-from surfexp.member import Member, levels_of
 from surfexp.mesh.flat_shapes import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.statistics.paired_tests import paired_tests, power_by_subjects, rate_in_halves
 from surfexp.studies.sulci.population_study import Table
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import stats
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.statistics.paired_tests import paired_tests
 from surfexp.studies.sulci.asymmetry import FEWEST_PAIRS, measured
 from surfexp.studies.sulci.population_study import Table

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.studies.sulci.population_study import SIDES, Table
 
 KEYS = ("subject", "side", "sulcus")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import cell, cells
 from surfexp.io.label_files import write_labels
 from surfexp.io.writing import write_mesh

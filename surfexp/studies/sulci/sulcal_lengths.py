@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.extras import require_installed
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements

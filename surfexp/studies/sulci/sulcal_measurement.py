@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.surface import Surface
 from surfexp.studies.sulci.sulcal_lengths import carried_ends, closed_region, geodesic_lengths
 from surfexp.studies.sulci.sulcal_lines import LINE_ESTIMATORS, sulcal_line

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.nearest import nearest
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.embedding.functional_map import vertex_map
 from surfexp.embedding.spectral_distance import sampled_signs
 from surfexp.embedding.spectral_embedding import spectral_embedding

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 # five columns for each glyph, the lowest bit on top
 GLYPHS = {

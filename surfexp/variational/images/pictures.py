@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.extras import MissingExtra, missing_line
 from surfexp.variational.images.letters import letters
 

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 
 Projection = Literal["planar", "cylindrical", "spherical", "coordinates"]

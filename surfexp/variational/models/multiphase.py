@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from surfexp.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator

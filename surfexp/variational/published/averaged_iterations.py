@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Fidelity
 from surfexp.variational.published.vector_pair import VectorPair, project_to_ball

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import adjoint_gradient
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import certify, run_to_gap, with_certificate

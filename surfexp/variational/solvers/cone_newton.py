@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 
 
 @njit(cache=True, nogil=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.sparse import diags_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.operators.calculus import gradient
 from surfexp.variational.fidelity import Progress

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import adjoint_gradient, gradient, total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap

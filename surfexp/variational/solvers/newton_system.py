@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.linalg.ldlt import SMALLEST_PIVOT
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve_one import solve_one

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from surfexp.arrays import Floats
+from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.solvers.face_sweeps import dual_ascent, face_steps
 

@@ -1,1 +1,0 @@
-"""What is known of source files and plugins without reading or importing them again."""

@@ -1,0 +1,1 @@
+"""The laboratory: experiments planned, run, stored by key; what the extra `lab` installs."""

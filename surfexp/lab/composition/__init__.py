@@ -1,0 +1,1 @@
+"""Hydra: a configuration composed from files and the command line."""

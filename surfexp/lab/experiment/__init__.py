@@ -1,0 +1,1 @@
+"""What an experiment says: its configuration, its collections, its claims."""

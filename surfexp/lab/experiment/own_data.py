@@ -1,0 +1,143 @@
+"""What an experiment's file says of its own data, and not of data that the command line puts in their place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from surfexp.lab.errors import UserError, check_known, unknown
+from surfexp.lab.experiment.collections import AXIS, collection_of_files, is_of_files
+from surfexp.lab.store.kinds import KINDS
+
+DATA = {"surface", "image", "axes", "variants", "grid"}
+FIGURE_WORDS = {"title", "caption", "reference"}
+CLAIMS_LEFT_OUT = "The experiment's claims are left out: they are about its own methods and data, as its file has them."
+WORDS_LEFT_OUT = "Titles and captions of the experiment are left out with its claims: they are about its own data."
+
+
+def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    """Return a composed configuration without claims, titles and captions that `overrides` take the ground from.
+
+    Parameters
+    ----------
+    configuration : mapping
+        As composed from the experiment's file.
+    overrides : sequence of str
+        What the command line asks for, "key=value" each. One of a stage, its options, an axis, a variant or a grid
+        leaves the claims out; one of a surface, an image, an axis, a variant, a grid, or the inputs of a stage leaves
+        titles, captions and headings out too.
+    """
+    keys = [text.lstrip("+~").partition("=")[0] for text in overrides]
+    heads = {key.replace("@", ".").partition(".")[0] for key in keys}
+    if not heads & (DATA | set(KINDS) - {"figure"}):
+        return dict(configuration)
+    kept = {**configuration, "claims": []}
+    if not heads & DATA and not any(".inputs" in key for key in keys):
+        return kept | {"description": f"{configuration.get('description', '')} {CLAIMS_LEFT_OUT}".strip()}
+    headings: dict[str, str] = {}
+    variants = [_wordless(variant, headings) for variant in configuration.get("variants") or []]
+    title = f"{configuration.get('experiment', 'experiment')}: {_data_named(overrides) or 'other data'}"
+    words = {"title": title, "description": WORDS_LEFT_OUT}
+    return _wordless(kept, headings) | words | {"variants": variants}
+
+
+def _data_named(overrides: Sequence[str]) -> str:
+    """The collection, surface and image that a command line names, a file by its name: what a title says."""
+    named: dict[str, str] = {}
+    for text in overrides:
+        key, _, value = text.lstrip("+~").partition("=")
+        kind, _, option = key.partition(".")
+        if value and (kind == "axes" or (kind in ("surface", "image") and option in ("", "path"))):
+            parts = [Path(part.strip("'\" ")).name for part in value.split(",")]
+            words = parts[0] if len(parts) == 1 else f"{parts[0]} and {len(parts) - 1} more"
+            named[kind] = named[kind] if not option and kind in named else words
+    return ", ".join(named[kind] for kind in ("axes", "image", "surface") if kind in named)
+
+
+def collection(name: str, repository: Any) -> dict[str, Any]:
+    """Return the axes of a collection: those of `axes/NAME.yaml` among Hydra's files, or one of files that are named.
+
+    Parameters
+    ----------
+    name : str
+        As written behind `axes=`: of a file of axes, or a folder, a table, a pattern of paths.
+    repository
+        Hydra's, of configuration files.
+
+    Raises
+    ------
+    UserError
+        If there is no such collection, or no member in it.
+    """
+    from hydra.core.object_type import ObjectType
+    from omegaconf import OmegaConf
+
+    if found := repository.load_config(f"axes/{name}"):
+        axes: Any = OmegaConf.to_container(found.config, resolve=True)
+        return dict(axes)
+    if is_of_files(name):
+        return {AXIS: collection_of_files(Path(name))}
+    known = repository.get_group_options("axes", ObjectType.CONFIG)
+    said = unknown("collection", name, known)
+    raise UserError(f"{said}; a folder, a table (.csv) or a pattern such as 'shapes/*.off' is one as well")
+
+
+def with_collections(axes: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the axes of an experiment with collections of one's own in place of its own.
+
+    Parameters
+    ----------
+    axes : mapping
+        Members by label, by name of the axis.
+    given : mapping
+        Collections by the name of the axis that they replace, each as its file has it: axes by name. Under "" the file's
+        axis replaces the one of its name, or the only axis of surfaces.
+
+    Raises
+    ------
+    UserError
+        If the axis is unknown, or it does not follow which one is to be replaced.
+    """
+    own = dict(axes)
+    for target, collection in given.items():
+        for name, members in collection.items():
+            if target:
+                check_known("axis", [target], axes)
+            own[target or _axis_to_replace(axes, name)] = members
+    return own
+
+
+def _axis_to_replace(axes: Mapping[str, Any], name: str) -> str:
+    if name in axes:
+        return name
+    of_surfaces = [axis for axis, members in axes.items() if any("surface" in member for member in _facts(members))]
+    if not of_surfaces:
+        raise UserError("axes: this experiment compares no collection of surfaces; set surface=file surface.path=FILE")
+    if len(of_surfaces) > 1:
+        known = ", ".join(f"axes.{axis}=NAME" for axis in of_surfaces)
+        raise UserError(f"axes: this experiment has {len(of_surfaces)} collections of surfaces, choose {known}")
+    return of_surfaces[0]
+
+
+def _facts(members: Any) -> list[Mapping[str, Any]]:
+    found = members.values() if isinstance(members, Mapping) else members or []
+    return [member for member in found if isinstance(member, Mapping)]
+
+
+def _wordless(part: Any, headings: dict[str, str]) -> Any:
+    """A part of a configuration without captions, its figures without theirs, its heading replaced by a number."""
+    if not isinstance(part, Mapping):
+        return part
+    wordless = {key: value for key, value in part.items() if key != "caption"}
+    if part.get("comparison"):
+        wordless["comparison"] = headings.setdefault(part["comparison"], f"Table {len(headings) + 1}")
+    if part.get("figures"):
+        wordless["figures"] = [_figure(figure) for figure in part["figures"]]
+    return wordless
+
+
+def _figure(figure: Any) -> Any:
+    if not isinstance(figure, Mapping):
+        return figure
+    return {key: value for key, value in figure.items() if key not in FIGURE_WORDS}

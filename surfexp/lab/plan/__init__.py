@@ -1,0 +1,1 @@
+"""What has to be computed: stages, their keys, what became of each."""

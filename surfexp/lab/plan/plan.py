@@ -1,0 +1,154 @@
+"""The plan: the stages that a batch of configurations takes, its leaves, and the file that holds them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.plan.fingerprint import digest
+from surfexp.lab.store.kinds import KINDS
+from surfexp.lab.store.store import write_text
+
+Keys = str | list[str] | dict[str, str]
+
+
+@dataclass(frozen=True)
+class Node:
+    """One stage of a plan: a plugin, its code and compilation cache, its checked options, its inputs' keys by role.
+
+    `files` holds the digest, when planned, of each file that an option names. Facts about the members of a collection stand beside
+    its keys, for inputs that ask for them.
+    """
+
+    key: str
+    kind: str
+    plugin: str
+    file: str
+    code: str
+    cache: str
+    options: dict[str, Any]
+    inputs: dict[str, Keys]
+    files: dict[str, str] = field(default_factory=dict)
+    members: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    function: str = ""
+
+    @property
+    def children(self) -> list[str]:
+        """Keys of all inputs."""
+        return [child for value in self.inputs.values() for child in _members(value).values()]
+
+
+@dataclass
+class Leaf:
+    """What one configuration asks for: the stage at the end of its chain, a digest of its options, its figures.
+
+    `settings` say how to show it; leaves share them where they agree.
+    """
+
+    key: str
+    configuration: str
+    settings: dict[str, Any]
+    figures: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Plan:
+    """All stages of a batch, shared where their keys agree, and the leaves in the order in which they were asked for."""
+
+    settings: Settings
+    nodes: dict[str, Node] = field(default_factory=dict)
+    leaves: list[Leaf] = field(default_factory=list)
+    requested: int = 0
+
+    @property
+    def stored(self) -> list[Node]:
+        """The stages that Snakemake runs: those whose results are kept."""
+        return [node for node in self.nodes.values() if KINDS[node.kind].stored]
+
+    @property
+    def identity(self) -> str:
+        """Digest of the set of leaves and figures."""
+        return digest(sorted({key for leaf in self.leaves for key in (leaf.key, *leaf.figures)}))
+
+    def parameters(self, leaf: Leaf) -> dict[str, Any]:
+        """The plugins' names and all options of a leaf and of the stages before it."""
+        return flat_parameters(self.nodes, leaf.key)
+
+    def write(self, results: Path) -> Path:
+        """Write the plan below the results folder: what all share, the leaves, and each stage on a line of its own."""
+        path = results / "plans" / f"{self.settings.experiment}-{self.identity}.json"
+        shown = {id(leaf.settings): leaf.settings for leaf in self.leaves}
+        places = {identity: place for place, identity in enumerate(shown)}
+        leaves = [vars(leaf) | {"settings": places[id(leaf.settings)]} for leaf in self.leaves]
+        head = {"settings": self.settings.model_dump(), "requested": self.requested, "shown": list(shown.values())}
+        write_text(path, "\n".join(map(json.dumps, (head, leaves, *map(vars, self.nodes.values())))))
+        return path
+
+
+def read_plan(path: Path, key: str = "") -> Plan:
+    """Read a plan back; with a key only that stage, those before it and no leaves, since each stage's process reads it."""
+    text = path.read_text()
+    head, *lines = text.split("\n")
+    tree = json.loads(text if head == "{" else head)
+    if "shown" not in tree:
+        return _of_one_document(tree)
+    leaves, nodes = lines[0], {line[9:29]: line for line in lines[1:]}
+    plan = Plan(Settings(**tree["settings"]), requested=tree["requested"])
+    for leaf in [] if key else json.loads(leaves):
+        plan.leaves.append(Leaf(**leaf | {"settings": tree["shown"][leaf["settings"]]}))
+    waiting = [key] if key else list(reversed(nodes))
+    while waiting:
+        if (one := waiting.pop()) not in plan.nodes:
+            plan.nodes[one] = Node(**json.loads(nodes[one]))
+            waiting += plan.nodes[one].children
+    return plan
+
+
+def _of_one_document(tree: Mapping[str, Any]) -> Plan:
+    """A plan as earlier versions wrote it, whose results are as good as ever: settings and options stand with each leaf."""
+    nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
+    leaves = [Leaf(*map(leaf.get, ("key", "configuration", "settings", "figures"))) for leaf in tree["leaves"]]
+    return Plan(Settings(**tree["settings"]), nodes, leaves, tree["requested"])
+
+
+def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:
+    """Keys of the stored results that a stage reads, through the unstored stages (models) it makes itself."""
+    found: dict[str, None] = {}
+    for child in nodes[key].children:
+        found.update(dict.fromkeys([child] if KINDS[nodes[child].kind].stored else stored_inputs(nodes, child)))
+    return list(found)
+
+
+def _members(value: Any) -> dict[str, Any]:
+    members = [value] if isinstance(value, str) else value
+    return dict(members if isinstance(members, Mapping) else enumerate(members))
+
+
+def flat_parameters(nodes: Mapping[str, Node], key: str, root: str = "") -> dict[str, Any]:
+    """All options upstream; those of a collection once, with the number of values where its members differ."""
+    flat: dict[str, Any] = {}
+    owners: dict[str, str] = {}
+
+    def visit(key: str, prefix: str, parent: str) -> None:
+        node = nodes[key]
+        if owners.get(prefix, key) != key:
+            prefix = f"{parent}.{prefix}"
+        if owners.setdefault(prefix, key) == key and f"{prefix}.name" not in flat:
+            flat[f"{prefix}.name"] = node.plugin
+            flat.update({f"{prefix}.{name}": value for name, value in node.options.items()})
+        for role, value in node.inputs.items():
+            if isinstance(value, str):
+                visit(value, role, prefix)
+                continue
+            parts = [flat_parameters(nodes, child, role) for child in _members(value).values()]
+            for name in dict.fromkeys(name for part in parts for name in part):
+                values = list(dict.fromkeys(json.dumps(part.get(name)) for part in parts))
+                varied = f"{len(values)} values ({digest(values)[:6]})"
+                flat.setdefault(name, parts[0].get(name) if len(values) == 1 else varied)
+
+    visit(key, root or nodes[key].kind, "")
+    return flat

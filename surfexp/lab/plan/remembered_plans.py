@@ -1,0 +1,110 @@
+"""Plans that were made before, by all that they follow from: the same request need not load a plugin to be planned again.
+
+A plan follows from what was asked for, the configuration files, the code, and the files that options name. The first
+three are the name under which it is kept in the user's cache; the last are hashed again.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import re
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from surfexp.lab.registry.catalogue import code_state
+from surfexp.lab.registry.folders import installed_packages, package_folder
+from surfexp.lab.user_cache import fault, user_cache
+
+if TYPE_CHECKING:
+    from surfexp.lab.plan.plan import Plan
+
+PLANS_KEPT = 30
+# what else than its text decides what a configuration file means: resolvers that ask the environment or the clock, other folders
+OPEN = re.compile(rb"\$\{[^}]*:|searchpath")
+
+
+def place(arguments: Sequence[str]) -> Path | None:
+    """Where the plan of a request is kept in this state of code and configuration; None where the request does not say all."""
+    folders = [package_folder("surfexp.conf"), Path("conf").resolve()]
+    folders += [package_folder(package).parent / "conf" for package in installed_packages()]
+    files = sorted(file for folder in dict.fromkeys(folders) for file in folder.rglob("*.yaml"))
+    texts = [(str(file), file.read_bytes()) for file in files]
+    asked = "\n".join(arguments).encode()
+    if any(OPEN.search(text) for _, text in [("", asked), *texts]) or any(text.startswith("-") for text in arguments):
+        return None
+    facts = [str(Path.cwd()), code_state(Path.cwd()), list(arguments), texts]
+    return user_cache("plans") / hashlib.sha256(repr(facts).encode()).hexdigest()[:40]
+
+
+def remembered(folder: Path | None) -> Plan | None:
+    """The plan that is kept at a place, None where it has to be made (again)."""
+    from surfexp.lab.plan.plan import read_plan
+    from surfexp.lab.registry.loading import load_own_kinds
+    from surfexp.lab.registry.registry import open_catalogue
+
+    if folder is None or fault(folder.parent) or not folder.is_dir():
+        return None
+    with contextlib.suppress(Exception):  # a cache that cannot be read is none
+        kept = json.loads((folder / "kept.json").read_text())
+        file = folder / "plans" / kept["name"]
+        if _sha256(file) != kept["digest"]:
+            return None
+        plan = read_plan(file)
+        open_catalogue(Path.cwd())
+        load_own_kinds(plan)
+        if _unchanged(plan, kept):
+            folder.touch()
+            return plan
+    return None
+
+
+def remember(folder: Path | None, plan: Plan) -> None:
+    """Keep a plan at a place that was found before it was made; nothing happens where the cache cannot be written."""
+    if folder is None or fault(folder.parent):
+        return
+    with contextlib.suppress(OSError):
+        others = sorted(folder.parent.iterdir(), key=lambda path: path.stat().st_mtime)
+        for old in [folder, *others[: max(0, len(others) - PLANS_KEPT + 1)]]:
+            shutil.rmtree(old, ignore_errors=True)
+        folder.mkdir(mode=0o700)
+        file = plan.write(folder)
+        kept = {"name": file.name, "digest": _sha256(file), **_read_by(plan)}
+        (folder / "kept.json").write_text(json.dumps(kept))
+
+
+def _sha256(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
+    """Digests of what stages read: files that options name, and the data of installed packages."""
+    from surfexp.lab.plan.fingerprint import code_closure, data_digest
+    from surfexp.lab.plan.source_facts import source_facts
+
+    methods = {(Path(node.file), node.function) for node in plan.nodes.values()}
+    sources = {source for method in methods for source in code_closure(*method)[0]}
+    facts = [*map(source_facts, sources), *(source_facts(*method) for method in methods)]
+    packages = {package for fact in facts for package in fact.data_packages}
+    named: dict[str, str] = {}
+    for node in plan.nodes.values():
+        for option, planned in node.files.items():
+            name, _, key = option.partition(".")
+            named[str(node.options[name][key] if key else node.options[name])] = planned
+    return {"files": named, "packages": {package: data_digest(package) for package in packages}}
+
+
+def _unchanged(plan: Plan, kept: Mapping[str, Any]) -> bool:
+    """Whether files are what they were, and so is the code of plugins outside of packages, which `code_state` knows in part."""
+    from surfexp.lab.plan.fingerprint import code_digest, data_digest, file_digest
+
+    own = package_folder("surfexp.plugins")
+    codes = {(Path(node.file), node.function): node.code for node in plan.nodes.values()}
+    return (
+        all(file_digest(Path(path).resolve()) == known for path, known in kept["files"].items())
+        and all(data_digest(package) == known for package, known in kept["packages"].items())
+        and all(code_digest(*method) == code for method, code in codes.items() if own not in method[0].parents)
+    )

@@ -1,0 +1,155 @@
+"""From configurations to a plan: the smallest set of stages, each with its content-addressed key."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from surfexp.contract.member import FACTS, axis_members
+from surfexp.lab.errors import UserError, check_known
+from surfexp.lab.experiment.configuration import Context, merge, one_line, settings_of, stage
+from surfexp.lab.plan.fingerprint import code_digest, compiled_state, digest, file_digest
+from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
+from surfexp.lab.registry.registry import Plugin, names_of, plugin
+from surfexp.lab.store.kinds import KINDS
+
+
+def make_plan(configurations: Iterable[Context]) -> Plan:
+    """Resolve leaf configurations into one plan; equal stages and equal leaves merge by key."""
+    plan: Plan | None = None
+    seen: dict[str, Leaf] = {}
+    before: Context = {}
+    for configuration in configurations:
+        if (top := {key: value for key, value in configuration.items() if key not in KINDS}) != before or plan is None:
+            settings, before = settings_of(configuration), top
+            plan, shown = plan or Plan(settings), settings.model_dump()
+            resolver = _Resolver(plan, settings.axes)
+        context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
+        key = resolver.node(settings.target, context, ())
+        leaf = Leaf(key, digest(flat_parameters(plan.nodes, key)), shown)
+        for figure in settings.figures:
+            leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
+        plan.requested += sum(resolver.visits[one] for one in (key, *leaf.figures))
+        first = seen.setdefault(key, leaf)
+        first.figures += [figure for figure in leaf.figures if figure not in first.figures]
+    if plan is None:
+        raise UserError("nothing to plan: the sweep is empty")
+    plan.leaves += seen.values()
+    return plan
+
+
+@dataclass
+class _Resolver:
+    """Finds the stages of leaves that have their axes in common.
+
+    What was found is remembered by the configurations of those kinds that were looked at on the way: leaves of a sweep differ
+    in few of them.
+    """
+
+    plan: Plan
+    axes: Mapping[str, Any]
+    looked_at: set[str] = field(default_factory=set)
+    known: dict[str, dict[tuple[str, ...], dict[str, str]]] = field(default_factory=dict)
+    visits: dict[str, int] = field(default_factory=dict)
+
+    def node(self, kind: str, context: Context, path: tuple[tuple[str, Context], ...]) -> str:
+        """Resolve the stage of one kind in a context, its inputs first; return its key."""
+        # the end of a chain differs from leaf to leaf: it is not remembered
+        for kinds, found in self.known.setdefault(kind, {}).items() if path else ():
+            if key := found.get(json.dumps([context.get(one) for one in kinds]), ""):
+                break
+        else:
+            outside, self.looked_at = self.looked_at, {kind}
+            key, kinds = self._resolve(kind, context, path), tuple(sorted(self.looked_at))
+            self.looked_at = outside
+            if path:
+                self.known[kind].setdefault(kinds, {})[json.dumps([context.get(one) for one in kinds])] = key
+        self.looked_at.update(kinds)
+        return key
+
+    def _resolve(self, kind: str, context: Context, path: tuple[tuple[str, Context], ...]) -> str:
+        if context.get(kind) is None:
+            wanted = f", wanted by {path[-1][0]}" if path else ""
+            names = ", ".join(sorted(names_of(kind))) or "none registered"
+            raise UserError(f"no {kind} is configured{wanted}; choose {kind}= one of: {names}")
+        configured = stage(context[kind])
+        if not configured.get("name"):
+            raise UserError(f"{kind}: the plugin's name is missing; set {kind}=NAME")
+        method = plugin(kind, str(configured.pop("name")))
+        overrides = configured.pop("inputs", None) or {}
+        here = f"{kind}/{method.name}", context
+        if here in path:
+            raise UserError(f"cycle: {' -> '.join(name for name, _ in (*path[path.index(here) :], here))}")
+        options = _checked_options(method, configured)
+        check_known(f"input of {kind}/{method.name}", overrides, method.inputs)
+        inputs = {
+            role: self._input(method, role, context, dict(overrides.get(role) or {}), (*path, here))
+            for role in method.inputs
+        }
+        return self._add(method, options, inputs)
+
+    def _input(
+        self, method: Plugin, role: str, context: Context, override: Context, path: tuple[tuple[str, Context], ...]
+    ) -> Any:
+        wanted = method.inputs[role]
+        axis = override.pop("over", None)
+        check_known(f"stage kind below inputs.{role} of {method.kind}/{method.name}", override, KINDS)
+        context = merge(context, override)
+        if wanted.shape == "one":
+            key, where = self.node(wanted.kind, context, path), f"{method.kind}/{method.name}"
+            name = self.plan.nodes[key].plugin
+            allowed = method.accepts.get(wanted.kind, (name,))
+            if name not in allowed:
+                raise UserError(f"{where} takes no {wanted.kind} {name!r}; it takes: {', '.join(allowed)}")
+            return key
+        check_known(f"axis of list input {role!r} of {method.kind}/{method.name} (over)", [str(axis)], self.axes)
+        members = axis_members(self.axes[axis])
+        check_known(f"key of a member of axis {axis!r}", sorted(set().union(*members.values())), (*KINDS, *FACTS))
+        keys = {member: self.node(wanted.kind, merge(context, part), path) for member, part in members.items()}
+        named = {member.label: key for member, key in keys.items()}
+        return {"members": keys, "dict": named, "list": list(keys.values())}[wanted.shape]
+
+    def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
+        function, where = method.function.__qualname__, str(method.file)
+        code, cache = code_digest(method.file, function), compiled_state(method.file)
+        named = {name: options[name] for name in method.paths if options.get(name) is not None}
+        files = {name: _digest_of(path) for name, path in _file_options(named).items()}
+        rest = {name: value for name, value in options.items() if name not in named}
+        asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
+        members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
+        inputs = wired | {role: {member.label: key for member, key in keys.items()} for role, keys in asked.items()}
+        key = digest([method.kind, method.name, {**rest, **files}, inputs, members, code])
+        node = Node(key, method.kind, method.name, where, code, cache, options, inputs, files, members, function)
+        self.plan.nodes[key] = node
+        self.visits[key] = KINDS[method.kind].stored + sum(self.visits[child] for child in node.children)
+        return key
+
+
+def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
+    where = f"{method.kind}/{method.name}"
+    check_known(f"option of {where}", configured, method.options.model_fields)
+    given = {name: value for name, value in configured.items() if value != "???"}
+    try:
+        return method.options(**given).model_dump(mode="json")
+    except ValidationError as error:
+        raise UserError(one_line(where, error)) from None
+
+
+def _file_options(options: Mapping[str, Any]) -> dict[str, Path]:
+    """The files that options name, by option: one, or several by a name of their own ("maps.sulc")."""
+    found: dict[str, Path] = {}
+    for option, value in options.items():
+        several = isinstance(value, Mapping)
+        found |= {f"{option}.{key}": Path(path) for key, path in value.items()} if several else {option: Path(value)}
+    return found
+
+
+def _digest_of(path: Path) -> str:
+    if not path.exists():
+        raise UserError(f"file {str(path)!r} does not exist")
+    return file_digest(path.resolve())

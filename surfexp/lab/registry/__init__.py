@@ -1,0 +1,1 @@
+"""Methods: where plugins lie, how they are loaded and described."""

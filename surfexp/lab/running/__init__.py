@@ -1,0 +1,1 @@
+"""Stages run: by Snakemake, in processes, on a cluster."""

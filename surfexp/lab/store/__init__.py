@@ -1,0 +1,1 @@
+"""Results by key, sealed; kinds of results."""

@@ -1,0 +1,211 @@
+"""MLflow: one idempotent function turns the outcomes of a plan's stages into runs. Only the driver calls it."""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from surfexp.lab.plan.fingerprint import digest
+from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
+from surfexp.lab.plan.plan import Leaf, Plan
+from surfexp.lab.store import store
+from surfexp.records.origin import commit
+from surfexp.report.table import Row, comparisons, short_name
+
+if TYPE_CHECKING:
+    from surfexp.records.run_database import KnownRun, RunContent
+
+DATABASE = "mlflow.db"
+NOTE = "mlflow.note.content"
+PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
+
+
+def tracking_uri(results: Path) -> str:
+    """Address of the MLflow database of a results folder."""
+    return f"sqlite:///{results.resolve() / DATABASE}"
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What a plan's runs are recorded below; `said` is what was wrong with the database, a line each."""
+
+    client: Any
+    parent: str
+    parent_tags: Mapping[str, str]
+    own_tags: Mapping[str, str]
+    state: tuple[Any, ...]
+    failed: bool
+    said: tuple[str, ...]
+
+    def attach(self, views: Path) -> None:
+        """Keep the pages of the experiment as artifacts of its parent run, and end that; nothing if it has them."""
+        state = digest([*self.state, (views / "metrics.csv").read_text()])
+        if self.parent_tags.get("state") == state:
+            return
+        for tag, value in {**self.own_tags, "state": state}.items():
+            self.client.set_tag(self.parent, tag, value)
+        self.client.log_artifacts(self.parent, str(views))
+        self.client.set_terminated(self.parent, "FAILED" if self.failed else "FINISHED")
+
+
+def record(plan: Plan, results: Path) -> Recording:
+    """Create or update one run a leaf, below one parent run for the experiment; a second call changes nothing.
+
+    A run belongs to (experiment, leaf key). A leaf whose earlier run failed takes that run over; a run of the same
+    configuration under older code keeps a tag `current=false`.
+    """
+    os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
+    os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
+    os.environ.setdefault("MLFLOW_SQLALCHEMYSTORE_POOLCLASS", "NullPool")  # a kept connection is to a file set aside
+    logging.getLogger("alembic").setLevel(logging.WARNING)
+    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
+    from mlflow.tracking import MlflowClient
+
+    from surfexp.records.database_file import prepare
+    from surfexp.records.run_database import known_runs, set_tag, write_runs
+
+    said: tuple[str, ...] = (prepare(results / DATABASE),)
+    client = MlflowClient(tracking_uri(results))
+    name = plan.settings.experiment
+    location = (results / "mlflow-artifacts").resolve().as_uri()
+    experiment = client.get_experiment_by_name(name) or client.get_experiment(
+        client.create_experiment(name, artifact_location=location)
+    )
+    if experiment.lifecycle_stage == "deleted":
+        client.restore_experiment(experiment.experiment_id)
+        said += (f"experiment {name!r} was deleted in MLflow: it is restored",)
+    database = SqlAlchemyStore(tracking_uri(results), location)
+    runs = known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
+    parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
+    parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
+    outcomes = {node.key: outcome(results, node) for node in plan.stored}
+    versions = _versions()
+    changes = _changes(plan, outcomes, runs)
+    tags = {**versions, "mlflow.parentRunId": parent_id}
+    page = f"#/experiments/{experiment.experiment_id}/runs/{parent_id}/artifacts/report.html"
+    names = _names(plan) if changes else {}
+    write_runs(
+        database,
+        experiment,
+        ((change.run, _content(plan, results, change, outcomes, names, tags, page)) for change in changes),
+    )
+    set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
+    failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
+    state = (sorted(leaf.key for leaf in plan.leaves), failed)
+    own_tags = {"plan": plan.identity, **versions}
+    known = parent.tags if parent else {}
+    return Recording(client, parent_id, known, own_tags, state, failed, tuple(line for line in said if line))
+
+
+def _new_parent(client: Any, experiment: str, name: str) -> str:
+    return str(client.create_run(experiment, run_name=name, tags={"leaf": "plan"}).info.run_id)
+
+
+@dataclass(frozen=True)
+class _Change:
+    """A leaf that is not recorded as it is: the stored stages before it, the run that it takes, those of older code."""
+
+    leaf: Leaf
+    upstream: tuple[str, ...]
+    state: str
+    run: str | None
+    superseded: list[str]
+
+
+def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRun]) -> list[_Change]:
+    by_leaf = {run.tags.get("leaf"): run for run in runs}
+    by_configuration: dict[str | None, list[KnownRun]] = {}
+    for run in runs:
+        by_configuration.setdefault(run.tags.get("configuration"), []).append(run)
+    states = {key: digest(asdict(item)) for key, item in outcomes.items()}
+    upstream: dict[str, tuple[str, ...]] = {}
+    changes, taken = [], set[str]()
+    for leaf in plan.leaves:
+        stored = tuple(key for key in _upstream(plan, leaf.key, upstream) if key in outcomes)
+        state = digest([[states[key] for key in stored], leaf.configuration])
+        same = by_configuration.get(leaf.configuration, [])
+        free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
+        mine = by_leaf.get(leaf.key) or next(free, None)
+        if mine is None or mine.tags.get("state") != state:
+            identity = mine.identity if mine else None
+            others = [one.identity for one in same if one.identity != identity]
+            changes.append(_Change(leaf, stored, state, identity, others))
+            taken |= {identity} if identity else set()
+    return changes
+
+
+def _content(
+    plan: Plan,
+    results: Path,
+    change: _Change,
+    outcomes: Mapping[str, Outcome],
+    names: Mapping[str, str],
+    tags: Mapping[str, str],
+    page: str,
+) -> RunContent:
+    """What the run of a leaf shows: its options, its numbers and history, what the stages before it took.
+
+    A new run leads to the page with its row; after that its note is a person's.
+    """
+    from surfexp.records.run_database import RunContent
+
+    leaf, own = change.leaf, outcomes[change.leaf.key]
+    upstream = {key: outcomes[key] for key in change.upstream}
+    metrics = dict(own.metrics)
+    for key, item in upstream.items():
+        name = f"seconds.{plan.nodes[key].kind}"
+        metrics[name] = metrics.get(name, 0.0) + (item.seconds or 0.0)
+        metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item.peak_memory_mb or 0.0)
+    kind = plan.nodes[leaf.key].kind
+    history = {} if own.failure else store.load(results, kind, leaf.key, "history") or {}
+    series = [(_safe(key), 0, value) for key, value in metrics.items()]
+    steps = history.get("iteration", [])
+    series += [
+        (f"history.{_safe(key)}", int(step), float(value))
+        for key, values in history.items()
+        if key != "iteration"
+        for step, value in zip(steps, values, strict=False)
+    ]
+    failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
+    own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
+    parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
+    status = "FAILED" if own.failure else "FINISHED"
+    note = (
+        {} if change.run else {NOTE: f"A row of [report.html]({page}): `{leaf.key}` in the column leaf of metrics.csv."}
+    )
+    all_tags = {**tags, **own_tags, **note, "failure": "; ".join(failures)}
+    return RunContent(names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags)
+
+
+def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
+    """All stages before one, and itself; `known` are those that were asked for before."""
+    if key not in known:
+        before = dict.fromkeys(one for child in plan.nodes[key].children for one in _upstream(plan, child, known))
+        known[key] = (*before, key)
+    return known[key]
+
+
+def _names(plan: Plan) -> dict[str, str]:
+    """A name for the run of every leaf: what tells it from the others of its table, then the table among several."""
+    groups = comparisons([Row(leaf, plan.parameters(leaf), {}, None) for leaf in plan.leaves])
+    names = {}
+    for group in groups:
+        for row in group.rows:
+            known = [(name, row.parameters[name]) for name in group.varying if row.parameters.get(name) is not None]
+            parts = [str(value) if name.endswith(".name") else f"{short_name(name)} {value}" for name, value in known]
+            where = [group.title] if len(groups) > 1 else []
+            names[row.leaf.key] = " · ".join([*(parts or [row.leaf.key[:8]]), *where])[:250]
+    return names
+
+
+def _safe(name: str) -> str:
+    return "".join(c if c.isalnum() or c in "_-./ " else "_" for c in name)
+
+
+def _versions() -> dict[str, str]:
+    return {**{f"version.{name}": version(name) for name in PACKAGES}, "git_commit": commit()}

@@ -1,0 +1,1 @@
+"""The page of verdicts on published claims, and what it rests on."""

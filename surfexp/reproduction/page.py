@@ -1,0 +1,90 @@
+"""The page of verdicts over all experiments: counts at its head, a section for each experiment with the state of its stages.
+
+A section stays true as long as the keys of its stages do: those of other experiments are taken over from an earlier page.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.plan import Plan
+from surfexp.report.table import rows_of
+from surfexp.report.verdict import Verdict, judge
+from surfexp.reproduction.stamp import commit_of_page, cost, state_line, state_of_plan
+
+HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found (least to largest)", "verdict", "cause")
+HEADING = "\n## "
+NAME = re.compile(r"`surfexp run experiment=([\w.-]+)`")
+VERDICT = re.compile(r"^\| .* \| \*\*([\w ]+)\*\* \| [^\n]*\|$", re.MULTILINE)
+RUNS = re.compile(r"^(?:Run|Then): .*$", re.MULTILINE)
+
+
+def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "", preface: str = "") -> str:
+    """Markdown of the verdicts of several experiments; those without claims are left out.
+
+    Parameters
+    ----------
+    plans : mapping of name to Plan
+        Experiments that were computed in `results`.
+    results : Path
+    earlier : str, optional
+        A page from which the sections of all other experiments are taken over as they are.
+    preface : str, optional
+        What stands at the head of the page.
+    """
+    sections = sections_of(earlier)
+    taken_over = sections.keys() - plans.keys()
+    for name, plan in plans.items():
+        sections.pop(name, None)
+        if plan.settings.claims:
+            verdicts = judge(read_claims(plan.settings.claims), rows_of(plan, results))
+            sections[name] = section(name, plan.settings.title, verdicts, state_of_plan(plan))
+    ran = cost(plans, results)
+    runs = [*RUNS.findall(earlier), f"Then: {', '.join(sorted(plans))}. {ran}"] if taken_over else [f"Run: {ran}"]
+    text = "".join(sections[name] for name in sorted(sections))
+    counts = Counter(VERDICT.findall(text))
+    told = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
+    head = ["# Published claims, checked", *([preface.strip()] if preface else [])]
+    head += [f"{counts.total()} claims: {told}.", state_line(), *runs]
+    return ("\n\n".join(head) + "\n" + text).rstrip()
+
+
+def sections_of(page: str) -> dict[str, str]:
+    """The sections of a page by the names of their experiments."""
+    parts = [HEADING + part for part in page.split(HEADING)[1:]]
+    return {found[1]: part.rstrip("\n") + "\n" for part in parts if (found := NAME.search(part))}
+
+
+def verdicts_of_section(section: str) -> dict[str, list[str]]:
+    """Verdict, number and reason of each claim of a section, as `section` wrote them."""
+    rows = [cells_of_line(line) for line in section.splitlines() if line.startswith("| ")]
+    place = HEADER.index("found (least to largest)")
+    return {row[0]: [row[place + 1].strip("*"), row[place], row[-1]] for row in rows[1:]}
+
+
+def cells_of_line(line: str) -> list[str]:
+    """The cells of a line of a table, of which none is empty."""
+    return [cell.replace("\\|", "|") for cell in re.split(r"(?<!\\) \| ", line[2:-2])]
+
+
+def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str) -> str:
+    """The verdicts of one experiment."""
+    made = (
+        f"`surfexp run experiment={experiment}`; state {state}, {datetime.now(UTC):%Y-%m-%d}, commit {commit_of_page()}"
+    )
+    lines = [f"{HEADING}{title or experiment}", "", made, ""]
+    lines += [_line(HEADER), "|" + "---|" * len(HEADER)]
+    for item in verdicts:
+        moved = f" (before the result: {item.claim.moved})" if item.claim.moved else ""
+        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because)
+        lines.append(_line((*cells, str(item.count), item.number, f"**{item.verdict}**", item.why or "–")))
+    return "\n".join([*lines, ""])
+
+
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

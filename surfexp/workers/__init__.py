@@ -1,1 +1,0 @@
-"""The processes that make stages, and the compiled code that they share."""
