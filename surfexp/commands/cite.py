@@ -7,9 +7,9 @@ from pathlib import Path
 
 from surfexp import __version__
 from surfexp.commands.parser import Parser
-from surfexp.commands.views import latest_plan
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.experiment_files import methods_named, read_experiment
+from surfexp.lab.plan.plan import latest_plan
 from surfexp.lab.registry.catalogue import catalogue
 from surfexp.report.citation import bibliography
 

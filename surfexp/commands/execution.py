@@ -14,8 +14,8 @@ from pathlib import Path
 from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import StageFailure, UserError, unknown
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.plan.outcome import event_path, read_event
 from surfexp.lab.plan.plan import Node, Plan, read_plan
 from surfexp.lab.registry import registry

@@ -15,11 +15,11 @@ from rich.table import Table
 
 from surfexp.commands.parser import Parser
 from surfexp.commands.verdict_lines import print_verdicts
-from surfexp.lab.errors import UserError, unknown
-from surfexp.lab.plan.plan import Plan, read_plan
+from surfexp.lab.errors import UserError
+from surfexp.lab.plan.plan import Plan, latest_plan
+from surfexp.records.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.records.tracking import tracking_uri
 from surfexp.report.repeats import Repeats, repeats_of, spread
-from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.words import word
 
 # a name of a method longer than this is broken over lines
@@ -82,15 +82,6 @@ def _tables(plan: Plan, results: Path, form: str) -> None:
     for count, group in enumerate(groups, 1):
         group.metrics = declared_by(plan, group.rows)
         print(latex_table(group, f"{experiment}-{count}", made_by))
-
-
-def latest_plan(results: Path, experiment: str) -> Plan:
-    """The plan of an experiment that was written last."""
-    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
-    mine = [file for file, name in found.items() if name == experiment]
-    if not mine:
-        raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
-    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
 
 
 def wide_console() -> Console:

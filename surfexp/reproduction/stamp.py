@@ -13,7 +13,8 @@ from pathlib import Path
 
 import yaml
 
-from surfexp.lab.plan.fingerprint import code_closure, digest
+from surfexp.lab.digests import digest
+from surfexp.lab.plan.fingerprint import code_closure
 from surfexp.lab.plan.outcome import event_path, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.source_facts import source_facts

@@ -28,9 +28,9 @@ from surfexp.figures.figure import Figure
 from surfexp.io.csv_cells import cell
 from surfexp.io.label_files import read_labels
 from surfexp.io.reading import read_mesh
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry

@@ -53,7 +53,7 @@ def test_the_key_covers_both_tables_and_no_other_file(shapes: Path) -> None:
     for name in ("tosca", "file"):
         before = key_of(name=name, path=str(shapes / "ball0.vert"))
         (shapes / "notes.txt").write_text(f"changed beside it, {name}")
-        from surfexp.lab.plan.fingerprint import file_digest
+        from surfexp.lab.digests import file_digest
 
         file_digest.cache_clear()
         assert key_of(name=name, path=str(shapes / "ball0.vert")) == before

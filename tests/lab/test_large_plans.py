@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
+from surfexp.lab.digests import file_digest
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan import remembered_plans as planned
 from surfexp.lab.plan import resolution
-from surfexp.lab.plan.fingerprint import file_digest
 from surfexp.lab.plan.plan import Plan, read_plan
 from surfexp.lab.plan.resolution import _Resolver, make_plan
 from surfexp.lab.registry import registry

@@ -15,7 +15,7 @@ from surfexp.lab.registry import registry
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 from surfexp.report.verdict import Verdict, judge
 from surfexp.reproduction.page import section
 

@@ -16,7 +16,7 @@ from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
 from surfexp.lab.running import stage
 from surfexp.lab.store.kinds import KINDS
-from surfexp.report.table import rows_of
+from surfexp.records.table import rows_of
 from surfexp.report.verdict import judge
 from surfexp.reproduction import page as reproduction
 from surfexp.reproduction import stamp

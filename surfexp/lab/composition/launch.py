@@ -19,11 +19,11 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.lab.composition.hydra_guard import refuse_code
+from surfexp.lab.digests import file_digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings, expand
 from surfexp.lab.experiment.own_data import collection, with_collections, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
-from surfexp.lab.plan.fingerprint import file_digest
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.remembered_plans import place, remembered

@@ -16,8 +16,8 @@ from pydantic import BaseModel, ConfigDict
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.registry.catalogue import Catalogue, catalogue
 from surfexp.lab.registry.folders import package_folder as package_folder
 from surfexp.lab.registry.loading import load_all as load_all
