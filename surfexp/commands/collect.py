@@ -23,6 +23,7 @@ from surfexp.lab.experiment.collections import (
     unused_columns,
 )
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.catalogue import open_catalogue
 
 EXAMPLES = """\
 examples:
@@ -76,7 +77,7 @@ def command(name: str, arguments: list[str]) -> int:
 
 def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Member], dict[Path, str]]:
     """Read each surface as a run will; return the members that are good, and the other files with one line why."""
-    registry.open_catalogue(Path.cwd())
+    open_catalogue(Path.cwd())
     method = registry.plugin("surface", plugin)
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")

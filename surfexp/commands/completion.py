@@ -114,7 +114,7 @@ class _Commands(click.Group):
 
 def _modules() -> dict[str, tuple[str, str]]:
     """Module and help of every command by name."""
-    from surfexp.commands.command_line import COMMANDS
+    from surfexp.commands.all_commands import COMMANDS
 
     return COMMANDS
 

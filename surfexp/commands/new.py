@@ -13,6 +13,7 @@ from surfexp.lab.errors import UserError, unknown
 from surfexp.lab.experiment.configuration import NAME
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.folders import experiments
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.store.kinds import KINDS
 
 INPUTS = {"surface": (), "image": ("surface",), "operator": ("surface",), "model": (), "figure": ("surface", "solver")}
@@ -33,7 +34,7 @@ def command(name: str, arguments: list[str]) -> int:
     given = parser.parse_args(arguments)
     if given.kind == "experiment":
         return _new_experiment(given.name)
-    registry.load_all(Path.cwd())
+    load_all(Path.cwd())
     if given.kind != "kind" and given.kind not in KINDS:
         raise unknown("stage kind", given.kind, ["experiment", "kind", *KINDS])
     if not given.name.isidentifier() or keyword.iskeyword(given.name):

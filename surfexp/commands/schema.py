@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 from surfexp.commands.parser import Parser
+from surfexp.lab.registry.loading import load_all
 
 
 def command(name: str, arguments: list[str]) -> int:
@@ -20,7 +21,7 @@ def command(name: str, arguments: list[str]) -> int:
     from surfexp.lab.experiment.schema import schema_of
     from surfexp.lab.registry import registry
 
-    registry.load_all(Path.cwd())
+    load_all(Path.cwd())
     text = json.dumps(schema_of(registry.PLUGINS), indent=1)
     if given.to is None:
         print(text)

@@ -20,11 +20,12 @@ from surfexp.io.writing import write_mesh
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 
 
 def write_tables(stem: Path, mesh: TriangleMesh) -> None:

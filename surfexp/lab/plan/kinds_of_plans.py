@@ -9,6 +9,7 @@ from pathlib import Path
 from surfexp.lab.errors import UserError
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.lab.store.kinds import KINDS
 
 # how `registry.load_file` begins the names of modules
@@ -29,7 +30,7 @@ def load_own_kinds(plan: Plan) -> None:
 
 def load_known_kinds(plan: Plan) -> None:
     """Load plugins of a plan that others may have made: those found here or installed, never files that it names."""
-    registry.open_catalogue(Path.cwd())
+    open_catalogue(Path.cwd())
     for kind, name in {(node.kind, node.plugin) for node in plan.nodes.values()}:
         with suppress(UserError):
             registry.plugin(kind, name)

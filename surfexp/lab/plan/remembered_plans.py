@@ -44,7 +44,7 @@ def remembered(folder: Path | None) -> Plan | None:
     """The plan that is kept at a place, None where it has to be made (again)."""
     from surfexp.lab.plan.kinds_of_plans import load_own_kinds
     from surfexp.lab.plan.plan import read_plan
-    from surfexp.lab.registry.registry import open_catalogue
+    from surfexp.lab.registry.catalogue import open_catalogue
 
     if folder is None or fault(folder.parent) or not folder.is_dir():
         return None

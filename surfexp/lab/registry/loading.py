@@ -9,12 +9,11 @@ from typing import Any
 
 from surfexp.lab.errors import UserError
 from surfexp.lab.registry.folders import entry_points_of_plugins, plugin_files
+from surfexp.lab.registry.registry import BROKEN, load_file
 
 
 def loaders(working_folder: Path) -> dict[str, Callable[[], Any]]:
     """What loads each plugin file: the package's own, installed ones (`surfexp.plugins`), those in `plugins/` here."""
-    from surfexp.lab.registry.registry import load_file
-
     files = {str(file): partial(load_file, file) for file in plugin_files(working_folder)}
     return {**files, **{point.value: point.load for point in entry_points_of_plugins()}}
 
@@ -27,8 +26,6 @@ def load_all(working_folder: Path) -> None:
 
 def guarded(file: str, load: Callable[[], Any]) -> None:
     """Load one plugin file, or remember in `BROKEN` why it fails."""
-    from surfexp.lab.registry.registry import BROKEN
-
     try:
         load()
     except Exception as error:
