@@ -9,9 +9,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from surfexp.lab.registry import registry
 from surfexp.lab.registry.contained import contained_description
-from surfexp.lab.registry.description import Described
+from surfexp.lab.registry.described import Described
 from surfexp.lab.registry.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
 from surfexp.lab.registry.installed import installed_state
 from surfexp.lab.store.kinds import stage_kind
@@ -80,6 +79,8 @@ def _python_files(folder: str) -> Iterator[Path]:
 
 def open_catalogue(working_folder: Path) -> Catalogue:
     """Make every plugin known without loading it: its file is loaded when it is looked up."""
+    from surfexp.lab.registry import registry  # which takes pydantic; the catalogue is read without
+
     known = catalogue(working_folder)
     for name, (path, stored) in known.kinds.items():
         stage_kind(name, path, stored)

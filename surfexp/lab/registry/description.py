@@ -3,34 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.described import Described
 from surfexp.lab.registry.loading import guarded, loaders
 from surfexp.lab.store.kinds import KINDS
 
 LONGEST_REASON = 300
 PLAIN = (bool, int, float, str, list, dict, type(None))
-
-
-@dataclass(frozen=True)
-class Described:
-    """A plugin as a person or Hydra asks for it.
-
-    `options` are rows (name, default, values, meaning); `defaults` is what Hydra composes, "???" where an option is
-    required; `inputs` are kind and shape by role, `accepts` the plugins that may feed a kind.
-    """
-
-    kind: str
-    name: str
-    file: str
-    summary: str
-    inputs: dict[str, list[str]]
-    accepts: dict[str, list[str]]
-    options: list[list[str]]
-    defaults: dict[str, Any]
 
 
 def describe_all(working_folder: Path, faults: Mapping[str, str], tell: Callable[[str], None]) -> dict[str, Any]:
