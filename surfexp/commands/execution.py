@@ -42,6 +42,7 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
         if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):
             raise UserError(f"results folder {str(results)!r} has a {mark!r}, {why}: choose another name")
     hold_results(results, wait=True)
+    _warn([store.note_on_older_keys(results)])
     path = plan.write(results)
     tried = set[str]()
     # A stage that finds an input damaged removes it: that result is missing then, and the next round computes it.
@@ -136,6 +137,7 @@ def _profile(name: str) -> Path:
 
 def before_snakemake(plan: Plan, results: Path) -> None:
     """What plain Snakemake does before it looks for results, in a dry run too: nothing sound is removed."""
+    _warn([store.note_on_older_keys(results)])
     missing = unfinished(plan, results).items()
     kinds = {key: plan.nodes[key].kind for key, _ in missing}
     clear(plan, results, {key: said for key, said in missing if said or not store.is_done(results, kinds[key], key)})

@@ -13,6 +13,8 @@ from surfexp.lab.plan.source_facts import NOTHING, source_facts
 from surfexp.lab.registry.installed import package_version
 
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
+# the laboratory moves results, it does not make them; summaries and install hints only show
+NOT_IN_KEYS = ("surfexp.lab", "surfexp.contract.summary", "surfexp.extras")
 PACKAGE = Path(__file__).resolve().parents[2]
 
 
@@ -89,7 +91,7 @@ def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
 
 @cache
 def _module_files(name: str) -> tuple[Path, ...]:
-    if name.startswith("surfexp.lab"):
+    if name.startswith(NOT_IN_KEYS):
         return ()
     files, parts = [], name.split(".")
     # these parts of the package lie elsewhere in a checkout
