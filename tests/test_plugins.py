@@ -16,13 +16,14 @@ from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.outcome import read_event
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.report.declared import declared
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
 SPHERE = {"name": "icosphere", "levels": 3}

@@ -29,8 +29,8 @@ def cite(experiments: tuple[str, ...], results: Path) -> None:
 
 def plugins_of(experiment: str, results: Path) -> list[str]:
     """Return the plugins of an experiment as KIND/NAME: those of its last plan, or those that its file names."""
-    from surfexp.commands.views import latest_plan
     from surfexp.lab.experiment.experiment_files import methods_named, read_experiment
+    from surfexp.lab.plan.plan import latest_plan
     from surfexp.lab.registry.catalogue import catalogue
 
     with suppress(UserError):

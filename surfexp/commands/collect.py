@@ -78,8 +78,9 @@ def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Mem
     from rich.progress import track
 
     from surfexp.lab.registry import registry
+    from surfexp.lab.registry.catalogue import open_catalogue
 
-    registry.open_catalogue(Path.cwd())
+    open_catalogue(Path.cwd())
     method = registry.plugin("surface", plugin)
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")

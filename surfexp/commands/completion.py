@@ -16,7 +16,7 @@ def answer(instruction: str) -> int:
     """Print what the shell asked for in the environment; whoever waits is in the middle of a line, so no error is said."""
     from click.shell_completion import shell_complete
 
-    from surfexp.commands.command_line import surfexp
+    from surfexp.commands.all_commands import surfexp
 
     with contextlib.suppress(BaseException), contextlib.redirect_stderr(io.StringIO()):
         shell_complete(surfexp, {}, "surfexp", VARIABLE, instruction)
@@ -33,7 +33,7 @@ def completion(shell: str) -> None:
     """
     from click.shell_completion import get_completion_class
 
-    from surfexp.commands.command_line import surfexp
+    from surfexp.commands.all_commands import surfexp
 
     known = get_completion_class(shell)
     if known is not None:

@@ -10,7 +10,7 @@ import click
 from surfexp.commands.click_command import results_option, shown
 
 if TYPE_CHECKING:
-    from surfexp.report.table import Row
+    from surfexp.records.table import Row
 
 
 @click.command(**shown("diff", "0c548b1e 26a13223", "0c548b1e 26a13223 --results other/results"))
@@ -26,8 +26,8 @@ def diff(first: str, second: str, results: Path) -> int:
     from rich.console import Console
     from rich.table import Table
 
+    from surfexp.records.table import format_number
     from surfexp.report.row_difference import differing_options, numbers_beside
-    from surfexp.report.table import format_number
     from surfexp.report.words import word
 
     one, other = (_row(results, name) for name in (first, second))
@@ -52,7 +52,7 @@ def diff(first: str, second: str, results: Path) -> int:
 def _row(results: Path, name: str) -> Row:
     from surfexp.commands.exporting.selection import find
     from surfexp.lab.errors import UserError
-    from surfexp.report.table import rows_of
+    from surfexp.records.table import rows_of
 
     plan, key = find(results, name)
     found = [row for row in rows_of(plan, results.resolve()) if row.leaf.key == key]

@@ -14,12 +14,12 @@ from pathlib import Path
 from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import StageFailure, UserError, unknown
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.plan.outcome import event_path, read_event
 from surfexp.lab.plan.plan import Node, Plan, read_plan
-from surfexp.lab.registry import registry
 from surfexp.lab.registry.catalogue import code_state
+from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running import compiled_code
 from surfexp.lab.store import store
 
@@ -127,7 +127,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
 
 def _profile(name: str) -> Path:
     """Folder of a Snakemake profile: one of one's own, or one that comes with the package, from wherever it is run."""
-    shipped = registry.package_folder("surfexp.profiles")
+    shipped = package_folder("surfexp.profiles")
     for folder in (Path(name), shipped / name.removeprefix("profiles/")):
         if any(folder.glob("config*.yaml")):
             return folder.resolve()

@@ -29,12 +29,13 @@ def new(kind: str, name: str) -> None:
     plugins/KIND/NAME.py and tests/test_KIND_NAME.py, or conf/experiment/NAME.yaml, in the working folder.
     """
     from surfexp.lab.registry import registry
+    from surfexp.lab.registry.loading import load_all
     from surfexp.lab.store.kinds import KINDS
 
     if kind == "experiment":
         _new_experiment(name)
         return
-    registry.load_all(Path.cwd())
+    load_all(Path.cwd())
     if kind != "kind" and kind not in KINDS:
         raise unknown("stage kind", kind, ["experiment", "kind", *KINDS])
     if not name.isidentifier() or keyword.iskeyword(name):

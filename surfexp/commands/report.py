@@ -25,7 +25,7 @@ def report(
 
     Its place is printed. Without EXPERIMENT it is that of quickstart.
     """
-    from surfexp.commands.views import latest_plan
+    from surfexp.lab.plan.plan import latest_plan
 
     plans = {experiment: latest_plan(results, experiment) for experiment in experiments or ["quickstart"]}
     if claims:

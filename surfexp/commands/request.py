@@ -90,8 +90,8 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
 def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     """Run what is new of a search and say how it stands."""
     from surfexp.commands.execution import run
+    from surfexp.records.table import rows_of
     from surfexp.report.search import search_of
-    from surfexp.report.table import rows_of
 
     run(plan, arguments)
     command = shlex.join(["surfexp", "run", *arguments])
@@ -124,9 +124,9 @@ def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     """Print the tables of a plan that was run with these arguments, its verdicts, and where its pages are."""
     from surfexp.commands.verdict_lines import print_verdicts
     from surfexp.commands.views import print_tables, wide_console
+    from surfexp.records.table import comparisons, rows_of
     from surfexp.report.convergence import unconverged
     from surfexp.report.search import search_of
-    from surfexp.report.table import comparisons, rows_of
 
     results, console = Path(plan.settings.results), wide_console()
     rows = rows_of(plan, results.resolve())

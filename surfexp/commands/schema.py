@@ -19,8 +19,9 @@ def schema(target: Path | None) -> None:
     """
     from surfexp.lab.experiment.schema import schema_of
     from surfexp.lab.registry import registry
+    from surfexp.lab.registry.loading import load_all
 
-    registry.load_all(Path.cwd())
+    load_all(Path.cwd())
     text = json.dumps(schema_of(registry.PLUGINS), indent=1)
     if target is None:
         print(text)

@@ -29,7 +29,7 @@ def table(experiments: tuple[str, ...], form: str, results: Path) -> None:
 
     Without EXPERIMENT they are those of quickstart.
     """
-    from surfexp.commands.views import latest_plan
+    from surfexp.lab.plan.plan import latest_plan
 
     for plan in [latest_plan(results, experiment) for experiment in experiments or ["quickstart"]]:
         _print(plan, results.resolve(), form)
@@ -38,7 +38,7 @@ def table(experiments: tuple[str, ...], form: str, results: Path) -> None:
 def _print(plan: Plan, results: Path, form: str) -> None:
     from surfexp.commands.verdict_lines import print_verdicts
     from surfexp.commands.views import print_tables, wide_console
-    from surfexp.report.table import comparisons, rows_of, to_csv
+    from surfexp.records.table import comparisons, rows_of, to_csv
 
     rows = rows_of(plan, results)
     if form == "csv":

@@ -3,31 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from surfexp.lab.errors import unknown
-from surfexp.lab.plan.plan import Plan, read_plan
+from surfexp.records.table import Comparison, Row, format_number, short_name
 from surfexp.report.repeats import Repeats, repeats_of, spread
-from surfexp.report.table import Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
 # of an output that is no terminal: no table is that wide
 WIDE = 2000
-
-
-def latest_plan(results: Path, experiment: str) -> Plan:
-    """The plan of an experiment that was written last."""
-    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
-    mine = [file for file, name in found.items() if name == experiment]
-    if not mine:
-        raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
-    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
 
 
 def wide_console() -> Console:

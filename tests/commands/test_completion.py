@@ -15,7 +15,8 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands import choices
-from surfexp.commands.command_line import COMMANDS, main
+from surfexp.commands.all_commands import COMMANDS
+from surfexp.commands.command_line import main
 from surfexp.lab.registry.catalogue import Catalogue, Described
 from surfexp.lab.user_cache import Memory
 
@@ -136,7 +137,7 @@ def test_nothing_is_said_when_it_fails(shell: Shell, monkeypatch: pytest.MonkeyP
 def test_nothing_heavy_is_imported_for_any_command(tmp_path: Path) -> None:
     program = f"""
 import os, sys
-from surfexp.commands.command_line import COMMANDS
+from surfexp.commands.all_commands import COMMANDS
 from surfexp.commands.completion import answer
 for name in COMMANDS:
     for line in (f"surfexp {{name}} ", f"surfexp {{name}} --", f"surfexp {{name}} so"):

@@ -7,7 +7,8 @@ import re
 import click
 import pytest
 
-from surfexp.commands.command_line import COMMANDS, main, surfexp
+from surfexp.commands.all_commands import COMMANDS, surfexp
+from surfexp.commands.command_line import main
 
 WITHOUT_ARGUMENTS = {
     "run", "plan", "list", "table", "report", "open", "ui", "clean", "verify", "schema", "doctor"

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import surfexp as sx
-from surfexp.commands.command_line import SECTIONS, main
+from surfexp.commands.all_commands import SECTIONS
+from surfexp.commands.command_line import main
 from surfexp.io.map_files import read_maps
 
 

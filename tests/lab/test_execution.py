@@ -20,8 +20,8 @@ from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
+from surfexp.records.table import rows_of
 from surfexp.report.convergence import reason, unconverged
-from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
 
 CONFIGURATION = {

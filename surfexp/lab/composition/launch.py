@@ -19,16 +19,18 @@ from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.lab.composition.hydra_guard import refuse_code
+from surfexp.lab.digests import file_digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings, expand
 from surfexp.lab.experiment.own_data import collection, with_collections, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
-from surfexp.lab.plan.fingerprint import file_digest
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.remembered_plans import place, remembered
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.catalogue import open_catalogue
+from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.store.kinds import KINDS
 
 SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
@@ -65,7 +67,7 @@ class ConfigurationFolders(SearchPathPlugin):
 
     def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
         """See Hydra."""
-        if Path("conf").is_dir() and Path("conf").resolve() != registry.package_folder("surfexp.conf"):
+        if Path("conf").is_dir() and Path("conf").resolve() != package_folder("surfexp.conf"):
             search_path.append("working folder", f"file://{Path('conf').resolve()}")
         for point in entry_points(group="surfexp.plugins"):
             search_path.append(point.name, f"pkg://{point.module.split('.')[0]}.conf")
@@ -76,7 +78,7 @@ def prepare_hydra() -> None:
     from hydra.core.plugins import Plugins
 
     configurations = ConfigStore.instance()
-    for (kind, name), method in registry.open_catalogue(Path.cwd()).plugins.items():
+    for (kind, name), method in open_catalogue(Path.cwd()).plugins.items():
         configurations.store(group=kind, name=name, node={"name": name, **method.defaults}, provider="surfexp")
     sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.
     for extension in (PlanLauncher, ConfigurationFolders):
@@ -93,7 +95,7 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
     arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
     arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
-    known = str(OmegaConf.load(registry.package_folder("surfexp.conf") / "config.yaml").defaults)
+    known = str(OmegaConf.load(package_folder("surfexp.conf") / "config.yaml").defaults)
     new = {kind for kind in KINDS if f"'{kind}':" not in known}  # of these Hydra asks for a +
     arguments = [f"+{text}" if text.partition("=")[0] in new else text for text in arguments]
     if (plan := _plan_without_sweep(arguments)) is not None:
@@ -105,7 +107,7 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     os.environ["HYDRA_FULL_ERROR"] = "1"
     asks = {"--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
     sys.argv = ["surfexp run", *([] if asks else ["--multirun"]), *arguments]
-    folder = str(registry.package_folder("surfexp.conf"))
+    folder = str(package_folder("surfexp.conf"))
     hydra.main(version_base="1.3", config_path=folder, config_name="config")(lambda configuration: None)()
 
 
@@ -121,7 +123,7 @@ def _plan_without_sweep(overrides: list[str]) -> Plan | None:
     parsed = OverridesParser.create().parse_overrides(words)
     beyond = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
     single = [text for text, more in zip(words, beyond, strict=True) if not more]
-    with initialize_config_dir(str(registry.package_folder("surfexp.conf")), version_base="1.3"):
+    with initialize_config_dir(str(package_folder("surfexp.conf")), version_base="1.3"):
         loader: Any = GlobalHydra.instance().config_loader()
         stages, collections, rest = split_overrides(single, loader.repository)
         composed = compose("config", overrides=rest, return_hydra_config=True)
