@@ -507,10 +507,10 @@ def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> No
     [
         (lambda v, f: (np.where(np.arange(len(v))[:, None] == 5, np.nan, v), f), "no repair is possible"),
         (lambda v, f: (v, f[:0]), "0 faces"),
-        (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp mesh repair"),
-        (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp mesh repair"),
-        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp mesh repair"),
-        (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp mesh repair"),
+        (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp repair"),
+        (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp repair"),
+        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp repair"),
+        (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp repair"),
     ],
 )
 def test_defective_meshes_are_refused_with_the_remedy(

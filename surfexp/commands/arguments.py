@@ -1,4 +1,4 @@
-"""The arguments of `surfexp run` and `surfexp plan`: their help, and names that nothing has, before Hydra is asked."""
+"""The arguments of `surfexp run` and `surfexp plan`: what they can set, and names that nothing has, before Hydra is asked."""
 
 from __future__ import annotations
 
@@ -9,15 +9,6 @@ from surfexp.lab.errors import UserError, unknown
 from surfexp.lab.experiment.configuration import Settings
 from surfexp.lab.registry.catalogue import Catalogue, catalogue
 from surfexp.lab.registry.folders import experiments, installed_packages, package_folder
-
-EXAMPLES = """\
-examples:
-  surfexp run                                      the default experiment
-  surfexp run experiment=NAME                      another (surfexp list experiment)
-  surfexp run experiment=NAME,NAME                 several, one after the other
-  surfexp run solver=primal_dual,split_bregman     a sweep: comma lists, range(1,5), glob(*)
-  surfexp run surface=file surface.path=mesh.ply   your own surface
-  surfexp info solver/primal_dual                  the options of a plugin"""
 
 # Hydra's own parser takes a second to import, and answers a wrong one with its whole usage.
 FLAGS = frozenset(
@@ -50,15 +41,13 @@ FLAGS = frozenset(
 )
 
 
-def usage(command: str) -> str:
-    """The help text of `surfexp run --help`."""
+def choices_of_configuration() -> dict[str, list[tuple[str, str]]]:
+    """Settings with their meaning, and kinds with their plugins, by heading."""
     known = catalogue(Path.cwd())
-    width = max(map(len, (*Settings.model_fields, *known.kinds)))
-    settings = [f"  {name:{width}}  {field.description}" for name, field in Settings.model_fields.items()]
-    kinds = [f"  {kind:{width}}  {', '.join(sorted(known.names(kind)))}" for kind in known.kinds]
-    heading = f"usage: surfexp {command} [experiment=NAME] [KIND=PLUGIN] [KIND.OPTION=VALUE] [SETTING=VALUE] ..."
-    asked = "--cfg job prints the composed configuration"
-    return "\n".join([heading, "", EXAMPLES, "", "settings:", *settings, "", "kinds and plugins:", *kinds, "", asked])
+    return {
+        "Settings": [(name, str(field.description)) for name, field in Settings.model_fields.items()],
+        "Kinds and plugins": [(kind, ", ".join(sorted(known.names(kind)))) for kind in known.kinds],
+    }
 
 
 def check_arguments(arguments: list[str]) -> None:

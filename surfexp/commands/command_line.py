@@ -1,4 +1,4 @@
-"""The `surfexp` command: takes its subcommand off and hands the rest to Hydra, or to a small function of its own."""
+"""The `surfexp` command: its exit codes, and one line for whatever goes wrong."""
 
 from __future__ import annotations
 
@@ -6,33 +6,17 @@ import os
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Sequence
-from importlib import import_module
+from collections.abc import Sequence
 from pathlib import Path
 
-from surfexp import __version__
+import click
+
 from surfexp.commands import processes
-from surfexp.commands.all_commands import COMMANDS
+from surfexp.commands.all_commands import surfexp
+from surfexp.commands.click_command import mistake
 from surfexp.commands.error_line import error_line, tell
 from surfexp.extras import MissingExtra, missing_line, missing_module
-from surfexp.lab.errors import StageFailure, UserError, unknown
-
-
-def usage() -> str:
-    """The help text of `surfexp --help`."""
-    lines = [f"  {name:11} {text}" for name, (_, text) in COMMANDS.items()]
-    return "\n".join(
-        [
-            "usage: surfexp COMMAND [ARGUMENTS]   (surfexp COMMAND --help explains one)",
-            "",
-            "Experiments in intrinsic surface processing, planned once, computed once, compared fairly.",
-            "",
-            *lines,
-            "",
-            "--version shows the version, --debug the traceback of an error.",
-            "Exit codes: 2 a mistake in the request, 1 a failed stage, 3 a result that did not converge, 130 interrupted.",
-        ]
-    )
+from surfexp.lab.errors import StageFailure, UserError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -45,21 +29,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if "--debug" in given:
         given.remove("--debug")
         os.environ["SURFEXP_DEBUG"] = "1"
-    if not given or given[0] in ("--help", "-h", "help"):
-        print(usage())
-        return 0
-    if given[0] in ("--version", "-V"):
-        print(f"surfexp {__version__}")
-        return 0
+    if given[:1] == ["help"]:
+        given = [*given[1:], "--help"]
     if threading.current_thread() is threading.main_thread():
         processes.end_on_signals()
     try:
-        if given[0] not in COMMANDS:
-            raise unknown("command", given[0], COMMANDS)
-        module = import_module(f"surfexp.commands.{COMMANDS[given[0]][0]}")
-        command: Callable[[str, list[str]], int | None] = module.command
-        return command(given[0], given[1:]) or 0
-    except KeyboardInterrupt:
+        with surfexp.make_context("surfexp", list(given)) as context:
+            return surfexp.invoke(context) or 0
+    except click.exceptions.Exit as ended:
+        return ended.exit_code
+    except click.ClickException as error:
+        return tell(mistake(error))
+    except (KeyboardInterrupt, click.Abort):
         print(processes.INTERRUPTED, file=sys.stderr)
         return 130
     except BrokenPipeError:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import results_option, shown
 
 if TYPE_CHECKING:
     from surfexp.records.table import Row
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @click.command(**shown("diff", "0c548b1e 26a13223", "0c548b1e 26a13223 --results other/results"))
 @click.argument("first", metavar="RUN")
 @click.argument("second", metavar="RUN")
-@click.option("--results", type=click.Path(path_type=Path), default="results", show_default=True, help="results folder")
+@results_option
 def diff(first: str, second: str, results: Path) -> int:
     """Show the options in which two rows differ, and their numbers side by side.
 
@@ -59,8 +59,3 @@ def _row(results: Path, name: str) -> Row:
     if not found:
         raise UserError(f"{name!r} is no row of a table: write the key of one, the column leaf of metrics.csv")
     return found[0]
-
-
-def command(_: str, arguments: list[str]) -> int:
-    """Run the command."""
-    return run_click(diff, arguments)

@@ -115,11 +115,11 @@ def require_valid(
         raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible")
     found = [defect for defect in report.defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
-        raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: surfexp mesh repair {name}")
+        raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: surfexp repair {name} --to repaired.ply")
     if one_component and mesh.component_count > 1:
         raise ValueError(
             f"mesh {name} has {mesh.component_count} components, 1 is allowed here: "
-            f"surfexp mesh repair --largest-component {name}"
+            f"surfexp repair {name} --largest-component --to repaired.ply"
         )
 
 

@@ -282,8 +282,8 @@ def test_two_plugins_of_one_name_are_refused_naming_both_files(laboratory: Path)
 
 
 def test_help_and_catalogue(asked: Path) -> None:
-    for name in ("list", "info", "table", "report", "ui", "clean", "verify", "new", "view", "mesh", "doctor"):
-        assert "usage: surfexp" in surfexp(name, "--help").stdout
+    for name in ("list", "info", "table", "report", "ui", "clean", "verify", "new", "view", "check", "doctor"):
+        assert "Usage: surfexp" in surfexp(name, "--help").stdout
     assert "primal_dual" in surfexp("run", "--help").stdout and "toy_triangle" in surfexp("run", "--help").stdout
     listed = surfexp("info", "surface/toy_triangle").stdout
     assert "size" in listed and "> 0" in listed and "side length" in listed
