@@ -75,13 +75,19 @@ def largest_eigenvalue_bound(operator: SurfaceOperator) -> float:
     return float(3.0 * np.linalg.eigvalsh(local)[:, -1].max())
 
 
+def _remainder(last: float, order: int, argument: float) -> float:
+    """Bound of the sum of all terms after the last one: their quotients fall, and Amos (1974) bounds the first of them."""
+    quotient = argument / (order + 0.5 + np.hypot(argument, order + 0.5))
+    return float(last * quotient / (1.0 - quotient))
+
+
 def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
     """Coefficients of exp(-half (1 + x)) on [-1, 1], and the sum of the moduli of those left out."""
     degree = 8
     while degree <= LARGEST_DEGREE:
         terms = 2.0 * ive(np.arange(degree + 64), half)
         terms[0] *= 0.5
-        tails = np.cumsum(terms[::-1])[::-1]
+        tails = np.cumsum(terms[::-1])[::-1] + _remainder(terms[-1], len(terms) - 1, half)
         enough = np.flatnonzero(tails[1:] <= tolerance)
         if len(enough) and enough[0] < degree:
             last = int(enough[0])

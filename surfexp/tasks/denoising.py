@@ -8,12 +8,14 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import real_number
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for, plausible
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
@@ -24,8 +26,13 @@ from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
 
-HEAT_STEPS = 10
+# where slivers make the polynomial of the heat kernel too long; 100 steps are 1 % narrower than the kernel
+HEAT_STEPS, MOST_TERMS = 100, 3000.0
 NEWTON_BELOW = 1e-6
+# what varies less than this share of the largest value is rounding
+ROUNDING = 1e-12
+# its square is a time
+WIDEST = 1e100
 
 
 def denoise(
@@ -86,20 +93,46 @@ def denoise(
     >>> bool(sx.denoise(sphere, noisy).certificate["relative_gap"] <= 1e-4)
     True
     """
+    weight = real_number(weight, "weight", above=0.0)
+    ratio = real_number(ratio, "ratio", above=0.0)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
-    operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
-    sigma = noise_level(operator, image) if noise is None else float(noise)
+    operator, image = fem(part.mesh), plausible(np.asarray(part.restrict(noisy), dtype=np.float64))
+    # neither a constant nor a unit changes what is solved, nor its gap
+    centre, scale = _centre_and_scale(image, noise is None)
+    image = (image - centre) / scale
+    sigma = noise_level(operator, image) if noise is None else real_number(noise, "noise", above=0.0) / scale
     if method == "auto":
         found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
-        return replace(found, name=name_of(values))
-    facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
+        certificate = found.certificate | {"noise": sigma * scale}
+        return replace(found, values=found.values * scale + centre, certificate=certificate, name=name_of(values))
+    facts: dict[str, Any] = {"noise": sigma * scale, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
     notes = mask_notes(owner, part) + solution.notes
-    certificate = facts | _proof(solution, operator)
-    return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
+    certificate = facts | _proof(solution, operator, scale)
+    clean = part.extend(solution.values * scale + centre)
+    return DenoisedMap(clean, method, certificate, notes, name_of(values))
+
+
+def _centre_and_scale(image: Floats, noise_unknown: bool) -> tuple[Floats, float]:
+    """Return the mean of each channel, and the size of what varies.
+
+    Raises
+    ------
+    ValueError
+        If the map is constant, to rounding, and its noise is to be estimated.
+    """
+    largest = float(np.abs(image).max())
+    centre = (image / largest).mean(axis=0) * largest if largest > 0 else np.zeros(image.shape[1:])
+    scale = float(np.abs(image - centre).max())
+    if scale > ROUNDING * largest:
+        return centre, scale
+    if noise_unknown:
+        raise ValueError(f"map is constant ({image.flat[0]:g}) to rounding: it has no noise to be estimated")
+    return centre, 1.0
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
@@ -129,12 +162,12 @@ def _minimised(
     raise ValueError(f"method is {method!r}, choose rof, tgv or auto")
 
 
-def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
-    """What is proved of a solution; its distance to the minimiser as a root mean square over the area."""
+def _proof(solution: Solution, operator: SurfaceOperator, scale: float) -> dict[str, Any]:
+    """What is proved of a solution; its distance to the minimiser as a root mean square over the area, in the map's unit."""
     area = float(operator.mass.sum())
     return {
         "relative_gap": solution.relative_gap,
-        "error_bound": None if solution.error_bound is None else solution.error_bound / np.sqrt(area),
+        "error_bound": None if solution.error_bound is None else solution.error_bound * scale / np.sqrt(area),
         "converged": solution.converged,
         "iterations": solution.iterations,
     }
@@ -153,7 +186,7 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     width : float
         Full width at half maximum, in the unit of the surface (mm, say).
     method : "heat"
-        Ten implicit Euler steps of linear finite elements.
+        The kernel of linear finite elements with lumped mass, by the Chebyshev series of the exponential.
 
     Returns
     -------
@@ -172,19 +205,29 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     >>> bool(sx.smooth(sphere, sphere.mesh.vertices[:, 2], 0.5).values.max() < 1.0)
     True
     """
-    if not width > 0:
-        raise ValueError(
-            f"width is {width:g}, must be positive: a full width at half maximum in the unit of the surface"
-        )
+    width = real_number(width, "width", above=0.0, below=WIDEST)
     owner = as_surface(surface)
     rough = as_map(owner, values)
     part = part_for(owner, rough)
     operator = fem(part.mesh)
+    image = plausible(np.asarray(part.restrict(rough), dtype=np.float64))
     time = width**2 / (16.0 * np.log(2.0))
-    smoothed = heat_flow(operator, np.asarray(part.restrict(rough), dtype=np.float64), time, HEAT_STEPS)
-    certificate = {"width": width, "time": time, "steps": HEAT_STEPS}
+    centre = image.mean(axis=0)
+    smoothed, certificate, notes = _heat(operator, image - centre, time)
+    smoothed += centre
+    certificate |= {"width": width, "time": time}
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, mask_notes(owner, part), name_of(values))
+    return DenoisedMap(part.extend(smoothed), method, certificate, (*mask_notes(owner, part), *notes), name_of(values))
+
+
+def _heat(operator: SurfaceOperator, image: Floats, time: float) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
+    """Return the map after a time of heat flow, what is known of its error, and what has to be said."""
+    terms = np.sqrt(time * largest_eigenvalue_bound(operator))
+    if terms <= MOST_TERMS:
+        smoothed, degree, error = heat_polynomial(operator, image, time)
+        return smoothed, {"degree": degree, "relative_error_bound": error}, ()
+    note = f"Slivers ask for {terms:.0f} terms of the heat kernel: {HEAT_STEPS} implicit steps were taken instead."
+    return heat_flow(operator, image, time, HEAT_STEPS), {"steps": HEAT_STEPS}, (note,)
 
 
 def _change_of_mean(operator: SurfaceOperator, part: SurfacePart, before: Floats, after: Floats) -> float:

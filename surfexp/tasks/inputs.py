@@ -8,12 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.validate import require_valid
+from surfexp.tasks.soundness import sound_part
 
+# further from the median than this many times the distance of nine in ten values; white noise reaches 4, heavy tails 100
+USUAL, ABSURD = 0.9, 1e4
+# what programs write where nothing was measured; -1 and 0 are not among them, since they are values too
+NO_DATA = np.array([-9999.0, -99999.0, -32768.0, 1e20, np.finfo(np.float32).max, -np.finfo(np.float32).max])
 SurfaceLike = Any
 MapLike = str | ArrayLike
 
@@ -32,21 +37,30 @@ def as_surface(given: SurfaceLike) -> Surface:
         If it is none of these, or the mesh has a defect that a method cannot work with.
     """
     if isinstance(given, Surface):
-        return given
+        return sound_part(given, given.name)
     if isinstance(given, str | Path):
         from surfexp.tasks.files import read
 
         return read(given)
-    if isinstance(given, TriangleMesh):
-        mesh = given
-    else:
-        vertices, faces = _arrays_of(given)
-        mesh = TriangleMesh(np.asarray(vertices, dtype=np.float64), np.asarray(faces))
-    require_valid(mesh, "surface")
-    return Surface(mesh)
+    mesh = given if isinstance(given, TriangleMesh) else TriangleMesh(*arrays_of(given))
+    return sound_part(Surface(mesh), "surface")
 
 
-def _arrays_of(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
+def arrays_of(given: SurfaceLike) -> tuple[Floats, Integers]:
+    """Return vertices and faces of what is given, as numbers of the right type; defects are left as they are.
+
+    Raises
+    ------
+    ValueError
+        If it is nothing that `as_surface` takes, or an array does not hold real or whole numbers.
+    """
+    vertices, faces = _pair(given)
+    return real_array(vertices, "vertices"), index_array(faces, "faces")
+
+
+def _pair(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
+    if isinstance(given, Surface):
+        return given.mesh.vertices, given.mesh.faces
     for names in (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles")):
         if all(hasattr(given, name) for name in names):
             vertices, faces = (getattr(given, name) for name in names)
@@ -76,12 +90,36 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
             known = ", ".join(surface.scalars) or "none"
             raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")
         return surface.scalars[given]
-    array = np.asarray(given)
-    if array.dtype.kind not in "buif":
-        raise ValueError(f"map is an array of {array.dtype}, real numbers are needed")
+    array = real_array(given, "map")
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
-    return array.astype(np.float64)
+    return array.copy() if array is given else array
+
+
+def plausible(values: Floats, what: str = "map") -> Floats:
+    """Return the values of a map, if none is a code for "nothing measured" among measured ones.
+
+    Parameters
+    ----------
+    values : (p,) or (p, c) float64
+        Inside the mask.
+
+    Raises
+    ------
+    ValueError
+        If some lie further from the median than any measurement does; it says how many, names one, and what to write there.
+    """
+    for channel in values.reshape(len(values), -1).T:
+        away = np.abs(channel - np.median(channel))
+        usual = float(np.quantile(away, USUAL))
+        absurd = away > ABSURD * usual if usual > 0 else np.zeros(len(away), dtype=bool)
+        codes = np.isin(channel, NO_DATA) & (away > usual)
+        if (found := np.flatnonzero(absurd | codes)).size:
+            raise ValueError(
+                f"{what} has {len(found)} of {len(channel)} values like {channel[found[0]]:g}, its median is "
+                f"{np.median(channel):g}: no measurement lies so far away; write NaN where nothing was measured"
+            )
+    return values
 
 
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:

@@ -8,13 +8,14 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for, plausible
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -132,14 +133,14 @@ def segment(
     >>> bool((parts.labels == (sphere.mesh.vertices[:, 2] > 0)).mean() > 0.95)
     True
     """
-    if not 0 < tolerance < 1:
-        raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
+    smoothness = real_number(smoothness, "smoothness", above=0.0)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     owner = as_surface(surface)
     given = () if values is None else (as_map(owner, values),)
     part = part_for(owner, *given)
     said: tuple[str, ...] = ()
     if given:
-        inside = np.asarray(part.restrict(given[0]), dtype=np.float64)
+        inside = plausible(np.asarray(part.restrict(given[0]), dtype=np.float64))
     else:
         inside, said = _clipped_curvature(owner, part)
 
