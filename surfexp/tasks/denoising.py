@@ -15,7 +15,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for, plausible
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for, plausible
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
@@ -111,7 +111,7 @@ def denoise(
     facts: dict[str, Any] = {"noise": sigma * scale, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
-    notes = mask_notes(owner, part) + solution.notes
+    notes = part.notes + solution.notes
     certificate = facts | _proof(solution, operator, scale)
     clean = part.extend(solution.values * scale + centre)
     return DenoisedMap(clean, method, certificate, notes, name_of(values))
@@ -217,7 +217,7 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     smoothed += centre
     certificate |= {"width": width, "time": time}
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, (*mask_notes(owner, part), *notes), name_of(values))
+    return DenoisedMap(part.extend(smoothed), method, certificate, (*part.notes, *notes), name_of(values))
 
 
 def _heat(operator: SurfaceOperator, image: Floats, time: float) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.tasks.soundness import sound_part
+from surfexp.tasks.soundness import sound_part, usable_vertices
 
 # further from the median than this many times the distance of nine in ten values; white noise reaches 4, heavy tails 100
 USUAL, ABSURD = 0.9, 1e4
@@ -125,28 +127,31 @@ def plausible(values: Floats, what: str = "map") -> Floats:
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
 
+    Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken.
+
     Raises
     ------
     ValueError
         If a map is unknown somewhere inside the mask.
     """
-    finite = finite_mask(maps, len(surface.mesh.vertices))
+    count = len(surface.mesh.vertices)
+    finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
     mask = surface.mask if surface.mask is not None else finite
-    part = surface_part(surface.mesh, mask)
+    part = surface_part(surface.mesh, usable if mask is None else usable & mask)
     if surface.mask is not None and finite is not None:
         unknown = int((~finite[part.vertices]).sum())
         if unknown:
             raise ValueError(
                 f"map is NaN at {unknown} of the {len(part.vertices)} vertices inside the mask: narrow the mask"
             )
-    return part
+    return replace(part, notes=(*_taken(surface, part, finite, usable), *part.notes))
 
 
-def mask_notes(surface: Surface, part: SurfacePart) -> tuple[str, ...]:
-    """Say which part was taken where nobody asked for one, and what the mask cut off."""
-    if part.is_whole:
-        return ()
-    if surface.mask is not None:
-        return part.notes
-    taken = f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
-    return (taken, *part.notes)
+def _taken(
+    surface: Surface, part: SurfacePart, finite: NDArray[np.bool_] | None, usable: NDArray[np.bool_]
+) -> Iterator[str]:
+    """Say which part is taken where nobody asked for one."""
+    if lost := int((~usable).sum()):
+        yield f"{lost} of {part.whole_count} vertices belong to no face or have no finite position: they are outside."
+    if surface.mask is None and finite is not None:
+        yield f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."

@@ -15,7 +15,7 @@ from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for, plausible
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for, plausible
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -148,7 +148,7 @@ def segment(
         return primal_dual(fidelity, operator, start, tolerance=tolerance, progress=progress)
 
     solution = ConvexChanVese(smoothness=smoothness).run(Image(inside, "map"), fem(part.mesh), solve)
-    return _labelled(solution, part, (*mask_notes(owner, part), *said))
+    return _labelled(solution, part, (*part.notes, *said))
 
 
 def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:
