@@ -43,6 +43,7 @@ def heat_polynomial(
 
     References
     ----------
+    Amos: Computation of modified Bessel functions and their ratios (1974), for the bound of what is left out.
     Huang, Lyu, Qiu, Chung: Fast polynomial approximation of heat kernel convolution on manifolds and its application to
     brain sulcal and gyral graph pattern analysis (2020).
     """
@@ -81,7 +82,7 @@ def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
     while degree <= LARGEST_DEGREE:
         terms = 2.0 * ive(np.arange(degree + 64), half)
         terms[0] *= 0.5
-        tails = np.cumsum(terms[::-1])[::-1]
+        tails = np.cumsum(terms[::-1])[::-1] + terms[-1] * _rest_over_last(half, degree + 63)
         enough = np.flatnonzero(tails[1:] <= tolerance)
         if len(enough) and enough[0] < degree:
             last = int(enough[0])
@@ -91,3 +92,12 @@ def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
         f"time times the largest eigenvalue is {2 * half:.3g}: more than {LARGEST_DEGREE:,} terms; take heat_flow, "
         "whose steps are implicit"
     )
+
+
+def _rest_over_last(half: float, last: int) -> float:
+    """Bound of the sum of the coefficients beyond the last one over that one: a geometric series.
+
+    By Amos (1974), I_(k+1)(x) / I_k(x) <= x / (k + 1/2 + sqrt(x^2 + (k + 1/2)^2)), which falls with k.
+    """
+    ratio = half / (last + 0.5 + np.hypot(half, last + 0.5))
+    return float(ratio / (1.0 - ratio))

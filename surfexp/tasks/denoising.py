@@ -11,6 +11,8 @@ from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.smoothing.absurd_values import refuse_absurd_values
+from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for
@@ -24,8 +26,10 @@ from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
 
-HEAT_STEPS = 10
 NEWTON_BELOW = 1e-6
+# time times the largest eigenvalue; a polynomial of some thousand terms
+LONGEST_POLYNOMIAL = 1e6
+SMALL_STEPS = 100
 
 
 def denoise(
@@ -76,7 +80,8 @@ def denoise(
     Raises
     ------
     ValueError
-        If the map does not fit, is constant, or a parameter is not positive.
+        If the map does not fit, is constant while its noise is not given, has values far from all others (a code for no
+        data), or a parameter is out of its range.
 
     Examples
     --------
@@ -90,6 +95,11 @@ def denoise(
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
     operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
+    refuse_absurd_values(image, part.vertices)
+    if not 0 < tolerance < 1:
+        raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
+    if np.ptp(image) == 0 and noise is None:
+        raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
     sigma = noise_level(operator, image) if noise is None else float(noise)
     if method == "auto":
         found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
@@ -105,9 +115,7 @@ def denoise(
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
     """The distance to the map, by its weight without unit."""
     if not (noise > 0 and weight > 0):
-        raise ValueError(
-            f"noise is {noise:g} and weight {weight:g}, both must be positive: a constant map has no noise"
-        )
+        raise ValueError(f"noise is {noise:g} and weight {weight:g}, both must be positive: give the noise of the map")
     return rof(operator.mass, image, weight / (noise * operator.edge_length))
 
 
@@ -134,7 +142,7 @@ def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
     area = float(operator.mass.sum())
     return {
         "relative_gap": solution.relative_gap,
-        "error_bound": None if solution.error_bound is None else solution.error_bound / np.sqrt(area),
+        "error_bound": None if solution.error_bound is None else float(solution.error_bound / np.sqrt(area)),
         "converged": solution.converged,
         "iterations": solution.iterations,
     }
@@ -143,7 +151,8 @@ def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
 def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Literal["heat"] = "heat") -> DenoisedMap:
     """Smooth a map by heat flow on the surface, as wide as a Gaussian kernel of a given full width at half maximum.
 
-    On a plane heat flow for the time t is convolution with a Gaussian of variance 2 t; t = width^2 / (16 ln 2).
+    On a plane heat flow for the time t is convolution with a Gaussian of variance 2 t; t = width^2 / (16 ln 2). The kernel
+    has the full width within 1 / k^2 where that is k edges: 1 % from 10 edges on, 3 % at 6.
 
     Parameters
     ----------
@@ -153,7 +162,9 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     width : float
         Full width at half maximum, in the unit of the surface (mm, say).
     method : "heat"
-        Ten implicit Euler steps of linear finite elements.
+        The heat kernel of linear finite elements with lumped mass, by a polynomial of which `error` bounds what is left
+        out. Where slivers of triangles would need thousands of terms, a hundred implicit `steps` in their place, whose
+        kernel is 1 % narrower.
 
     Returns
     -------
@@ -181,8 +192,14 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     part = part_for(owner, rough)
     operator = fem(part.mesh)
     time = width**2 / (16.0 * np.log(2.0))
-    smoothed = heat_flow(operator, np.asarray(part.restrict(rough), dtype=np.float64), time, HEAT_STEPS)
-    certificate = {"width": width, "time": time, "steps": HEAT_STEPS}
+    inside = np.asarray(part.restrict(rough), dtype=np.float64)
+    refuse_absurd_values(inside, part.vertices)
+    certificate: dict[str, Any] = {"width": width, "time": time}
+    if time * largest_eigenvalue_bound(operator) <= LONGEST_POLYNOMIAL:
+        smoothed, certificate["degree"], certificate["error"] = heat_polynomial(operator, inside, time)
+    else:
+        smoothed = heat_flow(operator, inside, time, SMALL_STEPS)
+        certificate["steps"] = SMALL_STEPS
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
     return DenoisedMap(part.extend(smoothed), method, certificate, mask_notes(owner, part), name_of(values))
 
