@@ -97,7 +97,7 @@ def denoise(
     """
     weight = real_number(weight, "weight", above=0.0)
     ratio = real_number(ratio, "ratio", above=0.0)
-    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+    tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
