@@ -191,7 +191,8 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     check_map_target(path)
     check_map_names(maps)
     lengths = {len(values) for values in maps.values()}
-    if len(lengths) != 1:
+    # an archive also holds results whose arrays are no maps
+    if len(lengths) != 1 and path.suffix.lower() != ".npz":
         raise ValueError(f"{path}: maps have {sorted(lengths)} values, one for each vertex of one surface is needed")
     suffix = path.suffix.lower()
     with replacing(path) as temporary:
