@@ -19,6 +19,7 @@ from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
+from surfexp.variational.noise_reading import read_noise
 from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
@@ -100,16 +101,24 @@ def denoise(
         raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
-    sigma = noise_level(operator, image) if noise is None else float(noise)
+    sigma, said = _noise(operator, image, noise)
     if method == "auto":
         found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
-        return replace(found, name=name_of(values))
+        return replace(found, notes=found.notes + said, name=name_of(values))
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
-    notes = mask_notes(owner, part) + solution.notes
+    notes = mask_notes(owner, part) + solution.notes + said
     certificate = facts | _proof(solution, operator)
     return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
+
+
+def _noise(operator: SurfaceOperator, image: Floats, given: float | None) -> tuple[float, tuple[str, ...]]:
+    """The noise of a map, and what is to be said about it; several channels are pooled, and nothing is said of them."""
+    if image.ndim > 1:
+        return (noise_level(operator, image) if given is None else float(given)), ()
+    found = read_noise(operator, image)
+    return (found.level if given is None else float(given)), found.notes
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:

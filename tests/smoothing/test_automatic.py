@@ -11,6 +11,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, AutomaticSmoothing, automatic_smoothing
+from surfexp.smoothing.methods import MethodName, Methods
 from surfexp.studies.smoothing.automatic_trial import automatic_trial
 from surfexp.tasks import automatic_denoising
 from surfexp.tasks.denoising import denoise
@@ -58,6 +59,17 @@ def test_the_choice_does_not_depend_on_the_units() -> None:
     only = ("heat_polynomial",)
     widths = [automatic_smoothing(mesh, fem(mesh), rough, candidates=only).parameter for mesh in (BALL, large)]
     assert widths[1] == pytest.approx(50.0 * widths[0])
+
+
+@pytest.mark.parametrize("size", [1.0, 50.0])
+@pytest.mark.parametrize("name", ["total_variation", "heat_polynomial"])
+def test_the_parameter_that_is_reported_gives_the_map_again(size: float, name: MethodName) -> None:
+    """A weight has no unit and a width has that of the surface, whatever its size: its own method repeats the result."""
+    mesh = TriangleMesh(size * BALL.vertices, BALL.faces)
+    rough = 2.0 * (X > 0) + np.random.default_rng(0).standard_normal(len(X))
+    found = automatic_smoothing(mesh, fem(mesh), rough, candidates=(name,))
+    smoother, _ = Methods(mesh, fem(mesh), found.noise).smoother(name)
+    assert smoother(rough[:, None], found.parameter)[:, 0] == pytest.approx(found.values, abs=1e-6)
 
 
 def test_it_refuses_what_it_cannot_do() -> None:
