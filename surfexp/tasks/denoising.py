@@ -50,7 +50,8 @@ def denoise(
     mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor leave:
     the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
     generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least
-    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
+    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges. It replaces outliers
+    before, which the others follow.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ def denoise(
     DenoisedMap
         `values`, and the certificate with noise, weight, relative_gap and error_bound (largest possible root-mean-square
         distance to the exact minimiser, in the unit of the map). Of "auto": chosen (the method), parameter (a full width at
-        half maximum, or a weight), risk_METHOD (estimated mean square error over the variance of the noise).
+        half maximum, or a weight), outliers (how many), risk_METHOD (estimated mean square error over the variance of the noise).
 
     Raises
     ------
@@ -101,10 +102,10 @@ def denoise(
         raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
-    sigma, said = _noise(operator, image, noise)
     if method == "auto":
-        found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
-        return replace(found, notes=found.notes + said, name=name_of(values))
+        found = automatically_denoised(owner, part, operator, image, noise)
+        return replace(found, name=name_of(values))
+    sigma, said = _noise(operator, image, noise)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)

@@ -95,6 +95,27 @@ def outliers(operator: SurfaceOperator, values: Floats, level: float) -> Integer
     return np.flatnonzero(means > FAR * level)
 
 
+def without_outliers(operator: SurfaceOperator, values: Floats, places: Integers) -> Floats:
+    """Return the map with each of these values replaced by the median of its neighbours that are none of them.
+
+    Where all neighbours are, those that were replaced before it count.
+    """
+    ends = operator.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    ring = csr_array((np.ones(2 * len(ends)), np.concatenate([ends, ends[:, ::-1]]).T), shape=2 * (len(values),))
+    filled, left = values.copy(), np.zeros(len(values), dtype=bool)
+    left[places] = True
+    while left.any():
+        good = ~left
+        for vertex in np.flatnonzero(left):
+            near = ring.indices[ring.indptr[vertex] : ring.indptr[vertex + 1]]
+            if good[near].any():
+                filled[vertex] = np.median(filled[near[good[near]]])
+                left[vertex] = False
+        if np.array_equal(left, ~good):
+            break
+    return filled
+
+
 def _of_tied_map(
     operator: SurfaceOperator, values: Floats, found: NoiseReading, rest: float, seed: int
 ) -> NoiseReading:
@@ -120,7 +141,7 @@ def _with_words(found: NoiseReading, count: int) -> NoiseReading:
         )
     if len(found.outliers) > FEW_OUTLIERS * count:
         notes.append(
-            f"{len(found.outliers)} of {count} values are outliers, far from those of all their neighbours: estimates of the "
-            "risk take the noise as Gaussian and do not hold. Set them to NaN, or check how they came about."
+            f"{len(found.outliers)} of {count} values are outliers, far from those of all their neighbours: method auto "
+            "replaces them, the others follow them."
         )
     return replace(found, notes=tuple(notes))
