@@ -14,7 +14,7 @@ from surfexp.lab.experiment.configuration import Context, expand
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Node, Plan
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry.registry import open_catalogue
+from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
 from surfexp.variational.solution import Solution

@@ -16,7 +16,7 @@ from benchmarks.synthetic_results import fill, fill_experiment, plan_of, sweep
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import read_plan
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry.registry import open_catalogue
+from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.records.tracking import record
 from surfexp.report.page import write_report
 

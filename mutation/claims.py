@@ -30,9 +30,9 @@ PARTS = {"surfexp": "surfexp", "plugins": "surfexp/plugins", "conf": "surfexp/co
 JUDGE = """
 import json, sys
 from pathlib import Path
-from surfexp.commands.views import latest_plan
+from surfexp.lab.plan.plan import latest_plan
 from surfexp.lab.experiment.claim import read_claims
-from surfexp.report.table import rows_of
+from surfexp.records.table import rows_of
 from surfexp.report.verdict import judge
 results = Path(sys.argv[1])
 plan = latest_plan(results, sys.argv[2])

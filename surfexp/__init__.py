@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from surfexp.tasks.fingerprints import fingerprint as fingerprint
     from surfexp.tasks.null_maps import null_maps as null_maps
     from surfexp.tasks.pictures import plot as plot
+    from surfexp.tasks.repairing import check as check
+    from surfexp.tasks.repairing import repair as repair
     from surfexp.tasks.segmentation import segment as segment
     from surfexp.tasks.shapes import shape as shape
     from surfexp.tasks.signature_transformers import NodalCounts as NodalCounts

@@ -130,10 +130,10 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     ValueError: unknown finished experiment in nowhere 'quickstart'; choose from: none
     """
     require_installed("sx.load", *LABORATORY)
-    from surfexp.commands.views import latest_plan
     from surfexp.lab.errors import UserError
-    from surfexp.lab.registry.loading import load_known_kinds
-    from surfexp.report.table import rows_of
+    from surfexp.lab.plan.kinds_of_plans import load_known_kinds
+    from surfexp.lab.plan.plan import latest_plan
+    from surfexp.records.table import rows_of
 
     root = Path(results).resolve()
     try:

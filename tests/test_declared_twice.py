@@ -11,6 +11,7 @@ from typing import Any
 from pydantic_core import PydanticUndefined
 
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 
 # where an experiment needs another number than a person who calls the function
 DIFFERENT = {
@@ -36,7 +37,7 @@ DIFFERENT = {
 
 def declared_twice() -> Iterator[tuple[str, Any, Any]]:
     """Each default that stands in a function which a plugin calls and in its options: what it is, and both values."""
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     for (kind, name), plugin in registry.PLUGINS.items():
         named = {
             key: vars(sys.modules[plugin.function.__module__]).get(key) for key in plugin.function.__code__.co_names

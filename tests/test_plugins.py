@@ -16,13 +16,14 @@ from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.outcome import read_event
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.report.declared import declared
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
 SPHERE = {"name": "icosphere", "levels": 3}
@@ -506,10 +507,10 @@ def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> No
     [
         (lambda v, f: (np.where(np.arange(len(v))[:, None] == 5, np.nan, v), f), "no repair is possible"),
         (lambda v, f: (v, f[:0]), "0 faces"),
-        (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp mesh repair"),
-        (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp mesh repair"),
-        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp mesh repair"),
-        (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp mesh repair"),
+        (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp repair"),
+        (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp repair"),
+        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp repair"),
+        (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp repair"),
     ],
 )
 def test_defective_meshes_are_refused_with_the_remedy(

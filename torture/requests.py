@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
-from surfexp.commands.command_line import COMMANDS, main
+from surfexp.commands.all_commands import COMMANDS
+from surfexp.commands.command_line import main
 from surfexp.lab.registry.catalogue import catalogue
 from torture.case import REFUSED, RIGHT, WRONG, Ended, clear, in_a_child
 from torture.laboratory import EXPERIMENT, working_folder

@@ -3,7 +3,7 @@
 import numpy as np
 
 from surfexp.figures.level_set import level_set
-from surfexp.figures.order_plot import convergence_order
+from surfexp.linalg.convergence_order import convergence_order
 from surfexp.mesh.shapes.icosphere import icosphere
 
 meshes = [icosphere(levels).mesh for levels in range(2, 7)]

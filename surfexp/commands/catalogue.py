@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from rich.console import Console
-from rich.table import Table
+import click
 
-from surfexp.commands.parser import Parser
+from surfexp.commands import choices
+from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.registry.catalogue import Catalogue, catalogue
-from surfexp.lab.registry.folders import experiments
-from surfexp.lab.store.kinds import KINDS
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from surfexp.lab.registry.catalogue import Catalogue
 
 START = "Where to start"
 CHAPTERS = {
@@ -26,41 +29,63 @@ CHAPTERS = {
 OTHERS = "Others"
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Print plugins or experiments, the options of one plugin, or what is known of one experiment."""
-    parser = Parser(f"surfexp {name}")
-    if name == "list":
-        parser.add_argument("kind", nargs="?", help=f"one of: {', '.join(KINDS)}, experiment; default: a count of each")
-    else:
-        parser.add_argument("what", help="KIND/NAME, e.g. solver/primal_dual, or EXPERIMENT")
-        parser.add_argument("--results", type=Path, default=Path("results"), help="results folder of the experiment")
-    given = parser.parse_args(arguments)
-    known = catalogue(Path.cwd())
-    console = Console(highlight=False, markup=False)
-    for message in known.broken.values():
-        Console(stderr=True, highlight=False).print(f"warning: {message}", markup=False, soft_wrap=True)
-    if name == "info" and "/" not in given.what:
-        from surfexp.commands.experiment_facts import print_facts
+@click.command(**shown("list", "", "solver", "experiment", cls=click.Command))
+@click.argument("kind", required=False, shell_complete=choices.kind_or_experiment)
+def list_choices(kind: str | None) -> None:
+    """List the plugins of a kind, or the experiments.
 
-        print_facts(given.what, known, given.results, console)
-    elif name == "info":
-        _info(given.what, known, console)
-    elif given.kind in ("experiment", "experiments"):
+    Without KIND it is a count of each.
+    """
+    known, console = _known(), _console()
+    if kind in ("experiment", "experiments"):
         _menu(console)
-    elif given.kind is None:
+    elif kind is None:
+        from surfexp.lab.registry.folders import experiments
+
         counts = Counter(kind for kind, _ in known.plugins)
         rows = [(kind, f"{counts[kind]} plugins") for kind in known.kinds]
         _rows(console, [*rows, ("experiment", f"{len(experiments())}")])
-    elif given.kind in known.kinds:
-        _rows(console, [(p.name, p.summary) for (k, _), p in sorted(known.plugins.items()) if k == given.kind])
+    elif kind in known.kinds:
+        _rows(console, [(p.name, p.summary) for (k, _), p in sorted(known.plugins.items()) if k == kind])
     else:
-        raise unknown("stage kind", given.kind, [*known.kinds, "experiment"])
-    return 0
+        raise unknown("stage kind", kind, [*known.kinds, "experiment"])
+
+
+@click.command(**shown("info", "solver/primal_dual", "quickstart", cls=click.Command))
+@click.argument("what", metavar="KIND/NAME|EXPERIMENT", shell_complete=choices.plugin_or_experiment)
+@results_option
+def info(what: str, results: Path) -> None:
+    """Show the options of a plugin, or what an experiment asks and cost."""
+    known, console = _known(), _console()
+    if "/" in what:
+        _info(what, known, console)
+    else:
+        from surfexp.commands.experiment_facts import print_facts
+
+        print_facts(what, known, results, console)
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    return Console(highlight=False, markup=False)
+
+
+def _known() -> Catalogue:
+    """The catalogue of the working folder; files that cannot be read are named."""
+    from surfexp.lab.registry.catalogue import catalogue
+
+    known = catalogue(Path.cwd())
+    for message in known.broken.values():
+        click.echo(f"warning: {message}", err=True)
+    return known
 
 
 def _menu(console: Console) -> None:
     """Experiments by chapter: where to start, those of the dissertation, the rest, each once."""
     import yaml
+
+    from surfexp.lab.registry.folders import experiments
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *CHAPTERS.values(), OTHERS)}
@@ -79,6 +104,8 @@ def _menu(console: Console) -> None:
 
 
 def _rows(console: Console, rows: list[tuple[str, str]]) -> None:
+    from rich.table import Table
+
     table = Table.grid(padding=(0, 2))
     for row in rows:
         table.add_row(*row)
@@ -86,6 +113,8 @@ def _rows(console: Console, rows: list[tuple[str, str]]) -> None:
 
 
 def _info(wanted: str, known: Catalogue, console: Console) -> None:
+    from rich.table import Table
+
     kind, _, name = wanted.partition("/")
     check_known("stage kind", [kind], known.kinds)
     if (kind, name) not in known.plugins:

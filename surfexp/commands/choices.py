@@ -1,4 +1,4 @@
-"""What can stand where on the command line, from files and the remembered catalogue: for completion, which cannot wait."""
+"""What can stand where on the command line, from files and the remembered catalogue: a shell that completes cannot wait."""
 
 from __future__ import annotations
 
@@ -6,27 +6,81 @@ import ast
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from surfexp.lab.registry.catalogue import Catalogue, remembered
-from surfexp.lab.registry.folders import experiments, plugin_files
+import click
+from click.shell_completion import CompletionItem
 
-FIXED = {"mesh": ["check", "repair"], "fetch": ["tosca"]}
+if TYPE_CHECKING:
+    from surfexp.lab.registry.catalogue import Catalogue
 
 
-def arguments(command: str, before: list[str], incomplete: str) -> list[str]:
-    """Return what the next argument of a command that is not made with click can be."""
-    if command in ("run", "plan"):
-        return _settings(before, incomplete)
-    if command in ("table", "report", "open"):
-        return _beginning(finished_experiments(Path("results")), incomplete)
-    if command == "cite":
-        return _beginning(sorted(experiments()), incomplete)
-    if before:
-        return []
-    if command == "info":
-        return [*_of_plugins(incomplete), *(_beginning(sorted(experiments()), incomplete) if incomplete else [])]
-    known = {"list": [*kinds(), "experiment"], "new": ["kind", *kinds()]} if command in ("list", "new") else FIXED
-    return _beginning(known.get(command, []), incomplete)
+def finished(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """Experiments that were planned in the results folder."""
+    plans = (Path("results") / "plans").glob("*.json")
+    return _beginning(sorted({file.stem.rpartition("-")[0] for file in plans}), incomplete)
+
+
+def experiment(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """Experiments."""
+    return _beginning(_experiments(), incomplete)
+
+
+def kind(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """Stage kinds."""
+    return _beginning(_plugins(), incomplete)
+
+
+def kind_or_experiment(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """Stage kinds, and the word for all experiments."""
+    return _beginning([*_plugins(), "experiment"], incomplete)
+
+
+def new_kind(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """What `surfexp new` writes."""
+    return _beginning(["experiment", "kind", *_plugins()], incomplete)
+
+
+def plugin_or_experiment(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
+    """KIND/NAME, or an experiment that begins so."""
+    return [*_of_plugins(incomplete), *(_beginning(_experiments(), incomplete) if incomplete else [])]
+
+
+def setting(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str] | list[CompletionItem[str]]:
+    """experiment=NAME, KIND=PLUGIN, KIND.OPTION=VALUE; a file where nothing is known.
+
+    Bash cuts words at = and asks for what stands behind it alone.
+    """
+    words = _whole(ctx.params.get("arguments") or ())
+    if words and (cut := re.fullmatch(r"([^=~-][^=]*)=?", words[-1])):
+        prefix = f"{cut[1]}="
+        found = [text.removeprefix(prefix) for text in _settings(words[:-1], prefix + incomplete)]
+    else:
+        found = _settings(words, incomplete)
+    return found or [CompletionItem(incomplete, type="file")]
+
+
+def _whole(words: Iterable[str]) -> list[str]:
+    """Words that were cut at =, in one piece again."""
+    whole: list[str] = []
+    for word in words:
+        if word == "=" or (whole and whole[-1].endswith("=")):
+            whole[-1:] = ["".join([*whole[-1:], word])]
+        else:
+            whole.append(word)
+    return whole
+
+
+def _experiments() -> list[str]:
+    from surfexp.lab.registry.folders import experiments
+
+    return sorted(experiments())
+
+
+def _remembered() -> Catalogue | None:
+    from surfexp.lab.registry.catalogue import remembered
+
+    return remembered(Path.cwd())
 
 
 def _of_plugins(incomplete: str) -> list[str]:
@@ -34,16 +88,6 @@ def _of_plugins(incomplete: str) -> list[str]:
     plugins = {f"{kind}/": [f"{kind}/{name}" for name in names] for kind, names in _plugins().items()}
     kind, slash, _ = incomplete.partition("/")
     return _beginning(plugins.get(f"{kind}/", []), incomplete) if slash else _one_or_all(plugins, incomplete)
-
-
-def finished_experiments(results: Path) -> list[str]:
-    """Names of the experiments that were planned in a results folder."""
-    return sorted({file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")})
-
-
-def kinds() -> list[str]:
-    """Names of the stage kinds."""
-    return list(_plugins())
 
 
 def _settings(before: list[str], incomplete: str) -> list[str]:
@@ -70,15 +114,17 @@ def _one_or_all(choices: dict[str, list[str]], incomplete: str) -> list[str]:
 def _values(before: list[str], key: str) -> list[str]:
     kind, dot, option = key.partition(".")
     if key == "experiment":
-        return sorted(experiments())
+        return _experiments()
     return _options(before, kind).get(option, []) if dot else _plugins().get(kind, [])
 
 
 def _plugins() -> dict[str, list[str]]:
     """Names of plugins by kind; of their files, as nearly all are called, while nobody has asked for the catalogue itself."""
-    known = remembered(Path.cwd())
+    known = _remembered()
     if known is not None:
         return {kind: sorted(known.names(kind)) for kind in known.kinds}
+    from surfexp.lab.registry.folders import plugin_files
+
     found: dict[str, list[str]] = {}
     for file in plugin_files(Path.cwd()):
         found.setdefault(file.parent.name, []).append(file.stem)
@@ -87,7 +133,7 @@ def _plugins() -> dict[str, list[str]]:
 
 def _options(before: list[str], kind: str) -> dict[str, list[str]]:
     """Options of a kind with the values that they can only have: of the plugins that were chosen, else of all."""
-    known = remembered(Path.cwd())
+    known = _remembered()
     chosen = [word.partition("=")[2].split(",") for word in before if word.startswith(f"{kind}=")]
     names = chosen[-1] if chosen else known.names(kind) if known else []
     return _rows(known, kind, names) if known else {}

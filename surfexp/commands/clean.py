@@ -6,45 +6,49 @@ import shutil
 import sys
 from pathlib import Path
 
-from surfexp.commands.execution import hold_results
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import UserError
-from surfexp.lab.plan.plan import read_plan
-from surfexp.report.overview import is_ours
 
 # what runs make below a results folder, which may hold other files as well
 MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",
         "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Remove stored results of older code and options, or everything; ask first."""
-    parser = Parser(f"surfexp {name}", description=__doc__)
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
-    parser.add_argument("--all", action="store_true", help="remove every result, plan, log and the dashboard's runs")
-    parser.add_argument("--yes", action="store_true", help="do not ask")
-    given = parser.parse_args(arguments)
-    if not (given.results / "store").exists():
-        raise UserError(f"{given.results} holds no stored results")
-    hold_results(given.results)
-    doomed = _everything(given.results) if given.all else _unplanned(given.results)
+@click.command(**shown("clean", "", "--all --yes", cls=click.Command))
+@click.option("--all", "everything", is_flag=True, help="remove every result, plan, log and the dashboard's runs")
+@click.option("--yes", is_flag=True, help="do not ask")
+@results_option
+def clean(everything: bool, yes: bool, results: Path) -> None:
+    """Remove stored results that no plan names.
+
+    These are results of older code and options. It is asked first.
+    """
+    from surfexp.commands.execution import hold_results
+
+    if not (results / "store").exists():
+        raise UserError(f"{results} holds no stored results")
+    hold_results(results)
+    doomed = _everything(results) if everything else _unplanned(results)
     if not doomed:
-        print("nothing to remove: every stored result belongs to the latest plan of its experiment")
-        return 0
+        click.echo("nothing to remove: every stored result belongs to the latest plan of its experiment")
+        return
     size = sum(file.stat().st_size for path in doomed for file in ([path] if path.is_file() else path.rglob("*")))
-    print(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {given.results}")
-    if not given.yes and (not sys.stdin.isatty() or input("remove them? [y/N] ").strip().lower() != "y"):
-        print("nothing removed; --yes removes without asking")
-        return 0
+    click.echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}")
+    if not yes and (not sys.stdin.isatty() or not click.confirm("remove them?")):
+        click.echo("nothing removed; --yes removes without asking")
+        return
     for path in doomed:
         path.unlink() if path.is_file() or path.is_symlink() else shutil.rmtree(path)
-    while empty := _without_content(given.results):
+    while empty := _without_content(results):
         for folder in empty:
             folder.rmdir()
-    return 0
 
 
 def _everything(results: Path) -> list[Path]:
+    from surfexp.report.overview import is_ours
+
     experiments = {file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
     pages = [results / name for name in experiments if (results / name / "report.html").is_file()]
     overview = [page for page in [results / "index.html"] if is_ours(page)]
@@ -58,6 +62,8 @@ def _without_content(results: Path) -> list[Path]:
 
 
 def _unplanned(results: Path) -> list[Path]:
+    from surfexp.lab.plan.plan import read_plan
+
     latest: dict[str, Path] = {}
     for file in sorted((results / "plans").glob("*.json"), key=lambda file: file.stat().st_mtime):
         latest[file.stem.rpartition("-")[0]] = file

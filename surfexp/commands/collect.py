@@ -2,81 +2,85 @@
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import yaml
-from rich.console import Console
-from rich.progress import track
+import click
 
-from surfexp.commands.parser import Parser
+from surfexp.commands.click_command import shown
 from surfexp.lab.errors import UserError
-from surfexp.lab.experiment.collections import (
-    AXIS,
-    CLASS_OF_NAME,
-    PATTERNS,
-    Member,
-    collection_of_files,
-    name_of_collection,
-    unused_columns,
+
+if TYPE_CHECKING:
+    from surfexp.lab.experiment.collections import Member
+
+EXAMPLES = (
+    "tosca --surface tosca --to tosca   # then: surfexp run experiment=tosca_classification axes=tosca",
+    "people.csv                         # columns path, class, group",
+    "subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to people",
 )
-from surfexp.lab.registry import registry
-
-EXAMPLES = """\
-examples:
-  surfexp collect tosca --surface tosca --to tosca
-  surfexp run experiment=tosca_classification axes=tosca
-  surfexp collect people.csv                     # columns path, class, group
-  surfexp collect subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to people
-
-The axis is conf/axes/NAME.yaml in the working folder. Each member has a class, which classifiers tell apart, and a group, the
-owner, on which they never train when they judge it. Without an owner in the regular expression each file is one of its own.
-A table has the column path, from its own folder, and if wanted class, group, level, label and surface.OPTION. A folder, table
-or pattern can stand behind axes= as it is; then nothing is read beforehand, and what cannot be read stops the run."""
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Read every surface below a folder and write those that can be read as an axis; list the others with the reason."""
-    parser = Parser(
-        f"surfexp {name}",
-        description=command.__doc__,
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+@click.command(**shown("collect", *EXAMPLES, cls=click.Command))
+@click.argument("source", type=click.Path(path_type=Path))
+@click.option(
+    "--pattern", "patterns", multiple=True, help="of paths below the folder, repeatable; every mesh if not given"
+)
+@click.option("--group", help="regular expression with (?P<class>...), (?P<owner>...), (?P<detail>...)")
+@click.option("--surface", default="file", help="plugin that reads a path; tosca repairs what is defective")
+@click.option("--axis", default="shapes", help="name of the axis that the experiment asks for")
+@click.option("--to", "name", help="name of the collection; that of the folder or table if not given")
+@click.option("--force", is_flag=True, help="replace a collection of that name")
+def collect(
+    source: Path, patterns: tuple[str, ...], group: str | None, surface: str, axis: str, name: str | None, force: bool
+) -> None:
+    """Read your own surfaces as a collection for experiments.
+
+    SOURCE is a folder, a table (.csv, .tsv), or a pattern such as 'shapes/*.off'. What can be read is written as
+    conf/axes/NAME.yaml in the working folder; the other files are listed with the reason.
+
+    Each member has a class, which classifiers tell apart, and a group, the owner, on which they never train when they
+    judge it. Without an owner in the regular expression each file is one of its own. A table has the column path, from
+    its own folder, and if wanted class, group, level, label and surface.OPTION. A folder, table or pattern can stand
+    behind axes= as it is; then nothing is read beforehand, and what cannot be read stops the run.
+    """
+    import yaml
+
+    from surfexp.lab.experiment.collections import (
+        CLASS_OF_NAME,
+        PATTERNS,
+        collection_of_files,
+        name_of_collection,
+        unused_columns,
     )
-    parser.add_argument("source", type=Path, help="folder, table (.csv, .tsv), or pattern such as 'shapes/*.off'")
-    parser.add_argument("--pattern", action="append", help=f"of paths below the folder; default: {' '.join(PATTERNS)}")
-    parser.add_argument(
-        "--group", default=CLASS_OF_NAME, help="regular expression with (?P<class>...), (?P<owner>...), (?P<detail>...)"
-    )
-    parser.add_argument("--surface", default="file", help="plugin that reads a path; tosca repairs what is defective")
-    parser.add_argument("--axis", default=AXIS, help="name of the axis that the experiment asks for; default: shapes")
-    parser.add_argument("--to", help="name of the collection; default: that of the folder or table")
-    parser.add_argument("--force", action="store_true", help="replace a collection of that name")
-    given = parser.parse_args(arguments)
-    name = given.to or name_of_collection(given.source)
-    target = Path("conf", "axes", f"{name}.yaml")
-    if target.exists() and not given.force:
+
+    target = Path("conf", "axes", f"{name or name_of_collection(source)}.yaml")
+    if target.exists() and not force:
         raise UserError(f"{target} exists; --force replaces it, --to chooses another name")
-    known = collection_of_files(given.source, given.pattern or PATTERNS, given.group, given.surface)
-    members, refused = _readable(known, given.surface)
-    if given.source.is_file() and (unused := unused_columns(given.source)):
-        print(f"columns that say nothing here: {', '.join(unused)}")
+    known = collection_of_files(source, list(patterns) or PATTERNS, group or CLASS_OF_NAME, surface)
+    members, refused = _readable(known, surface)
+    if source.is_file() and (unused := unused_columns(source)):
+        click.echo(f"columns that say nothing here: {', '.join(unused)}")
     counts = Counter(str(member.get("class", "no class")) for member in members.values())
     _report(f"{len(members)} of {len(known)} files are members", counts, refused)
     if len(members) < 2:
-        raise UserError(f"{given.source}: {len(members)} surfaces can be read, a collection needs at least 2")
+        raise UserError(f"{source}: {len(members)} surfaces can be read, a collection needs at least 2")
     target.parent.mkdir(parents=True, exist_ok=True)
     left_out = "".join(f"# left out: {file.name}: {reason}\n" for file, reason in refused.items())
-    target.write_text(left_out + yaml.safe_dump({given.axis: members}, sort_keys=False, allow_unicode=True, width=1000))
-    print(f"written: {target}; use it with axes={target.stem}")
-    return 0
+    target.write_text(left_out + yaml.safe_dump({axis: members}, sort_keys=False, allow_unicode=True, width=1000))
+    click.echo(f"written: {target}; use it with axes={target.stem}")
 
 
 def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Member], dict[Path, str]]:
     """Read each surface as a run will; return the members that are good, and the other files with one line why."""
-    registry.open_catalogue(Path.cwd())
+    from rich.console import Console
+    from rich.progress import track
+
+    from surfexp.lab.registry import registry
+    from surfexp.lab.registry.catalogue import open_catalogue
+
+    open_catalogue(Path.cwd())
     method = registry.plugin("surface", plugin)
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import results_option, shown
 
 if TYPE_CHECKING:
-    from surfexp.report.table import Row
+    from surfexp.records.table import Row
 
 
 @click.command(**shown("diff", "0c548b1e 26a13223", "0c548b1e 26a13223 --results other/results"))
 @click.argument("first", metavar="RUN")
 @click.argument("second", metavar="RUN")
-@click.option("--results", type=click.Path(path_type=Path), default="results", show_default=True, help="results folder")
+@results_option
 def diff(first: str, second: str, results: Path) -> int:
     """Show the options in which two rows differ, and their numbers side by side.
 
@@ -26,8 +26,8 @@ def diff(first: str, second: str, results: Path) -> int:
     from rich.console import Console
     from rich.table import Table
 
+    from surfexp.records.table import format_number
     from surfexp.report.row_difference import differing_options, numbers_beside
-    from surfexp.report.table import format_number
     from surfexp.report.words import word
 
     one, other = (_row(results, name) for name in (first, second))
@@ -52,15 +52,10 @@ def diff(first: str, second: str, results: Path) -> int:
 def _row(results: Path, name: str) -> Row:
     from surfexp.commands.exporting.selection import find
     from surfexp.lab.errors import UserError
-    from surfexp.report.table import rows_of
+    from surfexp.records.table import rows_of
 
     plan, key = find(results, name)
     found = [row for row in rows_of(plan, results.resolve()) if row.leaf.key == key]
     if not found:
         raise UserError(f"{name!r} is no row of a table: write the key of one, the column leaf of metrics.csv")
     return found[0]
-
-
-def command(_: str, arguments: list[str]) -> int:
-    """Run the command."""
-    return run_click(diff, arguments)

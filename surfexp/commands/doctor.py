@@ -11,17 +11,21 @@ from importlib.metadata import PackageNotFoundError, requires, version
 from importlib.util import find_spec
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands.click_command import results_option, shown
 from surfexp.extras import EXTRAS
 
 SYSTEM = {"open3d": " and the system package libusb-1.0-0"}
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Print versions, extras and free disk; exit with 1 if something needed is missing."""
-    parser = Parser(f"surfexp {name}", description=__doc__)
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder to examine")
-    given = parser.parse_args(arguments)
+@click.command(**shown("doctor", "", "--results other/results", cls=click.Command))
+@results_option
+def doctor(results: Path) -> int:
+    """Show versions, extras and free disk, and what to install.
+
+    The exit code is 1 if something needed is missing.
+    """
     print(
         f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors"
     )
@@ -36,9 +40,9 @@ def command(name: str, arguments: list[str]) -> int:
         absent = [package for module, (package, of) in EXTRAS.items() if of == extra and not _imports(module)]
         remedy = f"pip install 'surfexp[{extra}]'{SYSTEM.get(extra, '')}"
         print(f"  absent   {extra}: {', '.join(absent)}; {remedy}" if absent else f"  ok       {extra} (extra)")
-    folder = given.results if given.results.exists() else Path.cwd()
+    folder = results if results.exists() else Path.cwd()
     free = shutil.disk_usage(folder).free / 1e9
-    print(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {given.results}")
+    print(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {results}")
     writable = os.access(folder, os.W_OK)
     print(
         f"  {'ok      ' if writable else 'READ-ONLY'} {folder.resolve()} {'' if writable else ': choose results=FOLDER'}"

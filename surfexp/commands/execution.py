@@ -14,12 +14,12 @@ from pathlib import Path
 from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import StageFailure, UserError, unknown
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.plan.outcome import event_path, read_event
 from surfexp.lab.plan.plan import Node, Plan, read_plan
-from surfexp.lab.registry import registry
 from surfexp.lab.registry.catalogue import code_state
+from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running import compiled_code
 from surfexp.lab.store import store
 
@@ -42,6 +42,7 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
         if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):
             raise UserError(f"results folder {str(results)!r} has a {mark!r}, {why}: choose another name")
     hold_results(results, wait=True)
+    _warn([store.note_on_older_keys(results)])
     path = plan.write(results)
     tried = set[str]()
     # A stage that finds an input damaged removes it: that result is missing then, and the next round computes it.
@@ -127,7 +128,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
 
 def _profile(name: str) -> Path:
     """Folder of a Snakemake profile: one of one's own, or one that comes with the package, from wherever it is run."""
-    shipped = registry.package_folder("surfexp.profiles")
+    shipped = package_folder("surfexp.profiles")
     for folder in (Path(name), shipped / name.removeprefix("profiles/")):
         if any(folder.glob("config*.yaml")):
             return folder.resolve()
@@ -136,6 +137,7 @@ def _profile(name: str) -> Path:
 
 def before_snakemake(plan: Plan, results: Path) -> None:
     """What plain Snakemake does before it looks for results, in a dry run too: nothing sound is removed."""
+    _warn([store.note_on_older_keys(results)])
     missing = unfinished(plan, results).items()
     kinds = {key: plan.nodes[key].kind for key, _ in missing}
     clear(plan, results, {key: said for key, said in missing if said or not store.is_done(results, kinds[key], key)})

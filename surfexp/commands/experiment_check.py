@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.commands.run import plan_and_act
+from surfexp.commands.request import plan_and_act
 from surfexp.lab.errors import UserError
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.registry.folders import experiments

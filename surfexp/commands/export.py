@@ -6,34 +6,23 @@ from pathlib import Path
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands import choices
+from surfexp.commands.click_command import results_option, shown
 
 LINES_LEFT_OUT = 10
 
 
-def _targets(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
-    from surfexp.commands.choices import finished_experiments
-
-    return [name for name in finished_experiments(Path("results")) if name.startswith(incomplete)]
-
-
-def _kinds(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[str]:
-    from surfexp.commands.choices import kinds
-
-    return [name for name in kinds() if name.startswith(incomplete)]
-
-
 @click.command(**shown("export", "quickstart --to exported", "quickstart --kind solver --kind surface --to exported"))
-@click.argument("target", metavar="EXPERIMENT|RUN", shell_complete=_targets)
+@click.argument("target", metavar="EXPERIMENT|RUN", shell_complete=choices.finished)
 @click.option(
-    "--to", "folder", type=click.Path(path_type=Path), default="export", show_default=True, help="made if not there"
+    "--to", "folder", type=click.Path(path_type=Path), default="export", help="folder of the files; made if not there"
 )
 @click.option("--all", "everything", is_flag=True, help="every stored stage, not only the rows and what they stand on")
 @click.option(
     "--kind",
     "kinds",
     multiple=True,
-    shell_complete=_kinds,
+    shell_complete=choices.kind,
     help="only stages of this kind, wherever they stand; repeatable",
 )
 @click.option("--matrix-market", is_flag=True, help="write the matrices of operators as .mtx too")
@@ -43,7 +32,7 @@ def _kinds(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> l
     is_flag=True,
     help="write plots as .pdf and as .png of 300 dots an inch too (surfexp[print])",
 )
-@click.option("--results", type=click.Path(path_type=Path), default="results", show_default=True, help="results folder")
+@results_option
 def export(
     target: str,
     folder: Path,
@@ -53,7 +42,9 @@ def export(
     for_print: bool,
     results: Path,
 ) -> int:
-    """Write finished results as files: what the rows of the tables are, their figures, surfaces and images.
+    """Write finished results as files for other programs.
+
+    These are what the rows of the tables stand on: figures, surfaces, images, numbers.
 
     EXPERIMENT is a name, whose latest configuration is taken. RUN is one row of it: the key of its result (the column leaf
     of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or the id of an MLflow run.
@@ -92,8 +83,3 @@ def export(
     stages = len({row["key"] for row in export.rows})
     click.echo(f"{stages} of {len(nodes)} results in {len(export.rows)} files: {folder / 'index.csv'}", err=True)
     return 0
-
-
-def command(_: str, arguments: list[str]) -> int:
-    """Run the command."""
-    return run_click(export, arguments)

@@ -6,8 +6,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import click
+
 from surfexp.anatomy.data_packages import PACKAGES, DataPackage
-from surfexp.commands.parser import Parser
+from surfexp.commands.click_command import shown
 from surfexp.extras import require_installed
 from surfexp.lab.errors import UserError
 
@@ -15,24 +17,25 @@ from surfexp.lab.errors import UserError
 COLLECTIONS = {"tosca": "http://tosca.cs.technion.ac.il/data/toscahires-asci.zip"}
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Get a public collection: an archive is downloaded once and pinned, a package that you install is checked.
+@click.command(**shown("fetch", "tosca", "tosca --to shapes/tosca", cls=click.Command))
+@click.argument("collection", type=click.Choice(sorted([*COLLECTIONS, *PACKAGES])), metavar="COLLECTION")
+@click.option("--to", "folder", type=click.Path(path_type=Path), help="folder; the collection's name if not given")
+@click.option("--url", help="another place that has the archive")
+@click.option("--sha256", help="checksum that the archive must have")
+def fetch(collection: str, folder: Path | None, url: str | None, sha256: str | None) -> None:
+    """Get a public collection of surfaces.
 
-    Of an archive the publishers name no checksum: the first download is trusted unless --sha256 is given. Of a package
-    each file that experiments read is held against its SHA-256; nothing is copied.
+    An archive is downloaded once and pinned; a package that you install is checked. Of an archive the publishers name no
+    checksum: the first download is trusted unless --sha256 is given. Of a package each file that experiments read is held
+    against its SHA-256; nothing is copied.
     """
-    parser = Parser(f"surfexp {name}", description=command.__doc__)
-    parser.add_argument("collection", choices=sorted([*COLLECTIONS, *PACKAGES]))
-    parser.add_argument("--to", type=Path, help="folder; default: the collection's name in the working folder")
-    parser.add_argument("--url", help="another place that has the archive")
-    parser.add_argument("--sha256", help="checksum that the archive must have")
-    given = parser.parse_args(arguments)
-    if given.collection in PACKAGES:
-        return _check(PACKAGES[given.collection])
-    return _download(given.collection, given.url, given.to, given.sha256)
+    if collection in PACKAGES:
+        _check(PACKAGES[collection])
+    else:
+        _download(collection, url, folder, sha256)
 
 
-def _check(package: DataPackage) -> int:
+def _check(package: DataPackage) -> None:
     """Say whether a package's files are there and are those that were seen, who may use them, and what reads them."""
     if package.folder() is None:
         raise UserError(f"{package.module} is not installed: pip install '{package.requirement}', then call this again")
@@ -44,10 +47,9 @@ def _check(package: DataPackage) -> int:
     print(f"{package.module}: all {len(package.files)} files are those of {package.requirement}")
     print(package.terms)
     print("next: " + ", ".join(f"surfexp run experiment={experiment}" for experiment in package.experiments))
-    return 0
 
 
-def _download(collection: str, given_url: str | None, to: Path | None, sha256: str | None) -> int:
+def _download(collection: str, given_url: str | None, to: Path | None, sha256: str | None) -> None:
     """Download an archive once and unpack it; its SHA-256 is written down, and held against at every later time."""
     url, folder = given_url or COLLECTIONS[collection], to or Path(collection)
     archive, pin = folder / url.rpartition("/")[2], folder / "SHA256"
@@ -66,7 +68,6 @@ def _download(collection: str, given_url: str | None, to: Path | None, sha256: s
     print(
         f"{len(files)} files in {folder / 'shapes'}; next: surfexp collect {folder / 'shapes'} --surface tosca --to tosca"
     )
-    return 0
 
 
 def _pooch() -> Any:

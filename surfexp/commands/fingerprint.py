@@ -9,19 +9,21 @@ from pathlib import Path
 import click
 
 from surfexp.commands.certificate import write_certificate
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import shown
 
 SPOKEN_EVERY = 30.0
 
 
 @click.command(**shown("fingerprint", "$SUBJECTS_DIR -k 50 --to table.csv", "left.ply right.ply --to table.csv"))
-@click.argument("sources", nargs=-1, required=True)
-@click.option("-k", "count", default=50, show_default=True, help="number of eigenvalues, ev0 = 0 among them")
-@click.option("--tolerance", default=1e-8, show_default=True, help="largest relative residual")
+@click.argument("sources", nargs=-1, required=True, type=click.Path())
+@click.option("-k", "count", default=50, help="number of eigenvalues, ev0 = 0 among them")
+@click.option("--tolerance", default=1e-8, help="largest relative residual")
 @click.option("--strict", is_flag=True, help="leave defective meshes out instead of repairing them")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the table, .csv")
 def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> None:
-    """Area, volume and lowest eigenvalues of files, a folder, a SUBJECTS_DIR or BIDS derivatives.
+    """Area, volume and lowest eigenvalues of many surfaces as a table.
+
+    SOURCES are files, a folder, a SUBJECTS_DIR or BIDS derivatives.
 
     Of FreeSurfer subjects surf/?h.white, surf/?h.pial and the structures of mri/aseg.mgz are taken.
 
@@ -72,8 +74,3 @@ class _Clock:
         elif now - self.spoken > SPOKEN_EVERY:
             self.spoken = now
             click.echo(line, err=True)
-
-
-def command(_: str, arguments: list[str]) -> int:
-    """Run the command."""
-    return run_click(fingerprint, arguments)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import (
     finish,
     given_maps,
@@ -26,19 +26,18 @@ EXAMPLES = {
 
 
 @click.command(**shown("denoise", *EXAMPLES["denoise"]))
-@click.argument("path")
-@click.argument("map_name", metavar="MAP")
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="MAP", type=click.Path())
 @click.option(
     "--method",
     type=click.Choice(["rof", "tgv", "auto"]),
     default="rof",
-    show_default=True,
     help="total variation; total generalised variation, which makes no stairs of slopes; or what promises least error",
 )
-@click.option("--weight", default=0.9, show_default=True, help="without unit; smaller is smoother")
-@click.option("--ratio", default=2.0, show_default=True, help="of tgv: over how many edge lengths a slope may turn")
+@click.option("--weight", default=0.9, help="without unit; smaller is smoother")
+@click.option("--ratio", default=2.0, help="of tgv: over how many edge lengths a slope may turn")
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
-@click.option("--tolerance", default=1e-4, show_default=True, help="largest relative duality gap")
+@click.option("--tolerance", default=1e-4, help="largest relative duality gap")
 @surface_options
 @result_option()
 def denoise(
@@ -52,7 +51,10 @@ def denoise(
     target: Path,
     **given: Any,
 ) -> None:
-    """Remove the noise of a map by total variation, which keeps its edges. MAP is a file, or a map that the surface carries."""
+    """Remove the noise of a map by total variation, which keeps its edges.
+
+    MAP is a file, or a map that the surface carries.
+    """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
 
@@ -77,15 +79,18 @@ def millimetres(text: str) -> float:
 
 
 @click.command(**shown("smooth", *EXAMPLES["smooth"]))
-@click.argument("path")
-@click.argument("map_name", metavar="MAP")
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="MAP", type=click.Path())
 @click.option(
     "--width", type=millimetres, required=True, help="full width at half maximum, in the unit of the surface: 6mm"
 )
 @surface_options
 @result_option()
 def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> None:
-    """Smooth a map by heat flow on the surface, as a Gaussian of a given width would."""
+    """Smooth a map by heat flow, as a Gaussian of a given width would.
+
+    MAP is a file, or a map that the surface carries.
+    """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import smooth as task
 
@@ -98,11 +103,3 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     finish(
         target, named_as(maps, smoothed.values, target), surface, "heat", {"width": width}, files, facts, smoothed.notes
     )
-
-
-COMMANDS = {command.name: command for command in (denoise, smooth)}
-
-
-def command(name: str, arguments: list[str]) -> int:
-    """Run one of the commands."""
-    return run_click(COMMANDS[name], arguments)

@@ -7,16 +7,19 @@ from pathlib import Path
 import click
 
 from surfexp.commands.certificate import write_certificate
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import shown
 
 DEFECTIVE = 2
 EXPERIMENTS = (".yaml", ".yml")
 
 
 @click.command(**shown("check", "scan.ply", "conf/experiment/mine.yaml"))
-@click.argument("files", nargs=-1, required=True)
+@click.argument("files", nargs=-1, required=True, type=click.Path())
 def check(files: tuple[str, ...]) -> int:
-    """Name every defect of mesh files, or the first mistake of experiments; exit code 2 where something is wrong."""
+    """Name the defects of mesh files, or the first mistake of experiments.
+
+    An experiment is a file .yaml. The exit code is 2 where something is wrong.
+    """
     from surfexp.io.reading import read_mesh
     from surfexp.mesh.validate import validate
 
@@ -40,11 +43,14 @@ def check(files: tuple[str, ...]) -> int:
 
 
 @click.command(**shown("repair", "scan.ply --to sound.ply", "scan.obj --largest-component --to sound.ply"))
-@click.argument("file")
+@click.argument("file", type=click.Path())
 @click.option("--largest-component", is_flag=True, help="keep the component of largest area only")
-@click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the suffix decides")
+@click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="result; the suffix decides")
 def repair(file: str, largest_component: bool, target: Path) -> None:
-    """Repair every defect that can be, say each change, and take the maps along where the format holds some."""
+    """Repair the defects of a mesh and say each change.
+
+    Maps are taken along where the format of the result holds some.
+    """
     from surfexp.io.reading import read_mesh
     from surfexp.io.writing import WITH_MAPS, write_mesh
     from surfexp.mesh.repair import repair as task
@@ -59,11 +65,3 @@ def repair(file: str, largest_component: bool, target: Path) -> None:
     )
     click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
     click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
-
-
-COMMANDS = {"check": check, "repair": repair}
-
-
-def command(name: str, arguments: list[str]) -> int:
-    """Run one of the two."""
-    return run_click(COMMANDS[name], arguments)

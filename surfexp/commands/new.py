@@ -8,59 +8,63 @@ from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands import choices
+from surfexp.commands.click_command import shown
 from surfexp.lab.errors import UserError, unknown
-from surfexp.lab.experiment.configuration import NAME
-from surfexp.lab.registry import registry
-from surfexp.lab.registry.folders import experiments
-from surfexp.lab.store.kinds import KINDS
 
 INPUTS = {"surface": (), "image": ("surface",), "operator": ("surface",), "model": (), "figure": ("surface", "solver")}
 ROLES = {"solver": "solution"}
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Write `plugins/KIND/NAME.py` and `tests/test_KIND_NAME.py` in the working folder; a kind is one plugin file too."""
-    parser = Parser(
-        f"surfexp {name}",
-        description=__doc__,
-        epilog="examples: surfexp new solver my_method, surfexp new kind thickness, surfexp new experiment noise",
-    )
-    parser.add_argument(
-        "kind", help=f"experiment; kind, for a stage kind with its first method; or one of: {', '.join(KINDS)}"
-    )
-    parser.add_argument("name", help="the field's word for the method, e.g. split_bregman")
-    given = parser.parse_args(arguments)
-    if given.kind == "experiment":
-        return _new_experiment(given.name)
-    registry.load_all(Path.cwd())
-    if given.kind != "kind" and given.kind not in KINDS:
-        raise unknown("stage kind", given.kind, ["experiment", "kind", *KINDS])
-    if not given.name.isidentifier() or keyword.iskeyword(given.name):
-        raise UserError(f"plugin name {given.name!r}: letters, digits and underscores, e.g. {'my_method'!r}")
-    if (given.kind, given.name) in registry.PLUGINS:
-        raise UserError(f"{given.kind}/{given.name} exists: {registry.PLUGINS[given.kind, given.name].file}")
-    if given.kind == "kind" and given.name in KINDS:
-        raise UserError(f"stage kind {given.name!r} exists: {KINDS[given.name].path}")
-    plugin, test = Path("plugins", given.kind, f"{given.name}.py"), Path("tests", f"test_{given.kind}_{given.name}.py")
-    if given.kind == "kind":
-        plugin = Path("plugins", given.name, "height.py")
+@click.command(**shown("new", "solver my_method", "kind thickness", "experiment noise", cls=click.Command))
+@click.argument("kind", shell_complete=choices.new_kind)
+@click.argument("name")
+def new(kind: str, name: str) -> None:
+    """Write a plugin with its test, or an experiment, to start from.
+
+    KIND is a stage kind (surfexp list), for a plugin of that kind; the word kind, for a stage kind with its first method;
+    or the word experiment. NAME is the field's word for the method, such as split_bregman. The files are
+    plugins/KIND/NAME.py and tests/test_KIND_NAME.py, or conf/experiment/NAME.yaml, in the working folder.
+    """
+    from surfexp.lab.registry import registry
+    from surfexp.lab.registry.loading import load_all
+    from surfexp.lab.store.kinds import KINDS
+
+    if kind == "experiment":
+        _new_experiment(name)
+        return
+    load_all(Path.cwd())
+    if kind != "kind" and kind not in KINDS:
+        raise unknown("stage kind", kind, ["experiment", "kind", *KINDS])
+    if not name.isidentifier() or keyword.iskeyword(name):
+        raise UserError(f"plugin name {name!r}: letters, digits and underscores, e.g. {'my_method'!r}")
+    if (kind, name) in registry.PLUGINS:
+        raise UserError(f"{kind}/{name} exists: {registry.PLUGINS[kind, name].file}")
+    if kind == "kind" and name in KINDS:
+        raise UserError(f"stage kind {name!r} exists: {KINDS[name].path}")
+    plugin, test = Path("plugins", kind, f"{name}.py"), Path("tests", f"test_{kind}_{name}.py")
+    if kind == "kind":
+        plugin = Path("plugins", name, "height.py")
     for file in (plugin, test):
         if file.exists():
             raise UserError(f"{file} exists; choose another name")
-    for file, text in zip((plugin, test), _texts(given.kind, given.name, plugin), strict=True):
+    for file, text in zip((plugin, test), _texts(kind, name, plugin), strict=True):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
         print(f"written: {file}")
-    if given.kind == "solver":
+    if kind == "solver":
         print("try it:  surfexp new experiment trial")
-        print(f"         surfexp run experiment=trial operator=fem solver={given.name},newton")
+        print(f"         surfexp run experiment=trial operator=fem solver={name},newton")
     print(f"test it: python -m pytest {test}")
-    return 0
 
 
-def _new_experiment(name: str) -> int:
+def _new_experiment(name: str) -> None:
     """Write `conf/experiment/NAME.yaml`, which can be run as it is."""
+    from surfexp.lab.experiment.configuration import NAME
+    from surfexp.lab.registry.folders import experiments
+
     if not re.fullmatch(NAME, name):
         raise UserError(f"experiment name {name!r}: letters, digits, underscores, points and dashes, e.g. {'noise'!r}")
     if name in (known := experiments()):
@@ -72,11 +76,12 @@ def _new_experiment(name: str) -> int:
     )
     print(f"written: {file}")
     print(f"try it:  surfexp run experiment={name}")
-    return 0
 
 
 def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
     """The plugin file and its test."""
+    from surfexp.lab.store.kinds import KINDS
+
     title, camel = name.replace("_", " ").capitalize(), name.title().replace("_", "")
     values = {"kind": kind, "name": name, "path": path.as_posix(), "title": title, "model": camel}
     if kind == "kind":

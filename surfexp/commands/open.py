@@ -5,25 +5,29 @@ from __future__ import annotations
 import webbrowser
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands import choices
+from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import UserError, unknown
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Open a page that is there and print its place; without a browser the place alone."""
-    parser = Parser(f"surfexp {name}", description="The page of an experiment in the browser.")
-    parser.add_argument("experiment", nargs="?", help="default: the overview of all")
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
-    given = parser.parse_args(arguments)
-    pages = {file.parent.name: file for file in given.results.glob("*/report.html")}
-    if given.experiment is None:
-        page = given.results / "index.html"
+@click.command(**shown("open", "", "quickstart", cls=click.Command))
+@click.argument("experiment", required=False, shell_complete=choices.finished)
+@results_option
+def open_page(experiment: str | None, results: Path) -> None:
+    """Open the page of an experiment, or the overview of all, in the browser.
+
+    Its place is printed too, alone where there is no browser.
+    """
+    pages = {file.parent.name: file for file in results.glob("*/report.html")}
+    if experiment is None:
+        page = results / "index.html"
         if not page.exists():
-            raise UserError(f"no page is in {given.results}; start with: surfexp run")
-    elif given.experiment in pages:
-        page = pages[given.experiment]
+            raise UserError(f"no page is in {results}; start with: surfexp run")
+    elif experiment in pages:
+        page = pages[experiment]
     else:
-        raise unknown(f"page in {given.results}", given.experiment, pages)
-    print(page)
+        raise unknown(f"page in {results}", experiment, pages)
+    click.echo(page)
     webbrowser.open(page.resolve().as_uri())
-    return 0

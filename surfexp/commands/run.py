@@ -1,172 +1,72 @@
-"""`surfexp run` and `surfexp plan`: the arguments are Hydra's."""
+"""`surfexp run` and `surfexp plan`: what follows them is Hydra's."""
 
 from __future__ import annotations
 
-import shlex
-import sys
-from collections import Counter
-from collections.abc import Callable
-from functools import partial
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
-from rich.console import Console
-from rich.table import Table
+import click
 
-from surfexp.commands.arguments import check_arguments, usage
-from surfexp.commands.searching import is_search, joined, repeatable
-from surfexp.commands.several_experiments import apart, each
-from surfexp.lab.errors import StageFailure, UserError
-from surfexp.lab.experiment.experiment_files import check_files, located
-from surfexp.lab.plan.remembered_plans import place, remember, remembered
+from surfexp.commands import choices
+from surfexp.commands.click_command import shown
 
-if TYPE_CHECKING:
-    from surfexp.lab.plan.plan import Plan
-
-LINES_OF_WARNING = 10
-ROWS_PRINTED = 200
+RUN = (
+    "",
+    "experiment=NAME                       # surfexp list experiment",
+    "experiment=NAME,NAME                  # several, one after the other",
+    "solver=primal_dual,split_bregman      # a sweep: comma lists, range(1,5), glob(*)",
+    "surface=file surface.path=mesh.ply    # your own surface",
+    "surface=file 'surface.path=\"a b.ply\"'  # quotes for Hydra inside quotes for the shell",
+    "experiment=NAME --cfg job             # Hydra's flags: what would be composed",
+)
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Run (or only plan) what the configuration asks for; 3 where a row did not converge."""
-    if {"--help", "-h"} & set(arguments):
-        print(usage(name))
-        return 0
-    check_arguments(arguments)
-    return each(partial(_one_experiment, name), apart(arguments))
+class HydraCommand(click.Command):
+    """A command whose arguments are handed on as they are, and whose help lists what they can set."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """See click."""
+        super().format_options(ctx, formatter)
+        from surfexp.commands.arguments import choices_of_configuration
+
+        for heading, rows in choices_of_configuration().items():
+            with formatter.section(heading):
+                formatter.write_dl(rows)
 
 
-def _one_experiment(name: str, arguments: list[str]) -> int:
-    arguments = repeatable(arguments)
-    doubtful: list[str] = []
-    search = name == "run" and is_search(arguments)
-    action: Callable[[Plan], None] = partial(_trials if search else _run, doubtful, arguments)
-    try:
-        plans = plan_and_act(arguments, _show if name == "plan" else action)
-        if search:
-            _tell(plans[-1], doubtful, arguments)
-    except OSError as error:
-        remedy = "choose another results folder with results=FOLDER"
-        raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
-    from surfexp.report.convergence import UNCONVERGED
-
-    return UNCONVERGED if doubtful else 0
+def _of_hydra(name: str, *examples: str) -> dict[str, Any]:
+    settings = {"context_settings": {"ignore_unknown_options": True}}
+    return shown(name, *examples, cls=HydraCommand) | settings
 
 
-def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[Plan]:
-    """Act on the plan of a request, or on each of a search with those before it in it; return them.
+words = click.argument(
+    "arguments",
+    nargs=-1,
+    type=click.UNPROCESSED,
+    metavar="[experiment=NAME] [KIND=PLUGIN] [KIND.OPTION=VALUE] [SETTING=VALUE] ...",
+    shell_complete=choices.setting,
+)
 
-    A plan that was made before is not made again, and its names are not checked again.
+
+@click.command(**_of_hydra("run", *RUN))
+@words
+def run(arguments: tuple[str, ...]) -> int:
+    """Run an experiment or a sweep.
+
+    What is missing is computed, what is there is kept. The arguments are Hydra's, and so are its flags: --cfg, --info,
+    --config-dir, --multirun; ~KEY removes a key, +KEY=VALUE adds one.
     """
-    kept_at = place(arguments)
-    if (known := remembered(kept_at)) is not None:
-        action(known)
-        return [known]
-    check_files(arguments)
-    from hydra.errors import HydraException
-    from omegaconf.errors import OmegaConfBaseException
+    from surfexp.commands.request import carried_out
 
-    from surfexp.lab.composition.launch import launch
-    from surfexp.report.combination import check_combinations
-    from surfexp.report.declared import check_names
-
-    plans: list[Plan] = []
-
-    def check_and_act(plan: Plan) -> None:
-        check_names(plan)
-        check_combinations(plan)
-        # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment
-        plans.append(joined(plans[-1], plan) if plans and plan.settings.objective else plan)
-        action(plans[-1])
-
-    try:
-        launch(arguments, check_and_act)
-    except (HydraException, OmegaConfBaseException) as error:
-        raise UserError(located(" ".join(str(error).split()), arguments)) from error
-    except UserError as error:
-        raise UserError(located(str(error), arguments)) from error
-    if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
-        remember(kept_at, plans[0])
-    return plans
+    return carried_out("run", list(arguments))
 
 
-def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
-    """Run what is new of a search and say how it stands."""
-    from surfexp.commands.execution import run
-    from surfexp.report.search import search_of
-    from surfexp.report.table import rows_of
+@click.command(**_of_hydra("plan", "", "experiment=NAME", "experiment=NAME surface.levels=3,4,5"))
+@words
+def plan(arguments: tuple[str, ...]) -> int:
+    """Show what a run would do: stages, what is shared, what is done.
 
-    run(plan, arguments)
-    command = shlex.join(["surfexp", "run", *arguments])
-    found = search_of(rows_of(plan, Path(plan.settings.results)), plan.settings.objective, command)
-    if found is not None:
-        print(found.sentence, flush=True)
+    The arguments are those of surfexp run.
+    """
+    from surfexp.commands.request import carried_out
 
-
-def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
-    """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
-    from surfexp.commands.execution import run, unfinished
-    from surfexp.commands.views import wide_console
-
-    results = Path(plan.settings.results)
-    missing = unfinished(plan, results)
-    console = wide_console()
-    state = f"{len(missing)} to compute" if missing else "nothing to compute"
-    console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
-    failure = None
-    try:
-        run(plan, arguments)
-    except StageFailure as error:
-        failure = error
-    _tell(plan, doubtful, arguments)
-    if failure is not None:
-        raise failure
-
-
-def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
-    """Print the tables of a plan that was run with these arguments, its verdicts, and where its pages are."""
-    from surfexp.commands.verdict_lines import print_verdicts
-    from surfexp.commands.views import print_tables, wide_console
-    from surfexp.report.convergence import unconverged
-    from surfexp.report.search import search_of
-    from surfexp.report.table import comparisons, rows_of
-
-    results, console = Path(plan.settings.results), wide_console()
-    rows = rows_of(plan, results.resolve())
-    groups = comparisons(rows)
-    print_tables(groups, console, ROWS_PRINTED)
-    print_verdicts(plan, rows, console)
-    if search := search_of(rows, plan.settings.objective, shlex.join(["surfexp", "run", *arguments])):
-        console.print(f"search     {search.sentence}", soft_wrap=True)
-        console.print(f"again      {search.command}", soft_wrap=True)
-    console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
-    folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
-    console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
-    lines = unconverged(plan, results.resolve(), groups)
-    doubtful += lines
-    warn(lines)
-
-
-def warn(lines: list[str]) -> None:
-    """Name rows that did not converge in the terminal."""
-    more = [f"and {len(lines) - LINES_OF_WARNING} more"] if len(lines) > LINES_OF_WARNING else []
-    for line in [*lines[:LINES_OF_WARNING], *more]:
-        print(f"surfexp: warning: {line}", file=sys.stderr)
-
-
-def _show(plan: Plan) -> None:
-    from surfexp.commands.execution import unfinished
-
-    results = Path(plan.settings.results)
-    missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))
-    unique = Counter(node.kind for node in plan.stored)
-    table = Table(
-        "stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left"
-    )
-    for kind in unique:
-        table.add_row(kind, str(unique[kind]), str(unique[kind] - missing[kind]), str(missing[kind]))
-    console = Console(highlight=False)
-    console.print(table)
-    total = sum(unique.values())
-    console.print(f"{len(plan.leaves)} configurations: {plan.requested} stages without sharing, {total} with sharing,")
-    console.print(f"{sum(missing.values())} to compute, {total - sum(missing.values())} done")
+    return carried_out("plan", list(arguments))

@@ -5,28 +5,28 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands.click_command import shown
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Write the JSON schema of experiments, with the plugins of this folder."""
-    parser = Parser(
-        f"surfexp {name}",
-        description=__doc__,
-        epilog="examples: surfexp schema, surfexp schema --to conf/experiment.json",
-    )
-    parser.add_argument("--to", type=Path, help="file; default: print it")
-    given = parser.parse_args(arguments)
+@click.command(**shown("schema", "", "--to conf/experiment.json", cls=click.Command))
+@click.option("--to", "target", type=click.Path(path_type=Path), help="file; printed if not given")
+def schema(target: Path | None) -> None:
+    """Write the JSON schema by which an editor completes experiments.
+
+    It holds the plugins of the folder you work in.
+    """
     from surfexp.lab.experiment.schema import schema_of
     from surfexp.lab.registry import registry
+    from surfexp.lab.registry.loading import load_all
 
-    registry.load_all(Path.cwd())
+    load_all(Path.cwd())
     text = json.dumps(schema_of(registry.PLUGINS), indent=1)
-    if given.to is None:
+    if target is None:
         print(text)
-        return 0
-    given.to.parent.mkdir(parents=True, exist_ok=True)
-    given.to.write_text(text + "\n", encoding="utf-8")
-    print(f"written: {given.to}; an editor finds it by a first line in the experiment's file:")
-    print(f"# yaml-language-server: $schema={given.to.resolve().as_uri()}")
-    return 0
+        return
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(text + "\n", encoding="utf-8")
+    print(f"written: {target}; an editor finds it by a first line in the experiment's file:")
+    print(f"# yaml-language-server: $schema={target.resolve().as_uri()}")

@@ -8,23 +8,22 @@ from typing import Any
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
 
 
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))
-@click.argument("path")
-@click.argument("map_name", metavar="[MAP]", required=False)
-@click.option("--smoothness", default=0.3, show_default=True, help="without unit; larger is smoother")
-@click.option(
-    "--tolerance", default=1e-3, show_default=True, help="largest relative duality gap of the relaxed problem"
-)
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
+@click.option("--smoothness", default=0.3, help="without unit; larger is smoother")
+@click.option("--tolerance", default=1e-3, help="largest relative duality gap of the relaxed problem")
 @surface_options
 @result_option()
 def segment(path: str, map_name: str | None, smoothness: float, tolerance: float, target: Path, **given: Any) -> None:
-    """Two regions of a surface, brighter and darker in MAP, with a short boundary and a proved lower bound.
+    """Two regions of a surface with a short boundary and a proved lower bound.
 
-    Without MAP it is the mean curvature, clipped at the median of its size: gyri and sulci of a cortex.
+    They are where MAP is larger and where it is smaller. Without MAP it is the mean curvature, clipped at the median of
+    its size: gyri and sulci of a cortex.
     """
     from surfexp.tasks.segmentation import segment as task
 
@@ -37,8 +36,3 @@ def segment(path: str, map_name: str | None, smoothness: float, tolerance: float
     facts = {name: getattr(parts, name) for name in names} | {"seconds": time.perf_counter() - started}
     options = {"smoothness": smoothness, "tolerance": tolerance, "map": map_name or "mean curvature"}
     finish(target, parts, surface, "convex Chan-Vese", options, files, facts, parts.notes)
-
-
-def command(_: str, arguments: list[str]) -> int:
-    """Run the command."""
-    return run_click(segment, arguments)

@@ -26,9 +26,11 @@ def surface_options(command: Command) -> Command:
     inside = "part to work on: .label, labels (FILE or FILE:NAME,NAME), or a map that is 0 outside"
     repaired = "repair a defective mesh and say how, instead of refusing it"
     options: list[Callable[[Command], Command]] = [
-        click.option("--mask", help=inside),
-        click.option("--map", "maps", multiple=True, metavar="NAME=FILE", help="attach a map; repeatable"),
-        click.option("--unit", default="", help="unit of length, for colour bars and tables"),
+        click.option("--mask", type=click.Path(), metavar="FILE", help=inside),
+        click.option(
+            "--map", "maps", multiple=True, type=click.Path(), metavar="NAME=FILE", help="attach a map; repeatable"
+        ),
+        click.option("--unit", default="", show_default=False, help="unit of length, for colour bars and tables"),
         click.option("--hemisphere", type=click.Choice(["left", "right"]), help="where the file does not say it"),
         click.option("--repair", is_flag=True, help=repaired),
     ]

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from surfexp.commands.click_command import run_click, shown
+from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
 
 EXAMPLES = {
@@ -24,9 +24,9 @@ EXAMPLES = {
 
 
 @click.command(**shown("modes", *EXAMPLES["modes"]))
-@click.argument("path")
-@click.option("-k", "count", default=50, show_default=True, help="number of eigenpairs")
-@click.option("--tolerance", default=1e-8, show_default=True, help="largest relative residual")
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.option("-k", "count", default=50, help="number of eigenpairs")
+@click.option("--tolerance", default=1e-8, help="largest relative residual")
 @surface_options
 @result_option()
 def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> None:
@@ -46,8 +46,8 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
 
 
 @click.command(**shown("geodesic", *EXAMPLES["geodesic"]))
-@click.argument("path")
-@click.argument("sources", nargs=-1, type=int, required=True)
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("sources", metavar="VERTEX...", nargs=-1, type=int, required=True)
 @surface_options
 @result_option()
 def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) -> None:
@@ -62,7 +62,7 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
 
 
 @click.command(**shown("curvature", *EXAMPLES["curvature"]))
-@click.argument("path")
+@click.argument("path", metavar="SURFACE", type=click.Path())
 @surface_options
 @result_option()
 def curvature(path: str, target: Path, **given: Any) -> None:
@@ -74,13 +74,16 @@ def curvature(path: str, target: Path, **given: Any) -> None:
 
 
 @click.command(**shown("skeleton", *EXAMPLES["skeleton"]))
-@click.argument("path")
-@click.argument("map_name", metavar="[MAP]", required=False)
-@click.option("--count", default=50, show_default=True, help="number of levels")
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
+@click.option("--count", default=50, help="number of level sets")
 @surface_options
 @result_option()
 def skeleton(path: str, map_name: str | None, count: int, target: Path, **given: Any) -> None:
-    """Reeb graph of a map, of the first eigenfunction if none is given, as .vtk, .ply or .graphml."""
+    """Reeb graph of a map on a surface.
+
+    Without MAP it is that of the first eigenfunction. The result is .vtk, .ply or .graphml.
+    """
     from surfexp.commands.certificate import write_certificate
     from surfexp.skeleton.export import write_skeleton
     from surfexp.tasks.skeletons import first_eigenfunction, reeb_graph
@@ -98,13 +101,16 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
 
 
 @click.command(**shown("distance", *EXAMPLES["distance"]))
-@click.argument("first")
-@click.argument("second")
-@click.option("-n", "count", default=20, show_default=True, help="number of eigenfunctions")
+@click.argument("first", type=click.Path())
+@click.argument("second", type=click.Path())
+@click.option("-n", "count", default=20, help="number of eigenfunctions")
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
 @result_option(required=False)
 def distance(first: str, second: str, count: int, limit: int | None, target: Path | None) -> None:
-    """Spectral distance of two surfaces: value, proved lower bound, signs; the map with --to."""
+    """Spectral distance of two surfaces, with a proved lower bound.
+
+    The signs of the eigenfunctions are printed too; --to writes the correspondence.
+    """
     import numpy as np
 
     from surfexp.tasks.distances import distance as task
@@ -128,12 +134,15 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
 
 
 @click.command(**shown("align", *EXAMPLES["align"]))
-@click.argument("first")
-@click.argument("second")
-@click.option("-k", "count", default=50, show_default=True, help="number of modes after the constant")
+@click.argument("first", type=click.Path())
+@click.argument("second", type=click.Path())
+@click.option("-k", "count", default=50, help="number of modes after the constant")
 @result_option()
 def align(first: str, second: str, count: int, target: Path) -> None:
-    """Bring the modes of the second surface into correspondence with those of the first: signs, order, rotations."""
+    """Modes of one surface in correspondence with those of another.
+
+    Signs, order and rotations of the modes of SECOND become those of FIRST.
+    """
     from surfexp.tasks.distances import align as task
 
     started = time.perf_counter()
@@ -151,11 +160,14 @@ def align(first: str, second: str, count: int, target: Path) -> None:
 
 
 @click.command(**shown("convert", *EXAMPLES["convert"]))
-@click.argument("path")
+@click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("target", type=click.Path(path_type=Path))
 @surface_options
 def convert(path: str, target: Path, **given: Any) -> None:
-    """Write a surface in another format, with its maps where the format has room for them."""
+    """Write a surface in another format, with its maps.
+
+    The suffix of TARGET decides; maps are left out where the format has no room for them.
+    """
     from surfexp.tasks.files import write
 
     surface, _ = opened(path, **given)
@@ -164,26 +176,22 @@ def convert(path: str, target: Path, **given: Any) -> None:
 
 
 @click.command(**shown("plot", *EXAMPLES["plot"]))
-@click.argument("path")
-@click.argument("map_name", metavar="[MAP]", required=False)
-@click.option("--width", default=1600, show_default=True, help="pixels across")
-@click.option("--label", default="", help="of the colour bar")
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
+@click.option("--width", default=1600, help="width of the picture in pixels")
+@click.option(
+    "--label", default="", show_default=False, help="label of the colour bar; the name of the map if not given"
+)
 @surface_options
 @result_option()
 def plot(path: str, map_name: str | None, width: int, label: str, target: Path, **given: Any) -> None:
-    """Draw a surface, coloured by a map, as .png or .svg."""
+    """Draw a surface, coloured by a map.
+
+    The picture is .png or .svg.
+    """
     from surfexp.tasks.pictures import plot as task
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files) if map_name else None
     task(surface, values, width=width, label=label or Path(map_name or "").name).save(target)
     click.echo(str(target))
-
-
-ALL = (modes, geodesic, curvature, skeleton, distance, align, convert, plot)
-COMMANDS = {command.name: command for command in ALL}
-
-
-def command(name: str, arguments: list[str]) -> int:
-    """Run one of the commands."""
-    return run_click(COMMANDS[name], arguments)

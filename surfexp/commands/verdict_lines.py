@@ -9,7 +9,7 @@ from rich.markup import escape
 
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 from surfexp.report.verdict import Verdict, judge
 
 STYLES = {

@@ -4,23 +4,27 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import StageFailure, UserError
-from surfexp.lab.store.store import faults
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Read the whole store, whatever was verified before; exit with 1 if a result is not what was written."""
-    parser = Parser(f"surfexp {name}", description=__doc__)
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
-    given = parser.parse_args(arguments)
-    if not (given.results / "store").is_dir():
-        raise UserError(f"{given.results} holds no stored results")
-    folders = sorted(file.parent for file in (given.results / "store").glob("*/*/record.json"))
-    found = faults(given.results, [(folder.parent.name, folder.name) for folder in folders], anew=True)
-    print(f"{len(folders) - len(found)} of {len(folders)} stored results are as they were written")
+@click.command(**shown("verify", "", "--results other/results", cls=click.Command))
+@results_option
+def verify(results: Path) -> None:
+    """Hash every stored result again and name what is damaged.
+
+    The whole store is read, whatever was verified before. The exit code is 1 if a result is not what was written.
+    """
+    from surfexp.lab.store.store import faults
+
+    if not (results / "store").is_dir():
+        raise UserError(f"{results} holds no stored results")
+    folders = sorted(file.parent for file in (results / "store").glob("*/*/record.json"))
+    found = faults(results, [(folder.parent.name, folder.name) for folder in folders], anew=True)
+    click.echo(f"{len(folders) - len(found)} of {len(folders)} stored results are as they were written")
     if found:
         raise StageFailure(
             "\n".join(f"{fault}; the next run that needs it computes it again" for fault in found.values())
         )
-    return 0

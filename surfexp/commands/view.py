@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from surfexp.commands.parser import Parser
+import click
+
+from surfexp.commands.click_command import shown
 from surfexp.lab.errors import UserError
 
 
-def command(name: str, arguments: list[str]) -> int:
-    """Open a mesh file in open3d's viewer."""
-    parser = Parser(f"surfexp {name}", description=__doc__)
-    parser.add_argument("file", type=Path)
-    given = parser.parse_args(arguments)
+@click.command(**shown("view", "lh.white", "scan.ply"))
+@click.argument("file", type=click.Path(path_type=Path))
+def view(file: Path) -> None:
+    """Turn a surface in a window (needs open3d)."""
     from surfexp.io.reading import read_mesh
 
-    try:
-        vertices, faces, _ = read_mesh(given.file)
-    except ValueError as error:
-        raise UserError(str(error)) from None
+    vertices, faces, _ = read_mesh(file)
     try:
         import open3d
     except (ImportError, OSError) as error:
@@ -28,5 +26,4 @@ def command(name: str, arguments: list[str]) -> int:
         open3d.utility.Vector3dVector(vertices), open3d.utility.Vector3iVector(faces.astype("int32"))
     )
     mesh.compute_vertex_normals()
-    open3d.visualization.draw_geometries([mesh], window_name=str(given.file))
-    return 0
+    open3d.visualization.draw_geometries([mesh], window_name=str(file))

@@ -1,96 +1,21 @@
-"""`surfexp table`, `surfexp report` and `surfexp ui`: finished results again."""
+"""Tables of finished results in the terminal."""
 
 from __future__ import annotations
 
-import argparse
-import os
-import subprocess
-import sys
 from collections.abc import Sequence
-from pathlib import Path
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from surfexp.commands.parser import Parser
-from surfexp.commands.verdict_lines import print_verdicts
-from surfexp.lab.errors import UserError, unknown
-from surfexp.lab.plan.plan import Plan, read_plan
-from surfexp.records.tracking import tracking_uri
+from surfexp.records.table import Comparison, Row, format_number, short_name
 from surfexp.report.repeats import Repeats, repeats_of, spread
-from surfexp.report.table import Comparison, Row, comparisons, format_number, rows_of, short_name, to_csv
 from surfexp.report.words import word
 
 # a name of a method longer than this is broken over lines
 NAME_WIDTH = 12
 # of an output that is no terminal: no table is that wide
 WIDE = 2000
-FORMATS = ("text", "latex", "csv")
-
-
-def command(name: str, arguments: list[str]) -> int:
-    """Print tables, write the report again, or start the dashboard."""
-    parser = Parser(f"surfexp {name}")
-    parser.add_argument("--results", type=Path, default=Path("results"), help="results folder")
-    if name == "ui":
-        parser.add_argument("--port", type=int, default=5000, help="port on this machine (loopback only)")
-        return _dashboard(parser.parse_args(arguments))
-    parser.add_argument("experiment", nargs="*", default=["quickstart"])
-    if name == "table":
-        parser.add_argument(
-            "--format", choices=FORMATS, default="text", help="latex needs booktabs; csv has all digits"
-        )
-    if name == "report":
-        parser.add_argument("--claims", action="store_true", help="print the verdicts on published claims as Markdown")
-        parser.add_argument("--beside", type=Path, help="with --claims: a page whose other experiments are taken over")
-        parser.add_argument("--preface", type=Path, help="with --claims: text for the head of the page")
-    given = parser.parse_args(arguments)
-    plans = {experiment: latest_plan(given.results, experiment) for experiment in given.experiment}
-    if name == "report" and given.claims:
-        from surfexp.reproduction.page import reproduction
-
-        earlier, preface = (path.read_text(encoding="utf-8") if path else "" for path in (given.beside, given.preface))
-        print(reproduction(plans, given.results.resolve(), earlier, preface))
-        return 0
-    for plan in plans.values():
-        if name == "table":
-            _tables(plan, given.results.resolve(), given.format)
-        else:
-            from surfexp.report.page import write_report
-
-            print(write_report(plan, given.results.resolve()) / "report.html")
-    return 0
-
-
-def _tables(plan: Plan, results: Path, form: str) -> None:
-    rows = rows_of(plan, results)
-    if form == "csv":
-        print(to_csv(rows), end="")
-        return
-    groups = comparisons(rows)
-    if form == "text":
-        print_tables(groups, wide_console())
-        print_verdicts(plan, rows, wide_console())
-        return
-    from surfexp.records.origin import read_origin
-    from surfexp.report.declared import declared_by
-    from surfexp.report.latex import latex_table
-
-    experiment = plan.settings.experiment
-    made_by = read_origin(results / experiment).get("command", f"surfexp run experiment={experiment}")
-    for count, group in enumerate(groups, 1):
-        group.metrics = declared_by(plan, group.rows)
-        print(latex_table(group, f"{experiment}-{count}", made_by))
-
-
-def latest_plan(results: Path, experiment: str) -> Plan:
-    """The plan of an experiment that was written last."""
-    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
-    mine = [file for file, name in found.items() if name == experiment]
-    if not mine:
-        raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
-    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
 
 
 def wide_console() -> Console:
@@ -173,22 +98,3 @@ def _print_blocks(table: Table, console: Console) -> None:
         for heading, cell in zip(headings, cells, strict=True):
             if cell not in ("", "–"):
                 console.print(f"  {heading:{width}}  {cell}", style=row.style, soft_wrap=True)
-
-
-def _dashboard(given: argparse.Namespace) -> int:
-    database = given.results / "mlflow.db"
-    if not database.exists():
-        raise UserError(f"no runs are recorded in {given.results}; start with: surfexp run")
-    from mlflow.tracking import MlflowClient
-
-    found = MlflowClient(tracking_uri(given.results)).search_experiments(order_by=["last_update_time DESC"])
-    shown = next((item.experiment_id for item in found if item.name != "Default"), "0")
-    view = "orderByKey=metrics.%60relative_gap%60&orderByAsc=true&searchFilter=tags.current%3D%22true%22"
-    address = f"http://127.0.0.1:{given.port}/?workflowType=machine_learning#/experiments/{shown}/runs?{view}"
-    print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
-    server = [sys.executable, "-P", "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(given.port)]
-    environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
-    arguments = ["--backend-store-uri", tracking_uri(given.results), "--workers", "1"]
-    return subprocess.call(  # noqa: S603, this interpreter, a path and a port, no shell
-        [*server, *arguments], env=environment
-    )

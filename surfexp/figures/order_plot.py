@@ -10,6 +10,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, vector
+from surfexp.linalg.convergence_order import convergence_order
 
 
 def order_plot(
@@ -57,18 +58,3 @@ def order_plot(
         label_lines(axes, labels)
         pixels, svg = drawn(figure), vector(figure)
     return Figure(pixels, caption, title, {f"order {name}": order for name, order in orders.items()}, svg=svg)
-
-
-def convergence_order(mesh_sizes: Floats, errors: Floats) -> float:
-    """Slope of log(error) over log(h), by least squares over the finer half of the meshes, at least two.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two points, or one is not positive.
-    """
-    h, e = np.asarray(mesh_sizes, dtype=float), np.asarray(errors, dtype=float)
-    if h.shape != e.shape or len(h) < 2 or not (h > 0.0).all() or not (e > 0.0).all():
-        raise ValueError(f"order of {e.tolist()} at h = {h.tolist()}: two or more pairs of positive numbers are needed")
-    fine = np.argsort(h)[: max(2, (len(h) + 1) // 2)]
-    return float(np.polyfit(np.log(h[fine]), np.log(e[fine]), 1)[0])

@@ -62,6 +62,20 @@ def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any], str]:
     return np.asarray(points[0].data), np.asarray(triangles[0].data), {v: k for k, v in CORTEX.items()}.get(said, "")
 
 
+def hemisphere_of_gifti(path: Path) -> str:
+    """Return "left" or "right" where a GIFTI file of any content says so, else nothing.
+
+    Raises
+    ------
+    ValueError
+        If the file is not GIFTI.
+    """
+    image = _load(path)
+    said = {str(part.get(STRUCTURE, "")) for part in (image.meta, *(array.metadata for array in image.darrays))}
+    sides = {side for side, word in CORTEX.items() if word in said}
+    return sides.pop() if len(sides) == 1 else ""
+
+
 def read_gifti_maps(path: Path) -> dict[str, Floats]:
     """The maps of a .shape.gii or .func.gii by name; without names they count from 1.
 

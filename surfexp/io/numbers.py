@@ -8,44 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import index_array as index_array
+from surfexp.mesh.given_arrays import real_array as real_array
+from surfexp.mesh.validate import LARGEST_COORDINATE
 
-# areas are products of two lengths: beyond these they overflow or vanish in double precision
-LARGEST_COORDINATE, LARGEST_BYTES = 1e75, 4 << 30
-
-
-def real_array(array: NDArray[Any], what: str) -> Floats:
-    """Return an array as float64 if it holds real numbers or booleans, NaN allowed.
-
-    Raises
-    ------
-    ValueError
-        If it is complex, a date, text, structured or of objects, or a value is infinite.
-    """
-    kind = "structured" if array.dtype.names else str(array.dtype)
-    if array.dtype.names or array.dtype.kind not in "buif":
-        raise ValueError(f"{what} is an array of type {kind}, real numbers are needed")
-    values = np.asarray(array, dtype=np.float64)
-    infinite = int(np.isinf(values).sum())
-    if infinite:
-        raise ValueError(f"{what} has {infinite} infinite values of {values.size}; write NaN where nothing is known")
-    return values
-
-
-def index_array(array: NDArray[Any], what: str) -> Integers:
-    """Return an array as int64 if every number is whole.
-
-    Raises
-    ------
-    ValueError
-        If a number is fractional, not finite or beyond 2^53.
-    """
-    if array.dtype.kind in "iu":
-        return np.asarray(array, dtype=np.int64)
-    values = real_array(array, what)
-    bad = ~(np.isfinite(values) & (np.abs(values) < 2.0**53) & (values == np.floor(values)))
-    if bad.any():
-        raise ValueError(f"{what} has the value {values[bad].ravel()[0]:g}, whole numbers are needed")
-    return values.astype(np.int64)
+LARGEST_BYTES = 4 << 30
 
 
 def checked_geometry(vertices: NDArray[Any], faces: NDArray[Any]) -> tuple[Floats, Integers]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io import freesurfer
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
-from surfexp.io.gifti import is_gifti, read_gifti_surface
+from surfexp.io.gifti import hemisphere_of_gifti, is_gifti, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.npz import read_npz_mesh
@@ -27,6 +28,10 @@ WITH_MAPS = {".ply": read_ply, ".vtk": read_vtk, ".vtp": read_vtp, ".npz": read_
 KNOWN = (
     ".off, .obj, .ply, .stl, .gii, .vtk, .vtp, .npz, .vert/.tri, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"
 )
+
+LEFT = {"l", "lh", "left"}
+# lh and rh anywhere between signs, left and right, hemi-L, and the single letters of HCP and BIDS
+NAMED_SIDE = re.compile(r"(?:^|(?<=[._-]))(lh|rh|LH|RH|left|right|(?<=hemi-)[LR]|(?<=[.])[LR](?=[.]))(?=$|[._-])")
 
 __all__ = ["hemisphere_of_file", "read_maps", "read_mesh"]
 
@@ -54,13 +59,19 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
 
 
 def hemisphere_of_file(path: Path | str) -> str:
-    """Return "left" or "right" where a GIFTI file or a name in FreeSurfer's manner says so, else nothing."""
+    """Return "left" or "right" where a GIFTI file or the name of a file says so, else nothing."""
     path = Path(path)
     inside = ""
     if is_gifti(path):
         check_declared_sizes(path)
-        inside = read_gifti_surface(path)[2]
-    return inside or freesurfer.hemisphere_of(path)
+        inside = hemisphere_of_gifti(path)
+    return inside or hemisphere_of_name(path.name)
+
+
+def hemisphere_of_name(name: str) -> str:
+    """Return "left" or "right" for names such as lh.white, sub-1_hemi-L_pial.gii, fsLR.R.sulc.gii, else nothing."""
+    sides = {"left" if match.lower() in LEFT else "right" for match in NAMED_SIDE.findall(name)}
+    return sides.pop() if len(sides) == 1 else ""
 
 
 def _read(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import frozen, mask_array, real_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.surface_part import SurfacePart
@@ -51,7 +52,7 @@ class Surface(Summarized):
     unit : str
         Unit of length, empty when there is none.
     scalars : dict of str to (n,) float64
-        Maps that came with the surface (curvature, sulcal depth, ground truth).
+        Maps that came with the surface (curvature, sulcal depth, ground truth). What a masked array hides is NaN.
     coordinates : (n, d) float64, optional
         The parameters from which a generator made the vertices (longitude, latitude, ...), for painting pictures.
     metrics : dict of str to float
@@ -62,7 +63,7 @@ class Surface(Summarized):
         The smooth surface that all vertices lie on; checked. None for every surface whose smooth shape nobody vouches for.
     truth : Truth
         Ground truth, where there is some.
-    mask : (n,) bool, optional
+    mask : (n,) bool, or numbers of which 0 and NaN are outside, optional
         The part that methods work on, such as the cortex without its medial wall; None is all of it.
     hemisphere : {"", "left", "right"}
         Where the file said so.
@@ -74,7 +75,7 @@ class Surface(Summarized):
     Raises
     ------
     ValueError
-        If a map or a truth is not one entry a vertex, or vertices lie off the shape.
+        If a map, a mask or a truth is not one number a vertex, or vertices lie off the shape.
 
     Examples
     --------
@@ -116,11 +117,15 @@ class Surface(Summarized):
                 raise ValueError(f"true {name} have shape {np.shape(numbers)}, the mesh has {n} vertices")
         if self.shape is not None and not self.shape.holds(self.mesh):
             raise ValueError(f"the vertices of {self.name!r} do not lie on a {self.shape.words}: give shape=None")
-        if self.mask is not None and np.shape(self.mask) != (n,):
-            raise ValueError(f"mask has shape {np.shape(self.mask)}, the mesh has {n} vertices")
-        for name, values in self.scalars.items():
-            if np.shape(values) != (n,):
-                raise ValueError(f"scalar map {name!r} has shape {np.shape(values)}, the mesh has {n} vertices")
+        if self.mask is not None:
+            object.__setattr__(self, "mask", frozen(mask_array(self.mask, n), self.mask))
+        maps = {}
+        for name, given in self.scalars.items():
+            values = real_array(given, f"scalar map {name!r}")
+            if values.shape != (n,):
+                raise ValueError(f"scalar map {name!r} has shape {values.shape}, the mesh has {n} vertices")
+            maps[name] = frozen(values, given)
+        object.__setattr__(self, "scalars", maps)
 
     def deformed(self, mesh: TriangleMesh) -> Surface:
         """Return the surface with its vertices moved: of the same connectivity, but of no known shape and midline.

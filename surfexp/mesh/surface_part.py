@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Mask = NDArray[np.bool_]
@@ -98,7 +99,7 @@ def surface_part(mesh: TriangleMesh, mask: ArrayLike | None) -> SurfacePart:
     Parameters
     ----------
     mesh : TriangleMesh
-    mask : (n,) bool, or numbers of which 0 is outside, optional
+    mask : (n,) bool, or numbers of which 0 and NaN are outside, optional
 
     Returns
     -------
@@ -108,12 +109,12 @@ def surface_part(mesh: TriangleMesh, mask: ArrayLike | None) -> SurfacePart:
     Raises
     ------
     ValueError
-        If the mask has another length, holds NaN, or contains no whole face.
+        If the mask has another length, or contains no whole face.
     """
     count = len(mesh.vertices)
     if mask is None:
         return SurfacePart(mesh, np.arange(count), count)
-    inside = _as_mask(mask, count)
+    inside = mask_array(mask, count)
     if inside.all():
         return SurfacePart(mesh, np.arange(count), count)
     faces = mesh.faces[inside[mesh.faces].all(axis=1)]
@@ -141,17 +142,6 @@ def finite_mask(maps: Sequence[Floats], count: int) -> Mask | None:
             raise ValueError(f"map has {infinite} infinite values of {np.size(values)}: mark what is unknown by NaN")
         inside &= np.isfinite(np.reshape(values, (count, -1))).all(axis=1)
     return None if inside.all() else inside
-
-
-def _as_mask(mask: ArrayLike, count: int) -> Mask:
-    array = np.squeeze(np.asarray(mask))
-    if array.shape != (count,):
-        raise ValueError(f"mask has shape {np.shape(mask)}, the surface has {count} vertices")
-    if array.dtype != np.bool_:
-        unknown = int((~np.isfinite(array.astype(np.float64))).sum())
-        if unknown:
-            raise ValueError(f"mask has {unknown} values that are not finite: write 0 for outside, 1 for inside")
-    return array.astype(bool)
 
 
 def _notes(whole: TriangleMesh, part: TriangleMesh, masked: int) -> list[str]:

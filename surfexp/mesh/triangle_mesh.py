@@ -11,14 +11,15 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import frozen, index_array, real_array
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TriangleMesh:
     """A triangulated surface in space.
 
-    The constructor copies nothing that already has the right type, makes both arrays read-only and checks shapes and
-    index range only; `surfexp.mesh.validate` finds every other defect.
+    Both arrays are read-only, and copies where whoever gave them could change them. Types, shapes and the range of indices are
+    checked; `surfexp.mesh.validate` finds every other defect.
 
     Parameters
     ----------
@@ -30,7 +31,7 @@ class TriangleMesh:
     Raises
     ------
     ValueError
-        If a shape is not (n, 3), or an index lies outside 0..n-1.
+        If an array does not hold real or whole numbers, a shape is not (n, 3), or an index lies outside 0..n-1.
     """
 
     vertices: Floats
@@ -40,17 +41,16 @@ class TriangleMesh:
         return f"<TriangleMesh: {len(self.vertices):,} vertices, {len(self.faces):,} faces>"
 
     def __post_init__(self) -> None:
-        vertices = np.ascontiguousarray(self.vertices, dtype=np.float64).view()
-        faces = np.ascontiguousarray(self.faces, dtype=np.int64).view()
+        vertices = np.ascontiguousarray(real_array(self.vertices, "vertices"))
+        faces = np.ascontiguousarray(index_array(self.faces, "faces"))
         for name, array in (("vertices", vertices), ("faces", faces)):
             if array.ndim != 2 or array.shape[1] != 3:
                 raise ValueError(f"{name} has shape {array.shape}, expected (count, 3)")
         if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
             bad = int(faces.min()) if faces.min() < 0 else int(faces.max())
             raise ValueError(f"faces name vertex {bad}, but the vertices are 0..{len(vertices) - 1}")
-        for name, array in (("vertices", vertices), ("faces", faces)):
-            array.flags.writeable = False
-            object.__setattr__(self, name, array)
+        object.__setattr__(self, "vertices", frozen(vertices, self.vertices))
+        object.__setattr__(self, "faces", frozen(faces, self.faces))
 
     @cached_property
     def identity(self) -> str:

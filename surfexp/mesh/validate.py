@@ -19,6 +19,8 @@ from surfexp.mesh.orientation import (
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Severity = Literal["refuse", "repairable", "note"]
+# areas are products of two lengths: beyond these they overflow or vanish in double precision
+LARGEST_COORDINATE, SMALLEST_EXTENT = 1e75, 1e-75
 ZERO_AREA = 1e-9
 SLIVER_DEGREES = 5.0
 # kinds of defects that a refusal names: it is one line
@@ -90,7 +92,11 @@ def validate(vertices: ArrayLike, faces: ArrayLike) -> Report:
 
 
 def require_valid(
-    mesh: TriangleMesh, name: str = "FILE", allow: tuple[str, ...] = (), one_component: bool = False
+    mesh: TriangleMesh,
+    name: str = "FILE",
+    allow: tuple[str, ...] = (),
+    one_component: bool = False,
+    repair: str = "",
 ) -> None:
     """Refuse a mesh with defects, in one line that says what mends it.
 
@@ -103,6 +109,8 @@ def require_valid(
         Kinds of repairable defects that do no harm to the caller.
     one_component : bool
         Whether several components are refused too.
+    repair : str
+        What repairs it; the command on a file if not given.
 
     Raises
     ------
@@ -115,11 +123,12 @@ def require_valid(
         raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible")
     found = [defect for defect in report.defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
-        raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: surfexp mesh repair {name}")
+        way_out = repair or f"surfexp repair {name} --to repaired.ply"
+        raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: {way_out}")
     if one_component and mesh.component_count > 1:
         raise ValueError(
             f"mesh {name} has {mesh.component_count} components, 1 is allowed here: "
-            f"surfexp mesh repair --largest-component {name}"
+            f"surfexp repair {name} --largest-component --to repaired.ply"
         )
 
 
@@ -143,8 +152,10 @@ def repeated_index_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:
 
 def later_copies(rows: NDArray[Any]) -> NDArray[np.bool_]:
     """(k,) rows that equal an earlier row."""
-    copies = np.ones(len(rows), dtype=bool)
-    copies[np.unique(rows, axis=0, return_index=True)[1]] = False
+    order = np.lexsort(rows.T[::-1])
+    same = (rows[order[1:]] == rows[order[:-1]]).all(axis=1)
+    copies = np.zeros(len(rows), dtype=bool)
+    copies[order[1:][same]] = True
     return copies
 
 
@@ -167,6 +178,12 @@ def _array_defects(vertices: NDArray[Any], faces: NDArray[Any]) -> Iterator[Defe
         yield Defect("missing faces or vertices", 1, "refuse", (f"{len(vertices)} vertices, {len(faces)} faces",))
         return
     yield from _entry("vertices that are not finite", "refuse", ~np.isfinite(vertices).all(axis=1), "vertex")
+    far = float(np.nanmax(np.abs(vertices), initial=0.0))
+    extent = float(np.ptp(vertices, axis=0).max()) if np.isfinite(far) else 1.0
+    if far > LARGEST_COORDINATE or 0.0 < extent < SMALLEST_EXTENT:
+        said = f"largest {far:g}, extent {extent:g}, {SMALLEST_EXTENT:g} to {LARGEST_COORDINATE:g} can be computed with"
+        yield Defect("unit of length out of range", 1, "refuse", (f"{said}: change the unit",))
+        return
     outside = np.any((faces < 0) | (faces >= len(vertices)), axis=1)
     yield from _entry("faces with an index out of range", "refuse", outside, "face")
 

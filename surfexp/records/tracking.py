@@ -10,12 +10,12 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from surfexp.lab.plan.fingerprint import digest
+from surfexp.lab.digests import digest
 from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
 from surfexp.lab.plan.plan import Leaf, Plan
 from surfexp.lab.store import store
 from surfexp.records.origin import commit
-from surfexp.report.table import Row, comparisons, short_name
+from surfexp.records.table import Row, comparisons, short_name
 
 if TYPE_CHECKING:
     from surfexp.records.run_database import KnownRun, RunContent

@@ -12,8 +12,8 @@ from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Node, Plan
 from surfexp.lab.registry.catalogue import catalogue
 from surfexp.lab.store.kinds import KINDS
+from surfexp.records.table import Comparison, comparisons, rows_of
 from surfexp.report.declared import declared
-from surfexp.report.table import Comparison, comparisons, rows_of
 
 UNCONVERGED = 3
 # a relative gap of 1: the energy may be as far above the least one as the model's own scale

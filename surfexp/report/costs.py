@@ -8,7 +8,7 @@ import numpy as np
 
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.figures.figure import Figure
-from surfexp.report.table import Comparison
+from surfexp.records.table import Comparison
 
 GAP, TOLERANCE, SEED = "relative_gap", "solver.tolerance", "image.seed"
 CAPTION = "Measured, one run for each tolerance; the band is the range over the seeds of the noise."

@@ -11,11 +11,11 @@ from pydantic.fields import FieldInfo
 from surfexp.contract.metric import NAMES_METRIC, Metric, find_metric
 from surfexp.lab.errors import UserError, unknown
 from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.plan.kinds_of_plans import load_known_kinds
 from surfexp.lab.plan.plan import Leaf, Node, Plan
-from surfexp.lab.registry.loading import load_known_kinds
 from surfexp.lab.registry.registry import names_of, plugin
 from surfexp.lab.store.kinds import KINDS
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 from surfexp.report.verdict import equal, selected
 
 SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from surfexp.records.table import Comparison, Row, format_number, short_name
 from surfexp.report.repeats import Repeats, repeats_of, spread
-from surfexp.report.table import Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
 SPECIAL = {character: f"\\{character}" for character in "&%$#_{}"} | {

@@ -16,8 +16,8 @@ from markupsafe import Markup
 
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
+from surfexp.records.table import Row
 from surfexp.report.render import render
-from surfexp.report.table import Row
 from surfexp.report.verdict import Verdict
 
 FILE = "summary.json"

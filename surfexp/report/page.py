@@ -18,6 +18,7 @@ from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
 from surfexp.records.origin import read_origin
 from surfexp.records.run_addresses import run_addresses
+from surfexp.records.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
 from surfexp.report.drawing import is_still
@@ -26,7 +27,6 @@ from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.search import search_of, write_search
-from surfexp.report.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
 

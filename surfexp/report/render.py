@@ -11,8 +11,8 @@ from typing import Any
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
+from surfexp.records.table import format_number, short_name
 from surfexp.report.repeats import spread
-from surfexp.report.table import format_number, short_name
 from surfexp.report.words import duration, word
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import fmean, stdev
 from typing import Any
 
-from surfexp.report.table import Comparison, Row, format_number
+from surfexp.records.table import Comparison, Row, format_number
 
 FEWEST = 3
 # decimals, or digits behind the first, that are shown at most

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 
 ABSENT = "–"
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from surfexp.lab.experiment.claim import Claim
 from surfexp.lab.plan.outcome import NOT_COMPUTED
-from surfexp.report.table import Comparison, Row, format_number
+from surfexp.records.table import Comparison, Row, format_number
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
-from surfexp.report.table import rows_of
+from surfexp.records.table import rows_of
 from surfexp.report.verdict import Verdict, judge
 from surfexp.reproduction.stamp import commit_of_page, cost, state_line, state_of_plan
 

@@ -13,11 +13,14 @@ from pathlib import Path
 
 import yaml
 
-from surfexp.lab.plan.fingerprint import code_closure, digest
+from surfexp.lab.digests import digest
+from surfexp.lab.plan.fingerprint import code_closure
 from surfexp.lab.plan.outcome import event_path, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.source_facts import source_facts
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.folders import package_folder
+from surfexp.lab.registry.loading import load_all
 
 STATE = re.compile(r"^State: .*$", re.MULTILINE)
 STAMP = re.compile(r"numerics ([0-9a-f]{20}), experiments ([0-9a-f]{20})")
@@ -27,7 +30,7 @@ PAGE = Path("docs/reproduction.md")
 
 def state_of_code() -> tuple[str, str]:
     """Digests of the numerics (all that plugins reach, without comments) and of the experiments (their parsed files)."""
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     plugins = {method.file for method in registry.PLUGINS.values()}
     sources = {source for file in plugins for source in code_closure(file)[0]}
     files = _experiment_files()
@@ -130,7 +133,7 @@ def commit_of_page() -> str:
 
 
 def _experiment_files() -> list[Path]:
-    return sorted(registry.package_folder("surfexp.conf").rglob("*.yaml"))
+    return sorted(package_folder("surfexp.conf").rglob("*.yaml"))
 
 
 def _machine() -> str:

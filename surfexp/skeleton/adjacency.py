@@ -35,7 +35,7 @@ def opposite_sides(faces: Integers, vertex_count: int) -> Integers:
         a, b = faces[bad // 3, bad % 3], faces[bad // 3, (bad + 1) % 3]
         raise ValueError(
             f"the edge between vertices {a} and {b} has 3 faces or more, at most 2 are allowed: "
-            "surfexp mesh repair divides the surface there"
+            "surfexp repair divides the surface there"
         )
     return twins
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.automatic import automatic_smoothing
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import mask_notes
 from surfexp.variational.noise_reading import read_noise, without_outliers
 
 
 def automatically_denoised(
-    owner: Surface, part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float | None
+    part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float | None
 ) -> DenoisedMap:
     """Denoise a map by the method and the parameter that promise the least error, its outliers replaced before.
 
@@ -22,9 +20,7 @@ def automatically_denoised(
 
     Parameters
     ----------
-    owner : Surface
     part : SurfacePart
-        Of the owner.
     operator : SurfaceOperator
         On the part.
     image : (p,) float64
@@ -40,7 +36,7 @@ def automatically_denoised(
         raise ValueError(f"auto takes one channel, the map has {image.shape[1]}: denoise each by itself")
     read = read_noise(operator, image)
     clean = without_outliers(operator, image, read.outliers)
-    level = read_noise(operator, clean).level if noise is None else float(noise)
+    level = read_noise(operator, clean).level if noise is None else noise
     found = automatic_smoothing(part.mesh, operator, clean, level)
     facts = {
         "noise": level,
@@ -52,7 +48,7 @@ def automatically_denoised(
         "relative_gap": found.largest_gap,
         "converged": found.converged,
     }
-    notes = mask_notes(owner, part) + read.notes
+    notes = part.notes + read.notes
     if len(read.outliers):
         notes += (
             f"{len(read.outliers)} values far from all their neighbours were replaced by the median of these before: "

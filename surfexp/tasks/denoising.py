@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import real_number
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -15,11 +16,12 @@ from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, name_of, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.noise_reading import read_noise
+from surfexp.variational.own_unit import own_unit
 from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
@@ -28,6 +30,8 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
 
 NEWTON_BELOW = 1e-6
+# its square is a time
+WIDEST = 1e100
 # time times the largest eigenvalue; a polynomial of some thousand terms
 LONGEST_POLYNOMIAL = 1e6
 SMALL_STEPS = 100
@@ -93,23 +97,25 @@ def denoise(
     >>> bool(sx.denoise(sphere, noisy).certificate["relative_gap"] <= 1e-4)
     True
     """
+    weight = real_number(weight, "weight", above=0.0)
+    ratio = real_number(ratio, "ratio", above=0.0)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
     operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
     refuse_absurd_values(image, part.vertices)
-    if not 0 < tolerance < 1:
-        raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
+    given = None if noise is None else real_number(noise, "noise", above=0.0)
     if method == "auto":
-        found = automatically_denoised(owner, part, operator, image, noise)
+        found = automatically_denoised(part, operator, image, given)
         return replace(found, name=name_of(values))
-    sigma, said = _noise(operator, image, noise)
+    sigma, said = _noise(operator, image, given)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
-    notes = mask_notes(owner, part) + solution.notes + said
+    notes = part.notes + solution.notes + said
     certificate = facts | _proof(solution, operator)
     return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
 
@@ -117,9 +123,9 @@ def denoise(
 def _noise(operator: SurfaceOperator, image: Floats, given: float | None) -> tuple[float, tuple[str, ...]]:
     """The noise of a map, and what is to be said about it; several channels are pooled, and nothing is said of them."""
     if image.ndim > 1:
-        return (noise_level(operator, image) if given is None else float(given)), ()
+        return (noise_level(operator, image) if given is None else given), ()
     found = read_noise(operator, image)
-    return (found.level if given is None else float(given)), found.notes
+    return (found.level if given is None else given), found.notes
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
@@ -193,10 +199,7 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     >>> bool(sx.smooth(sphere, sphere.mesh.vertices[:, 2], 0.5).values.max() < 1.0)
     True
     """
-    if not width > 0:
-        raise ValueError(
-            f"width is {width:g}, must be positive: a full width at half maximum in the unit of the surface"
-        )
+    width = real_number(width, "width", above=0.0, below=WIDEST)
     owner = as_surface(surface)
     rough = as_map(owner, values)
     part = part_for(owner, rough)
@@ -204,14 +207,17 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     time = width**2 / (16.0 * np.log(2.0))
     inside = np.asarray(part.restrict(rough), dtype=np.float64)
     refuse_absurd_values(inside, part.vertices)
+    own = own_unit(inside)
     certificate: dict[str, Any] = {"width": width, "time": time}
     if time * largest_eigenvalue_bound(operator) <= LONGEST_POLYNOMIAL:
-        smoothed, certificate["degree"], certificate["error"] = heat_polynomial(operator, inside, time)
+        kernel = heat_polynomial(operator, own.normalised(inside), time)
+        smoothed, certificate["degree"], certificate["error"] = kernel
     else:
-        smoothed = heat_flow(operator, inside, time, SMALL_STEPS)
+        smoothed = heat_flow(operator, own.normalised(inside), time, SMALL_STEPS)
         certificate["steps"] = SMALL_STEPS
+    smoothed = own.restored(smoothed)
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, mask_notes(owner, part), name_of(values))
+    return DenoisedMap(part.extend(smoothed), method, certificate, part.notes, name_of(values))
 
 
 def _change_of_mean(operator: SurfaceOperator, part: SurfacePart, before: Floats, after: Floats) -> float:

@@ -14,11 +14,12 @@ from surfexp.io.label_files import write_labels
 from surfexp.io.map_files import read_maps, read_mask, read_named_labels, write_maps
 from surfexp.io.reading import hemisphere_of_file, read_mesh
 from surfexp.io.writing import WITH_MAPS, write_mesh
+from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.repair import repair as repair_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.validate import require_valid
 from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.soundness import sound_part
 
 PathLike = str | Path
 LABEL_SUFFIXES = (".label.gii", ".annot")
@@ -49,7 +50,7 @@ def read(
     unit : str
         Of length.
     hemisphere : {"", "left", "right"}
-        Found from the file where it says so.
+        Found from the file where it says so. Maps, labels and masks of the other one are refused.
     repair : bool
         Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices.
 
@@ -73,14 +74,18 @@ def read(
     count = len(vertices)
     side = hemisphere or hemisphere_of_file(path)
     for name, file in (maps or {}).items():
+        _same_side(file, side, f"map {name!r}")
         scalars |= _named(name, read_maps(file, side), count, file)
+    for name, file in (labels or {}).items():
+        _same_side(file, side, f"labels {name!r}")
     tables = {name: read_named_labels(file, side) for name, file in (labels or {}).items()}
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
-    inside = read_mask(mask, count, side) if isinstance(mask, str | Path) else mask
-    if inside is not None:
-        inside = np.asarray(inside).astype(bool)
+    if isinstance(mask, str | Path):
+        _same_side(mask, side, "mask")
+        mask = read_mask(mask, count, side)
+    inside = None if mask is None else mask_array(mask, count)
     mesh = TriangleMesh(vertices, faces)
     notes: tuple[str, ...] = ()
     if repair:
@@ -88,11 +93,19 @@ def read(
         scalars = {name: values[origin] for name, values in scalars.items()}
         tables = {name: replace(table, keys=table.keys[origin]) for name, table in tables.items()}
         inside = None if inside is None else inside[origin]
-    else:
-        require_valid(mesh, str(path))
-    return Surface(
+    surface = Surface(
         mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=tuple(notes)
     )
+    return sound_part(surface, str(path), repair="")
+
+
+def _same_side(file: PathLike, side: str, what: str) -> None:
+    """Refuse a file of the other hemisphere."""
+    of_file = hemisphere_of_file(str(file).partition(":")[0]) if side else ""
+    if of_file and of_file != side:
+        raise ValueError(
+            f"{what} {file} is of the {of_file} hemisphere, the surface of the {side}: give the file of the {side} one"
+        )
 
 
 def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> dict[str, Floats]:

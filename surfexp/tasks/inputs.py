@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.validate import require_valid
+from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
 MapLike = str | ArrayLike
@@ -32,21 +35,30 @@ def as_surface(given: SurfaceLike) -> Surface:
         If it is none of these, or the mesh has a defect that a method cannot work with.
     """
     if isinstance(given, Surface):
-        return given
+        return sound_part(given, given.name)
     if isinstance(given, str | Path):
         from surfexp.tasks.files import read
 
         return read(given)
-    if isinstance(given, TriangleMesh):
-        mesh = given
-    else:
-        vertices, faces = _arrays_of(given)
-        mesh = TriangleMesh(np.asarray(vertices, dtype=np.float64), np.asarray(faces))
-    require_valid(mesh, "surface")
-    return Surface(mesh)
+    mesh = given if isinstance(given, TriangleMesh) else TriangleMesh(*arrays_of(given))
+    return sound_part(Surface(mesh), "surface")
 
 
-def _arrays_of(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
+def arrays_of(given: SurfaceLike) -> tuple[Floats, Integers]:
+    """Return vertices and faces of what is given, as numbers of the right type; defects are left as they are.
+
+    Raises
+    ------
+    ValueError
+        If it is nothing that `as_surface` takes, or an array does not hold real or whole numbers.
+    """
+    vertices, faces = _pair(given)
+    return real_array(vertices, "vertices"), index_array(faces, "faces")
+
+
+def _pair(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
+    if isinstance(given, Surface):
+        return given.mesh.vertices, given.mesh.faces
     for names in (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles")):
         if all(hasattr(given, name) for name in names):
             vertices, faces = (getattr(given, name) for name in names)
@@ -76,39 +88,40 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
             known = ", ".join(surface.scalars) or "none"
             raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")
         return surface.scalars[given]
-    array = np.asarray(given)
-    if array.dtype.kind not in "buif":
-        raise ValueError(f"map is an array of {array.dtype}, real numbers are needed")
+    array = real_array(given, "map")
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
-    return array.astype(np.float64)
+    return array.copy() if array is given else array
 
 
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
+
+    Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken.
 
     Raises
     ------
     ValueError
         If a map is unknown somewhere inside the mask.
     """
-    finite = finite_mask(maps, len(surface.mesh.vertices))
+    count = len(surface.mesh.vertices)
+    finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
     mask = surface.mask if surface.mask is not None else finite
-    part = surface_part(surface.mesh, mask)
+    part = surface_part(surface.mesh, usable if mask is None else usable & mask)
     if surface.mask is not None and finite is not None:
         unknown = int((~finite[part.vertices]).sum())
         if unknown:
             raise ValueError(
                 f"map is NaN at {unknown} of the {len(part.vertices)} vertices inside the mask: narrow the mask"
             )
-    return part
+    return replace(part, notes=(*_taken(surface, part, finite, usable), *part.notes))
 
 
-def mask_notes(surface: Surface, part: SurfacePart) -> tuple[str, ...]:
-    """Say which part was taken where nobody asked for one, and what the mask cut off."""
-    if part.is_whole:
-        return ()
-    if surface.mask is not None:
-        return part.notes
-    taken = f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
-    return (taken, *part.notes)
+def _taken(
+    surface: Surface, part: SurfacePart, finite: NDArray[np.bool_] | None, usable: NDArray[np.bool_]
+) -> Iterator[str]:
+    """Say which part is taken where nobody asked for one."""
+    if lost := int((~usable).sum()):
+        yield f"{lost} of {part.whole_count} vertices belong to no face or have no finite position: they are outside."
+    if surface.mask is None and finite is not None:
+        yield f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."

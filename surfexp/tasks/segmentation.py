@@ -8,6 +8,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
@@ -15,7 +16,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -136,8 +137,8 @@ def segment(
     >>> bool((parts.labels == (sphere.mesh.vertices[:, 2] > 0)).mean() > 0.95)
     True
     """
-    if not 0 < tolerance < 1:
-        raise ValueError(f"tolerance is {tolerance:g}, take one between 0 and 1")
+    smoothness = real_number(smoothness, "smoothness", above=0.0)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     owner = as_surface(surface)
     given = () if values is None else (as_map(owner, values),)
     part = part_for(owner, *given)
@@ -156,7 +157,7 @@ def segment(
     own = own_unit(inside)
     image = Image(own.normalised(inside), "map")
     solution = ConvexChanVese(smoothness=smoothness).run(image, fem(part.mesh), solve)
-    return _labelled(solution, part, own, (*mask_notes(owner, part), *said))
+    return _labelled(solution, part, own, (*part.notes, *said))
 
 
 def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:

@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.given_arrays import index_array, mask_array, whole_number
+from surfexp.mesh.validate import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import Choice, choose_levels
@@ -16,7 +18,8 @@ from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import zero_modes
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.soundness import usable_vertices
 
 
 def reeb_graph(
@@ -63,9 +66,10 @@ def reeb_graph(
     heights = as_map(owner, values)
     part = part_for(owner, heights)
     inside = np.asarray(part.restrict(heights), dtype=np.float64)
+    count = whole_number(count, "count", 1)
     chosen = choose_levels(part.mesh, inside, count, levels)
     skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
-    return replace(skeleton, notes=mask_notes(owner, part) + skeleton.notes)
+    return replace(skeleton, notes=part.notes + skeleton.notes)
 
 
 def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
@@ -75,8 +79,8 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
     ----------
     surface : Surface, path, or (vertices, faces)
         Ways lie inside its mask.
-    sources : (s,) int, or one
-        Vertex numbers of the whole surface.
+    sources : (s,) int, or one, or (n,) bool
+        Vertex numbers of the whole surface, or a mask of them.
 
     Returns
     -------
@@ -100,17 +104,27 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
     """
     owner = as_surface(surface)
     part = part_for(owner)
-    given = np.atleast_1d(np.asarray(sources))
-    wanted = given.astype(np.int64)
+    wanted = _source_vertices(sources, part.whole_count)
     number = np.full(part.whole_count, -1, dtype=np.int64)
     number[part.vertices] = np.arange(len(part.vertices))
-    unknown = given[(wanted != given) | (wanted < 0) | (wanted >= part.whole_count)]
+    unknown = wanted[(wanted < 0) | (wanted >= part.whole_count)]
     if len(unknown):
         raise ValueError(f"sources name vertex {unknown[0]}, the vertices are 0..{part.whole_count - 1}")
     if (number[wanted] < 0).any():
         outside = int(wanted[number[wanted] < 0][0])
         raise ValueError(f"source {outside} lies outside the mask of {len(part.vertices)} vertices")
     return part.extend(fast_marching(part.mesh, number[wanted]))
+
+
+def _source_vertices(given: ArrayLike, count: int) -> Integers:
+    """Return the vertices that are given by their numbers, or by a mask."""
+    if np.asarray(given).dtype == np.bool_:
+        wanted = np.flatnonzero(mask_array(given, count, "sources"))
+    else:
+        wanted = np.atleast_1d(index_array(given, "sources")).ravel()
+    if not len(wanted):
+        raise ValueError("sources name no vertex, at least one is needed")
+    return wanted
 
 
 def mean_curvature(surface: SurfaceLike) -> Floats:
@@ -143,8 +157,10 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     owner = as_surface(surface)
     part = part_for(owner)
     # the positions outside are known, so the curvature of the whole is the better one inside
-    values = mesh_mean_curvature(owner.mesh)
-    return values if part.is_whole else part.extend(values[part.vertices])
+    if usable_vertices(owner.mesh).all() and not zero_area_faces(owner.mesh).any():
+        values = mesh_mean_curvature(owner.mesh)
+        return values if part.is_whole else part.extend(values[part.vertices])
+    return part.extend(mesh_mean_curvature(part.mesh))
 
 
 def first_eigenfunction(system: EigenSystem) -> Floats:

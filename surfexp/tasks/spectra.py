@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array, issparse
 
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
@@ -17,7 +18,7 @@ from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.slicing import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 
 def eigenpairs(
@@ -66,6 +67,8 @@ def eigenpairs(
     >>> modes.complete, (modes.values[[1, 4]] / [2, 6]).round(2).tolist()
     (True, [1.01, 1.01])
     """
+    count = whole_number(count, "count", 1)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     owner = as_surface(surface)
     part = part_for(owner)
     cut = Surface(part.mesh, owner.name, owner.unit)
@@ -73,7 +76,7 @@ def eigenpairs(
         cut, fem(part.mesh), count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
     )
     vectors = system.vectors if part.is_whole else part.extend(system.vectors)
-    return replace(system, vectors=vectors, notes=mask_notes(owner, part) + system.notes)
+    return replace(system, vectors=vectors, notes=part.notes + system.notes)
 
 
 def eigsh(

@@ -58,9 +58,9 @@ def test_long_lists_are_cut_whatever_introduces_them(way: str) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["collect", "--nothing"], "the following arguments are required: source"),
-        (["report", "x", "--to", "y"], "unrecognized arguments: --to y; surfexp report --help"),
-        (["completion"], "Missing argument '{bash|zsh|fish}'. Choose from: bash, zsh, fish"),
+        (["collect"], "missing argument 'SOURCE'; surfexp collect --help"),
+        (["report", "x", "--to", "y"], "unknown option '--to'; choose from: --beside, "),
+        (["completion"], "missing argument '{bash|zsh|fish}'. Choose from: bash, zsh, fish"),
         (["noteleks"], "unknown command 'noteleks'; choose from: align, "),
         (["run", "experiment=a b"], "unknown experiment 'a b'; choose from: "),
         (["plan", "experiment="], "unknown experiment ''; choose from: "),

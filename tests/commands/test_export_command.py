@@ -28,12 +28,12 @@ from surfexp.figures.figure import Figure
 from surfexp.io.csv_cells import cell
 from surfexp.io.label_files import read_labels
 from surfexp.io.reading import read_mesh
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.store.kinds import KINDS, stage_kind
 from surfexp.lab.store.store import save
 from surfexp.mesh.label_map import LabelMap
@@ -506,7 +506,7 @@ TABLE = {
 
 @pytest.mark.slow
 def test_sulci_are_written_for_each_surface(tmp_path: Path) -> None:
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     plan = make_plan([TABLE])
     plan.write(tmp_path / "results")
     for key, node in plan.nodes.items():

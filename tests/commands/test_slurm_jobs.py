@@ -9,7 +9,7 @@ import pytest
 
 from surfexp.commands import slurm_jobs
 from surfexp.lab.plan.plan import Node
-from surfexp.lab.registry.registry import package_folder
+from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running.stage_process import death
 
 LOG = """\

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.commands.all_commands import SECTIONS
 from surfexp.commands.command_line import main
-from surfexp.commands.surface_commands import COMMANDS
 from surfexp.io.map_files import read_maps
 
 
@@ -122,7 +122,7 @@ def test_mistakes_are_one_line_and_exit_code_2(
     assert words in said and said.splitlines()[-1].startswith("surfexp: ")
 
 
-@pytest.mark.parametrize("name", sorted([*COMMANDS, "segment", "fingerprint", "check", "repair"]))
+@pytest.mark.parametrize("name", sorted(SECTIONS["Surfaces and maps"]))
 def test_help_has_two_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([name, "--help"]) == 0
     assert capsys.readouterr().out.count(f"surfexp {name} ") >= 3

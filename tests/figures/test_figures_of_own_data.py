@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
 from surfexp.variational.images.painting import add_noise
 from surfexp.variational.solution import Solution
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 SURFACE = icosphere(3)
 MAP = Image(2.5 + 0.4 * SURFACE.mesh.vertices[:, 2], "thickness", "mm")
 

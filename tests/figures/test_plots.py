@@ -16,9 +16,10 @@ from surfexp.figures import cost_plot as cost_module
 from surfexp.figures.axes import add_axes, class_style, label_lines, logarithmic, spread
 from surfexp.figures.convergence_plot import convergence_plot
 from surfexp.figures.interval_plot import interval_plot
-from surfexp.figures.order_plot import convergence_order, order_plot
+from surfexp.figures.order_plot import order_plot
 from surfexp.figures.sweep_plot import sweep_plot
 from surfexp.figures.typography import canvas, drawn
+from surfexp.linalg.convergence_order import convergence_order
 
 ITERATIONS = np.arange(1.0, 101.0)
 SMALL = (400, 260)

@@ -13,7 +13,7 @@ from surfexp.commands.exporting.writers import write_csv
 from surfexp.io.csv_cells import STARTS_A_FORMULA, cell
 from surfexp.io.text_tables import write_table
 from surfexp.lab.plan.plan import Leaf
-from surfexp.report.table import Row, to_csv
+from surfexp.records.table import Row, to_csv
 from surfexp.studies.sulci.sulcal_export import write_length_table
 
 EVIL = "=HYPERLINK(1)"

@@ -20,11 +20,12 @@ from surfexp.io.writing import write_mesh
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 
 
 def write_tables(stem: Path, mesh: TriangleMesh) -> None:
@@ -53,7 +54,7 @@ def test_the_key_covers_both_tables_and_no_other_file(shapes: Path) -> None:
     for name in ("tosca", "file"):
         before = key_of(name=name, path=str(shapes / "ball0.vert"))
         (shapes / "notes.txt").write_text(f"changed beside it, {name}")
-        from surfexp.lab.plan.fingerprint import file_digest
+        from surfexp.lab.digests import file_digest
 
         file_digest.cache_clear()
         assert key_of(name=name, path=str(shapes / "ball0.vert")) == before

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from surfexp.commands import execution
-from surfexp.commands import run as run_command
+from surfexp.commands import execution, request
 from surfexp.contract.metric import Metric
 from surfexp.lab.errors import StageFailure, UserError
 from surfexp.lab.experiment.claim import read_claims
@@ -21,8 +20,8 @@ from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
+from surfexp.records.table import rows_of
 from surfexp.report.convergence import reason, unconverged
-from surfexp.report.table import rows_of
 from surfexp.report.verdict import judge
 
 CONFIGURATION = {
@@ -229,8 +228,8 @@ def test_a_row_that_did_not_converge_is_named_and_ends_with_3(
 ) -> None:
     plan = loose(tmp_path, target, **options)
     monkeypatch.setattr("surfexp.lab.composition.launch.launch", lambda arguments, action: action(plan))
-    monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
-    assert run_command.command("run", []) == 3
+    monkeypatch.setattr(request, "place", lambda arguments: None)  # the request is none of this plan
+    assert request.carried_out("run", []) == 3
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("surfexp: warning: ") and line.endswith(said)
     assert ("Loose ends: " if target == "solver" else "solver/toy_loose") in line
@@ -240,8 +239,8 @@ def test_a_run_within_its_bounds_ends_with_0(tmp_path: Path, monkeypatch: pytest
     # the second row says that it converged: by a bound of its own, such as the change of a published iteration
     plan = loose(tmp_path, gap=1e-3, tolerance=1e-4)
     monkeypatch.setattr("surfexp.lab.composition.launch.launch", lambda arguments, action: action(plan))
-    monkeypatch.setattr(run_command, "place", lambda arguments: None)  # the request is none of this plan
-    assert run_command.command("run", []) == 0
+    monkeypatch.setattr(request, "place", lambda arguments: None)  # the request is none of this plan
+    assert request.carried_out("run", []) == 0
     assert unconverged(plan, tmp_path / "results") == []
 
 
@@ -256,7 +255,7 @@ def test_a_metric_is_held_against_the_option_that_bounds_it_where_no_result_says
 
 
 def test_many_warnings_are_cut(capsys: pytest.CaptureFixture[str]) -> None:
-    run_command.warn([f"row {k}" for k in range(15)])
+    request.warn([f"row {k}" for k in range(15)])
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 11 and lines[-1] == "surfexp: warning: and 5 more"
 

@@ -82,7 +82,7 @@ def imports(file: Path) -> set[tuple[str, bool]]:
 def allowed_at_once(file: Path) -> frozenset[str]:
     """Packages that a file may import as soon as it is imported, by the room where it stands."""
     room = file.relative_to(ROOT).parts[1] if file.is_relative_to(ROOT / "surfexp") else "plugins"
-    if room in ("workflow", "workers", "catalogue", "report", "commands", "language", "plugins"):
+    if room in ("lab", "records", "report", "reproduction", "commands", "plugins"):
         return declared("") | declared("lab")
     return declared("") | (declared("figures") if room in ("figures", "drawings") else frozenset())
 

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from surfexp.lab.plan import fingerprint, source_code
+from surfexp.lab.registry.folders import package_folder
+from surfexp.lab.registry.loading import load_all
 
 
 @pytest.fixture
@@ -59,9 +61,8 @@ def test_only_meaning_counts(package: Path) -> None:
 
 
 def test_the_framework_is_not_part_of_a_key() -> None:
-    import surfexp.lab.registry.registry as registry
 
-    plugins = registry.package_folder("surfexp.plugins")
+    plugins = package_folder("surfexp.plugins")
     files, packages = fingerprint.code_closure(plugins / "operator" / "fem.py")
     names = {file.parent.name + "/" + file.name for file in files}
     assert "operators/fem.py" in names and "mesh/triangle_mesh.py" in names
@@ -75,10 +76,10 @@ def test_the_framework_is_not_part_of_a_key() -> None:
 def test_nothing_that_shows_results_is_part_of_any_key() -> None:
     from surfexp.lab.registry import registry
 
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     shown = {fingerprint.PACKAGE / room for room in ("report", "commands", "catalogue", "workers")}
     for plugin in registry.PLUGINS.values():
-        if plugin.file.is_relative_to(registry.package_folder("surfexp.plugins")):
+        if plugin.file.is_relative_to(package_folder("surfexp.plugins")):
             files, _ = fingerprint.code_closure(plugin.file)
             assert not {file for file in files for room in shown if file.is_relative_to(room)}, plugin.name
             assert not {fingerprint.PACKAGE / "__init__.py", fingerprint.PACKAGE / "face.py"} & files, plugin.name
@@ -224,8 +225,8 @@ def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> N
 def test_every_plugin_of_the_package_is_told_apart() -> None:
     from surfexp.lab.registry import registry
 
-    registry.load_all(Path("/nonexistent"))
-    shipped = registry.package_folder("surfexp.plugins")
+    load_all(Path("/nonexistent"))
+    shipped = package_folder("surfexp.plugins")
     own = [plugin for plugin in registry.PLUGINS.values() if plugin.file.is_relative_to(shipped)]
     assert len(own) > 100
     for plugin in own:

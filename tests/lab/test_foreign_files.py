@@ -9,7 +9,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.commands import execution
-from surfexp.commands.clean import command as clean
+from surfexp.commands.command_line import main
 from surfexp.lab.composition import launch
 from surfexp.lab.composition.hydra_guard import refuse_code
 from surfexp.lab.errors import DamagedResult, UserError
@@ -104,7 +104,7 @@ def test_cleaning_leaves_what_no_run_made(tmp_path: Path) -> None:
     for name in mine + made:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("{}")
-    assert clean("clean", ["--all", "--yes", "--results", str(tmp_path)]) == 0
+    assert main(["clean", "--all", "--yes", "--results", str(tmp_path)]) == 0
     left = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()}
     assert left - {".lock"} == set(mine)
 

@@ -54,6 +54,6 @@ def test_a_request_that_was_planned_before_needs_neither_hydra_nor_plugins(tmp_p
 
 
 def test_what_a_run_with_nothing_to_do_imports(tmp_path: Path) -> None:
-    modules = ("commands.run", "commands.execution", "commands.views", "report.convergence", "report.table")
+    modules = ("commands.request", "commands.execution", "commands.views", "report.convergence", "records.table")
     statement = f"import {', '.join(f'surfexp.{name}' for name in modules)}"
     assert not loaded_by(statement, cwd=tmp_path) & (LABORATORY | {"scipy", "numba"})

@@ -12,6 +12,7 @@ import pytest
 
 from surfexp.io.map_files import read_scalars
 from surfexp.io.writing import write_mesh
+from surfexp.lab import digests
 from surfexp.lab.plan import fingerprint, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
@@ -26,7 +27,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 @pytest.fixture
 def planned(tmp_path: Path) -> tuple[Plan, Path, Path]:
     registry.load_file(ROOT / "plugins" / "surface" / "file.py")
-    fingerprint.file_digest.cache_clear()
+    digests.file_digest.cache_clear()
     mesh = tmp_path / "brain.ply"
     write_mesh(mesh, icosphere(1).mesh)
     plan = make_plan([{"target": "surface", "surface": {"name": "file", "path": str(mesh)}}])

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
+from surfexp.lab.digests import file_digest
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan import remembered_plans as planned
 from surfexp.lab.plan import resolution
-from surfexp.lab.plan.fingerprint import file_digest
 from surfexp.lab.plan.plan import Plan, read_plan
 from surfexp.lab.plan.resolution import _Resolver, make_plan
-from surfexp.lab.registry import registry
+from surfexp.lab.registry import catalogue, registry
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 
@@ -129,7 +129,7 @@ def test_the_nodes_of_other_stages_are_not_parsed(tmp_path: Path, monkeypatch: p
 @pytest.fixture
 def cache(tmp_path: Path, working_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(planned, "user_cache", lambda part: tmp_path / "cache" / part)
-    monkeypatch.setattr(registry, "open_catalogue", lambda folder: None)
+    monkeypatch.setattr(catalogue, "open_catalogue", lambda folder: None)
     (tmp_path / "cache").mkdir(mode=0o700)
     return tmp_path / "cache"
 

@@ -9,7 +9,7 @@ import pytest
 from surfexp.lab import user_cache
 from surfexp.lab.plan import fingerprint, source_code, source_facts
 from surfexp.lab.plan.source_facts import SourceFacts
-from surfexp.lab.registry import registry
+from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.user_cache import Memory
 
 
@@ -29,7 +29,7 @@ def forget(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def digests() -> list[str]:
-    file = registry.package_folder("surfexp.plugins") / "surface" / "disk.py"
+    file = package_folder("surfexp.plugins") / "surface" / "disk.py"
     return [fingerprint.code_digest(file), fingerprint.code_digest(file, "disk")]
 
 

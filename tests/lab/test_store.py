@@ -147,3 +147,12 @@ def test_a_result_without_digests_is_said_to_be_of_an_earlier_version(stored: Pa
     record, _ = files(results)
     record.write_text(json.dumps(json.loads(record.read_text())["result"], indent=1, sort_keys=True) + "\n")
     assert "of an earlier version, which stored no digests" in store.faults(results, [("assorted", KEY)])[KEY]
+
+
+def test_a_store_of_older_keys_says_so_once(tmp_path: Path) -> None:
+    old = tmp_path / "store" / "surface" / "0123" / store.RECORD
+    old.parent.mkdir(parents=True)
+    old.write_text("{}")
+    assert "computed again" in store.note_on_older_keys(tmp_path)
+    assert store.note_on_older_keys(tmp_path) == ""
+    assert store.note_on_older_keys(tmp_path / "new") == ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from surfexp.lab.plan.plan import Leaf
-from surfexp.report.table import Comparison, Row
+from surfexp.records.table import Comparison, Row
 
 
 def row(metrics: dict[str, float] | None = None, **parameters: Any) -> Row:

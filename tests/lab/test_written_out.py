@@ -10,7 +10,7 @@ from typing import Any, get_args
 import pytest
 import yaml
 
-from surfexp.commands.run import plan_and_act
+from surfexp.commands.request import plan_and_act
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.claim import Claim, read_claims
 from surfexp.lab.experiment.statements import BELOW, QUANTITIES

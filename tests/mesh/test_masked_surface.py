@@ -13,11 +13,12 @@ from surfexp.io.label_files import write_labels
 from surfexp.lab.errors import UserError
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface, Truth
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 BALL = sx.shape("icosphere", levels=3)
 Z = BALL.mesh.vertices[:, 2]
 UPPER = Z > -0.3

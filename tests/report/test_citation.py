@@ -12,6 +12,7 @@ from surfexp.commands.command_line import main
 from surfexp.lab.experiment.experiment_files import methods_named
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.folders import experiments
+from surfexp.lab.registry.loading import load_all
 from surfexp.report.citation import ALWAYS, bibliography, cited, references
 
 NEEDED = {
@@ -35,7 +36,7 @@ def entries(text: str) -> dict[str, tuple[str, dict[str, str]]]:
 
 
 def test_every_reference_is_complete_and_its_plugins_exist() -> None:
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     known = {f"{kind}/{name}" for kind, name in registry.PLUGINS} | {ALWAYS}
     for reference in references():
         ((key, (kind, fields)),) = entries(reference.bibtex).items()
@@ -55,7 +56,7 @@ def test_methods_bring_their_sources_and_no_others() -> None:
 @pytest.mark.parametrize("experiment", sorted(experiments()))
 def test_an_experiment_that_never_ran_is_cited_by_what_its_file_names(experiment: str, tmp_path: Path) -> None:
     used = cite.plugins_of(experiment, tmp_path)
-    known = {f"{kind}/{name}" for kind, name in registry.PLUGINS} or registry.load_all(Path("/nonexistent")) or set()
+    known = {f"{kind}/{name}" for kind, name in registry.PLUGINS} or load_all(Path("/nonexistent")) or set()
     known = known or {f"{kind}/{name}" for kind, name in registry.PLUGINS}
     assert used and set(used) <= known
 

@@ -12,10 +12,11 @@ from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.experiment.statements import claims_of
 from surfexp.lab.plan.plan import Leaf
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators import diagnostics
 from surfexp.operators.fem import fem
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 from surfexp.report.verdict import Verdict, judge
 from surfexp.reproduction.page import section
 
@@ -214,7 +215,7 @@ def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytes
 
 def measured() -> Row:
     surface = icosphere(2)
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     method = registry.plugin("measurement", "operator_errors")
     metrics = method.function(method.options(), surface=surface, operator=fem(surface.mesh)).metrics
     return Row(Leaf("key", "fem", {}), {"operator.name": "fem"}, metrics, 0.0)

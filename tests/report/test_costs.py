@@ -7,8 +7,8 @@ import pytest
 
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.lab.plan.plan import Leaf
+from surfexp.records.table import Comparison, Row
 from surfexp.report.costs import cost_figure
-from surfexp.report.table import Comparison, Row
 
 
 def row(name: str, tolerance: float, seconds: float, gap: float | None = None, failure: str = "") -> Row:

@@ -13,10 +13,10 @@ from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.report.declared import check_names, declared
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM: dict[str, Any] = {
     "claim": "small",

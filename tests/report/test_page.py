@@ -14,11 +14,11 @@ from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.contract.metric import Metric, find_metric
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Leaf
+from surfexp.records.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
 from surfexp.report import page
 from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report
 from surfexp.report.render import prose
-from surfexp.report.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
 from surfexp.report.verdict import _quantity
 
 

@@ -15,12 +15,12 @@ from hypothesis.extra.numpy import arrays
 from benchmarks.synthetic_results import fill, plan_of
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
+from surfexp.records.table import Comparison, Row
 from surfexp.report.page import write_report
 from surfexp.report.ranking.drawing import draw
 from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import _interval, rank
 from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, _names, trials_of
-from surfexp.report.table import Comparison, Row
 
 METRICS = {"rmse": Metric("error", "mm", "lower"), "dice": Metric("overlap", "", "higher"), "area": Metric("area")}
 

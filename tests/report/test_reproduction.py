@@ -13,16 +13,16 @@ from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.running import stage
 from surfexp.lab.store.kinds import KINDS
-from surfexp.report.table import rows_of
+from surfexp.records.table import rows_of
 from surfexp.report.verdict import judge
 from surfexp.reproduction import page as reproduction
 from surfexp.reproduction import stamp
 from surfexp.reproduction.page import reproduction as page_of
 
-registry.load_all(Path("/nonexistent"))
+load_all(Path("/nonexistent"))
 STATE = "a" * 20, "b" * 20
 CLAIM = {
     "claim": "the sphere has its area | nearly",

@@ -9,8 +9,8 @@ import pytest
 
 from surfexp.commands.command_line import main
 from surfexp.lab.plan.plan import Leaf
+from surfexp.records.table import Row
 from surfexp.report.row_difference import differing_options, numbers_beside
-from surfexp.report.table import Row
 
 
 def row(seconds: float | None, parameters: dict[str, object], **metrics: float) -> Row:

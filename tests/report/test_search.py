@@ -12,8 +12,8 @@ from surfexp.commands.command_line import main
 from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.lab.experiment.configuration import Settings
 from surfexp.lab.plan.plan import Leaf, Plan
+from surfexp.records.table import Row
 from surfexp.report.search import Search, Trial, draw, search_of, searched
-from surfexp.report.table import Row
 
 COMMAND = (
     "surfexp run experiment=x 'figures=[]' hydra/sweeper=optuna objective=rmse 'model.w=interval(0.1,2)' "

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from surfexp.commands.verdict_lines import STYLES, print_verdicts
 from surfexp.lab.plan.plan import Leaf, Plan
-from surfexp.report.table import Row
+from surfexp.records.table import Row
 
 CLAIM: dict[str, Any] = {"quantity": "all", "metric": "energy", "rows": {}, "because": "why not"}
 

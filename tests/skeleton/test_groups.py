@@ -15,6 +15,7 @@ from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.planar_patch import clean_mask, triangulate_mask
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.strip import strip, y_patch
@@ -247,7 +248,7 @@ def test_widths_planted_and_not_planted():
 
 
 def test_a_study_of_one_member_tells_its_skeleton_and_has_no_components():
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     study = registry.plugin("statistic", "skeleton_study")
     one = study.function(study.options(count=20), surfaces={"only": strip()})
     assert one.metrics["chains"] == 1.0 and one.metrics["members"] == 1.0

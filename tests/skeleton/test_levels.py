@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.strip import strip
 from surfexp.mesh.surface import Surface
@@ -88,7 +89,7 @@ def test_contours_that_shrink_to_a_vertex_have_no_length():
 
 def test_a_flat_feature_gives_fewer_levels_and_says_so():
     flat = np.clip(FLAT.vertices[:, 0], 1.0, 2.0)
-    registry.load_all(Path("/nonexistent"))
+    load_all(Path("/nonexistent"))
     method = registry.plugin("skeleton", "reeb_graph")
     found = method.function(method.options(levels="area_quantile"), surface=Surface(FLAT), feature=Feature(flat))
     assert found.is_chain and len(found.levels) < 50

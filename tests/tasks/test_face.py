@@ -25,7 +25,7 @@ def test_import_loads_nothing_heavy() -> None:
 
 def test_tasks_never_load_the_workflow() -> None:
     code = "import sys, surfexp as sx\nfor name in sx.__all__: getattr(sx, name)\n"
-    code += "print([n for n in ('mlflow', 'snakemake', 'hydra', 'surfexp.lab') if n in sys.modules])"
+    code += "print([n for n in ('mlflow', 'snakemake', 'hydra', 'surfexp.lab.plan', 'surfexp.lab.registry') if n in sys.modules])"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
 

@@ -36,7 +36,9 @@ def test_the_maps_of_a_surface_go_where_there_is_room_for_them(tmp_path: Path) -
 
 @pytest.mark.parametrize(("sources", "named"), [(-3, "-3"), ([0, 2.5], "2.5"), (10**6, "1000000")])
 def test_a_source_that_is_no_vertex_is_named(sources: object, named: str) -> None:
-    with pytest.raises(ValueError, match=rf"sources name vertex {named}(\.0)?, the vertices are 0\.\."):
+    with pytest.raises(
+        ValueError, match=rf"sources (name vertex|has the value) {named}, (the vertices are 0\.\.|whole numbers)"
+    ):
         sx.geodesic(BALL, sources)  # type: ignore[arg-type]
 
 

@@ -6,11 +6,10 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from surfexp.commands.views import latest_plan
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.plan.plan import Node, Plan, read_plan
+from surfexp.lab.plan.kinds_of_plans import load_known_kinds
+from surfexp.lab.plan.plan import Node, Plan, latest_plan, read_plan
 from surfexp.lab.registry.folders import experiments
-from surfexp.lab.registry.loading import load_known_kinds
 from surfexp.records.tracking import tracking_uri
 
 ON_VERTICES = ("surface", "image", "feature")

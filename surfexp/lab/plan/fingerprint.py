@@ -2,37 +2,20 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
-import json
 import sys
 from functools import cache
 from pathlib import Path
-from typing import Any
 
+from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.plan.source_code import root_package
 from surfexp.lab.plan.source_facts import NOTHING, source_facts
 from surfexp.lab.registry.installed import package_version
 
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
+# the laboratory moves results, it does not make them; summaries and install hints only show
+NOT_IN_KEYS = ("surfexp.lab", "surfexp.contract.summary", "surfexp.extras")
 PACKAGE = Path(__file__).resolve().parents[2]
-
-
-def digest(value: Any) -> str:
-    """Twenty hexadecimal digits of the SHA-256 of a value's canonical JSON."""
-    text = json.dumps(value, sort_keys=True, separators=(",", ":"), allow_nan=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:20]
-
-
-@cache
-def file_digest(path: Path) -> str:
-    """Digest of a file's bytes, or of every file below a folder."""
-    state = hashlib.sha256()
-    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
-        if file.is_file():
-            state.update(file.relative_to(path).as_posix().encode() if path.is_dir() else b"")
-            state.update(file.read_bytes())
-    return state.hexdigest()[:20]
 
 
 @cache
@@ -108,7 +91,7 @@ def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
 
 @cache
 def _module_files(name: str) -> tuple[Path, ...]:
-    if name.startswith("surfexp.lab"):
+    if name.startswith(NOT_IN_KEYS):
         return ()
     files, parts = [], name.split(".")
     # these parts of the package lie elsewhere in a checkout

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from surfexp.lab.digests import digest
+from surfexp.lab.errors import unknown
 from surfexp.lab.experiment.configuration import Settings
-from surfexp.lab.plan.fingerprint import digest
 from surfexp.lab.store.kinds import KINDS
 from surfexp.lab.store.store import write_text
 
@@ -152,3 +153,12 @@ def flat_parameters(nodes: Mapping[str, Node], key: str, root: str = "") -> dict
 
     visit(key, root or nodes[key].kind, "")
     return flat
+
+
+def latest_plan(results: Path, experiment: str) -> Plan:
+    """The plan of an experiment that was written last."""
+    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
+    mine = [file for file, name in found.items() if name == experiment]
+    if not mine:
+        raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
+    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))

@@ -42,9 +42,9 @@ def place(arguments: Sequence[str]) -> Path | None:
 
 def remembered(folder: Path | None) -> Plan | None:
     """The plan that is kept at a place, None where it has to be made (again)."""
+    from surfexp.lab.plan.kinds_of_plans import load_own_kinds
     from surfexp.lab.plan.plan import read_plan
-    from surfexp.lab.registry.loading import load_own_kinds
-    from surfexp.lab.registry.registry import open_catalogue
+    from surfexp.lab.registry.catalogue import open_catalogue
 
     if folder is None or fault(folder.parent) or not folder.is_dir():
         return None
@@ -99,7 +99,8 @@ def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
 
 def _unchanged(plan: Plan, kept: Mapping[str, Any]) -> bool:
     """Whether files are what they were, and so is the code of plugins outside of packages, which `code_state` knows in part."""
-    from surfexp.lab.plan.fingerprint import code_digest, data_digest, file_digest
+    from surfexp.lab.digests import file_digest
+    from surfexp.lab.plan.fingerprint import code_digest, data_digest
 
     own = package_folder("surfexp.plugins")
     codes = {(Path(node.file), node.function): node.code for node in plan.nodes.values()}

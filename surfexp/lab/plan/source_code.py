@@ -11,8 +11,8 @@ from functools import cache
 from pathlib import Path
 
 from surfexp.face import FACE
+from surfexp.lab.plan.shown_text import without_shown_text
 
-DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 DEFINITION = FUNCTION | ast.ClassDef
 IMPORT = ast.Import | ast.ImportFrom
@@ -24,12 +24,8 @@ PLAIN_DECORATORS = {"register", "dataclass", "njit", "jit", "vectorize", "cache"
 
 @cache
 def statements(path: Path) -> tuple[ast.stmt, ...]:
-    """Top-level statements of a file, without docstrings."""
-    tree = ast.parse(path.read_bytes())
-    for node in ast.walk(tree):
-        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            node.body = node.body[1:]
-    return tuple(tree.body)
+    """Top-level statements of a file, without what only shows: see `shown_text.without_shown_text`."""
+    return tuple(without_shown_text(ast.parse(path.read_bytes())).body)
 
 
 def meaning(part: Sequence[ast.stmt]) -> str:

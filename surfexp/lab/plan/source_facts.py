@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from surfexp import face
-from surfexp.lab.plan import source_code
+from surfexp.lab.plan import shown_text, source_code
 from surfexp.lab.user_cache import Memory
 
 _memory = Memory("source_facts")
@@ -52,6 +52,6 @@ def source_facts(file: Path, function: str = "") -> SourceFacts:
 @cache
 def _analysis() -> str:
     """State of what is remembered: of the code that reads files, the face, and Python, whose syntax trees differ by version."""
-    files = (source_code.__file__, __file__, face.__file__)
+    files = (source_code.__file__, shown_text.__file__, __file__, face.__file__)
     code = b"".join(Path(str(file)).read_bytes() for file in files)
     return f"{sys.version_info[0]}.{sys.version_info[1]} {hashlib.sha256(code).hexdigest()}"

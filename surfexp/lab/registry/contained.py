@@ -91,7 +91,7 @@ def main(working_folder: Path, faults: dict[str, str]) -> None:
         while text:
             text = text[os.write(answers, text) :]
 
-    from surfexp.lab.registry.catalogue import describe_all
+    from surfexp.lab.registry.description import describe_all
 
     try:
         answer(description=describe_all(working_folder, faults, lambda file: answer(file=file)))

@@ -1,4 +1,4 @@
-"""The plugin registry: every method by kind and name, found in the package, in installed packages and in `plugins/`."""
+"""The plugin registry: every method by kind and name."""
 
 from __future__ import annotations
 
@@ -16,12 +16,9 @@ from pydantic import BaseModel, ConfigDict
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
+from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.plan.fingerprint import digest
-from surfexp.lab.registry.catalogue import Catalogue, catalogue
-from surfexp.lab.registry.folders import package_folder as package_folder
-from surfexp.lab.registry.loading import load_all as load_all
-from surfexp.lab.store.kinds import KINDS, kind_of, stage_kind
+from surfexp.lab.store.kinds import KINDS, kind_of
 
 
 class Options(BaseModel):
@@ -64,7 +61,7 @@ class Plugin:
 
 PLUGINS: dict[tuple[str, str], Plugin] = {}
 BROKEN: dict[Path, str] = {}
-_described: dict[tuple[str, str], Path] = {}
+DESCRIBED: dict[tuple[str, str], Path] = {}
 _loaded: set[str] = set()
 
 
@@ -124,8 +121,8 @@ def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type
 
 def plugin(kind: str, name: str) -> Plugin:
     """Look a plugin up; UserError with the nearest name, or with the file that failed to load."""
-    if (kind, name) not in PLUGINS and (kind, name) in _described:
-        load_file(_described[kind, name])
+    if (kind, name) not in PLUGINS and (kind, name) in DESCRIBED:
+        load_file(DESCRIBED[kind, name])
     if (kind, name) not in PLUGINS:
         check_known("stage kind", [kind], KINDS)
         raise unknown_plugin(f"{kind} plugin", kind, name)
@@ -161,14 +158,4 @@ def load_file(file: Path) -> None:
 
 def names_of(kind: str) -> list[str]:
     """Names of the plugins of a kind, loaded or not."""
-    return list(dict.fromkeys(name for of, name in (*PLUGINS, *_described) if of == kind))
-
-
-def open_catalogue(working_folder: Path) -> Catalogue:
-    """Make every plugin known without loading it: its file is loaded when it is looked up."""
-    known = catalogue(working_folder)
-    for name, (path, stored) in known.kinds.items():
-        stage_kind(name, path, stored)
-    _described.update({key: Path(item.file) for key, item in known.plugins.items()})
-    BROKEN.update({Path(file): message for file, message in known.broken.items()})
-    return known
+    return list(dict.fromkeys(name for of, name in (*PLUGINS, *DESCRIBED) if of == kind))

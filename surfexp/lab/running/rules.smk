@@ -4,7 +4,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from surfexp.lab.registry.loading import load_own_kinds
+from surfexp.lab.plan.kinds_of_plans import load_own_kinds
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
 from surfexp.lab.plan.plan import read_plan, stored_inputs

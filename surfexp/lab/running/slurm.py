@@ -6,12 +6,13 @@ Here the Snakemake of a job hands its stages to warm processes, as one on this m
 
 from __future__ import annotations
 
-import sys
 from typing import Any
 
 import snakemake_executor_plugin_slurm
 from snakemake_executor_plugin_slurm import ExecutorSettings as ExecutorSettings
 from snakemake_executor_plugin_slurm import common_settings as common_settings
+
+JOB = "surfexp.lab.running.slurm_job"
 
 
 class Executor(snakemake_executor_plugin_slurm.Executor):
@@ -24,10 +25,4 @@ class Executor(snakemake_executor_plugin_slurm.Executor):
     def format_job_exec(self, job: Any) -> str:
         """See Snakemake: the command of a job, with an entry that knows our executor."""
         command: str = super().format_job_exec(job)
-        return command.replace("-m snakemake", f"-P -m {__spec__.name}", 1)
-
-
-if __name__ == "__main__":
-    from surfexp.lab.running.snakemake import run
-
-    run(sys.argv[1:])
+        return command.replace("-m snakemake", f"-P -m {JOB}", 1)

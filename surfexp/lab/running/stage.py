@@ -18,8 +18,9 @@ for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", 
 
 from surfexp.contract.member import Member  # noqa: E402
 from surfexp.contract.result_contract import check_result  # noqa: E402
+from surfexp.lab.digests import file_digest  # noqa: E402
 from surfexp.lab.errors import DamagedResult  # noqa: E402
-from surfexp.lab.plan.fingerprint import code_digest, edited_since, file_digest  # noqa: E402
+from surfexp.lab.plan.fingerprint import code_digest, edited_since  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
 from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402

@@ -22,6 +22,8 @@ from surfexp.lab.store.result_tree import decoded, encoded
 
 HOST = os.uname().nodename  # processes of two machines that share a folder may have one number
 RECORD, ARRAYS = "record.json", "arrays.npz"
+# how keys are made; another word means that no key of before is one of now
+KEYS = "of what computes"
 SEAL = ',\n "sha256": "{}"\n}}\n'
 SEAL_LENGTH = len(SEAL.format("0" * 64))
 
@@ -34,6 +36,17 @@ def result_folder(results: Path, kind: str, key: str) -> Path:
 def is_done(results: Path, kind: str, key: str) -> bool:
     """Whether a finished result exists: the record is the last file to be written."""
     return (result_folder(results, kind, key) / RECORD).exists()
+
+
+def note_on_older_keys(results: Path) -> str:
+    """Mark the store as one of present keys; one line where results of older ones lie in it, which are computed again."""
+    marker = results / "store" / "KEYS"
+    if marker.exists() and marker.read_text() == KEYS:
+        return ""
+    older = any((results / "store").glob(f"*/*/{RECORD}"))
+    write_text(marker, KEYS)
+    said = f"results in {results / 'store'} have keys of an earlier version and are computed again"
+    return f"{said}; `surfexp clean` removes the old ones" if older else ""
 
 
 def write_text(path: Path, text: str) -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from surfexp.lab.store import store
+from surfexp.records.table import Comparison, format_number
 from surfexp.report.ranking.trials import trials_of
 from surfexp.report.repeats import mean_and_deviation
-from surfexp.report.table import Comparison, format_number
 
 if TYPE_CHECKING:
     from surfexp.report.ranking.ranking import Ranking

@@ -14,7 +14,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.report.table import ANSWERS, OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
+from surfexp.records.table import ANSWERS, OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
 # of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from surfexp.contract.member import Member, levels_of
-from surfexp.figures.order_plot import convergence_order
+from surfexp.linalg.convergence_order import convergence_order
 from surfexp.mesh.flat_shapes import FlatTorus
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem

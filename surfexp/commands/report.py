@@ -1,0 +1,40 @@
+"""`surfexp report`: the page of finished experiments again, or the verdicts on what was published."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from surfexp.commands import choices
+from surfexp.commands.click_command import results_option, shown
+
+
+@click.command(**shown("report", "quickstart", "rof_cup --claims > claims.md", cls=click.Command))
+@click.argument("experiments", metavar="[EXPERIMENT]...", nargs=-1, shell_complete=choices.finished)
+@click.option("--claims", is_flag=True, help="print the verdicts on published claims as Markdown")
+@click.option(
+    "--beside", type=click.Path(path_type=Path), help="with --claims: a page whose other experiments are taken over"
+)
+@click.option("--preface", type=click.Path(path_type=Path), help="with --claims: text for the head of the page")
+@results_option
+def report(
+    experiments: tuple[str, ...], claims: bool, beside: Path | None, preface: Path | None, results: Path
+) -> None:
+    """Write the report page of experiments again.
+
+    Its place is printed. Without EXPERIMENT it is that of quickstart.
+    """
+    from surfexp.lab.plan.plan import latest_plan
+
+    plans = {experiment: latest_plan(results, experiment) for experiment in experiments or ["quickstart"]}
+    if claims:
+        from surfexp.reproduction.page import reproduction
+
+        earlier, head = (path.read_text(encoding="utf-8") if path else "" for path in (beside, preface))
+        click.echo(reproduction(plans, results.resolve(), earlier, head))
+        return
+    from surfexp.report.page import write_report
+
+    for plan in plans.values():
+        click.echo(write_report(plan, results.resolve()) / "report.html")

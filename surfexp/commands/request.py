@@ -1,0 +1,169 @@
+"""A request of `surfexp run` or `surfexp plan`, from its words to its tables."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+
+from surfexp.commands.arguments import check_arguments
+from surfexp.commands.searching import is_search, joined, repeatable
+from surfexp.commands.several_experiments import apart, each
+from surfexp.lab.errors import StageFailure, UserError
+from surfexp.lab.experiment.experiment_files import check_files, located
+from surfexp.lab.plan.remembered_plans import place, remember, remembered
+
+if TYPE_CHECKING:
+    from surfexp.lab.plan.plan import Plan
+
+LINES_OF_WARNING = 10
+ROWS_PRINTED = 200
+
+
+def carried_out(name: str, arguments: list[str]) -> int:
+    """Run (or only plan) what the configuration asks for; 3 where a row did not converge."""
+    check_arguments(arguments)
+    return each(partial(_one_experiment, name), apart(arguments))
+
+
+def _one_experiment(name: str, arguments: list[str]) -> int:
+    arguments = repeatable(arguments)
+    doubtful: list[str] = []
+    search = name == "run" and is_search(arguments)
+    action: Callable[[Plan], None] = partial(_trials if search else _run, doubtful, arguments)
+    try:
+        plans = plan_and_act(arguments, _show if name == "plan" else action)
+        if search and plans:
+            _tell(plans[-1], doubtful, arguments)
+    except OSError as error:
+        remedy = "choose another results folder with results=FOLDER"
+        raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
+    from surfexp.report.convergence import UNCONVERGED
+
+    return UNCONVERGED if doubtful else 0
+
+
+def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[Plan]:
+    """Act on the plan of a request, or on each of a search with those before it in it; return them.
+
+    A plan that was made before is not made again, and its names are not checked again.
+    """
+    kept_at = place(arguments)
+    if (known := remembered(kept_at)) is not None:
+        action(known)
+        return [known]
+    check_files(arguments)
+    from hydra.errors import HydraException
+    from omegaconf.errors import OmegaConfBaseException
+
+    from surfexp.lab.composition.launch import launch
+    from surfexp.report.combination import check_combinations
+    from surfexp.report.declared import check_names
+
+    plans: list[Plan] = []
+
+    def check_and_act(plan: Plan) -> None:
+        check_names(plan)
+        check_combinations(plan)
+        # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment
+        plans.append(joined(plans[-1], plan) if plans and plan.settings.objective else plan)
+        action(plans[-1])
+
+    try:
+        launch(arguments, check_and_act)
+    except (HydraException, OmegaConfBaseException) as error:
+        raise UserError(located(" ".join(str(error).split()), arguments)) from error
+    except UserError as error:
+        raise UserError(located(str(error), arguments)) from error
+    if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
+        remember(kept_at, plans[0])
+    return plans
+
+
+def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
+    """Run what is new of a search and say how it stands."""
+    from surfexp.commands.execution import run
+    from surfexp.records.table import rows_of
+    from surfexp.report.search import search_of
+
+    run(plan, arguments)
+    command = shlex.join(["surfexp", "run", *arguments])
+    found = search_of(rows_of(plan, Path(plan.settings.results)), plan.settings.objective, command)
+    if found is not None:
+        print(found.sentence, flush=True)
+
+
+def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
+    """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
+    from surfexp.commands.execution import run, unfinished
+    from surfexp.commands.views import wide_console
+
+    results = Path(plan.settings.results)
+    missing = unfinished(plan, results)
+    console = wide_console()
+    state = f"{len(missing)} to compute" if missing else "nothing to compute"
+    console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
+    failure = None
+    try:
+        run(plan, arguments)
+    except StageFailure as error:
+        failure = error
+    _tell(plan, doubtful, arguments)
+    if failure is not None:
+        raise failure
+
+
+def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
+    """Print the tables of a plan that was run with these arguments, its verdicts, and where its pages are."""
+    from surfexp.commands.verdict_lines import print_verdicts
+    from surfexp.commands.views import print_tables, wide_console
+    from surfexp.records.table import comparisons, rows_of
+    from surfexp.report.convergence import unconverged
+    from surfexp.report.search import search_of
+
+    results, console = Path(plan.settings.results), wide_console()
+    rows = rows_of(plan, results.resolve())
+    groups = comparisons(rows)
+    print_tables(groups, console, ROWS_PRINTED)
+    print_verdicts(plan, rows, console)
+    if search := search_of(rows, plan.settings.objective, shlex.join(["surfexp", "run", *arguments])):
+        console.print(f"search     {search.sentence}", soft_wrap=True)
+        console.print(f"again      {search.command}", soft_wrap=True)
+    console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
+    folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
+    console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
+    lines = unconverged(plan, results.resolve(), groups)
+    doubtful += lines
+    warn(lines)
+
+
+def warn(lines: list[str]) -> None:
+    """Name rows that did not converge in the terminal."""
+    more = [f"and {len(lines) - LINES_OF_WARNING} more"] if len(lines) > LINES_OF_WARNING else []
+    for line in [*lines[:LINES_OF_WARNING], *more]:
+        print(f"surfexp: warning: {line}", file=sys.stderr)
+
+
+def _show(plan: Plan) -> None:
+    from surfexp.commands.execution import unfinished
+
+    results = Path(plan.settings.results)
+    missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))
+    unique = Counter(node.kind for node in plan.stored)
+    table = Table(
+        "stage", "unique", "done", "to compute", title=f"plan of {plan.settings.experiment}", title_justify="left"
+    )
+    for kind in unique:
+        table.add_row(kind, str(unique[kind]), str(unique[kind] - missing[kind]), str(missing[kind]))
+    console = Console(highlight=False)
+    console.print(table)
+    total = sum(unique.values())
+    console.print(f"{len(plan.leaves)} configurations: {plan.requested} stages without sharing, {total} with sharing,")
+    console.print(f"{sum(missing.values())} to compute, {total - sum(missing.values())} done")

@@ -1,0 +1,40 @@
+"""`surfexp ui`: the MLflow dashboard on this machine."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+
+from surfexp.commands.click_command import results_option, shown
+from surfexp.lab.errors import UserError
+
+
+@click.command(**shown("ui", "", "--port 5001", cls=click.Command))
+@click.option("--port", default=5000, help="port on this machine (loopback only)")
+@results_option
+def ui(port: int, results: Path) -> int:
+    """Start the MLflow dashboard on this machine.
+
+    Ctrl-C ends it.
+    """
+    if not (results / "mlflow.db").exists():
+        raise UserError(f"no runs are recorded in {results}; start with: surfexp run")
+    from mlflow.tracking import MlflowClient
+
+    from surfexp.records.tracking import tracking_uri
+
+    found = MlflowClient(tracking_uri(results)).search_experiments(order_by=["last_update_time DESC"])
+    shown_first = next((item.experiment_id for item in found if item.name != "Default"), "0")
+    view = "orderByKey=metrics.%60relative_gap%60&orderByAsc=true&searchFilter=tags.current%3D%22true%22"
+    address = f"http://127.0.0.1:{port}/?workflowType=machine_learning#/experiments/{shown_first}/runs?{view}"
+    print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
+    server = [sys.executable, "-P", "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port)]
+    environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
+    arguments = ["--backend-store-uri", tracking_uri(results), "--workers", "1"]
+    return subprocess.call(  # noqa: S603, this interpreter, a path and a port, no shell
+        [*server, *arguments], env=environment
+    )

@@ -1,0 +1,222 @@
+"""What is accepted as numbers, whole numbers and masks, from whoever gives them, and what is made of it."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from surfexp.contract.arrays import Floats, Integers
+
+# beyond it float64 does not hold every whole number
+LARGEST_WHOLE = 2.0**53
+
+
+def real_array(given: ArrayLike, what: str) -> Floats:
+    """Return real numbers as float64, those that a masked array hides as NaN.
+
+    Parameters
+    ----------
+    given : array_like
+        Of booleans, whole numbers or floating-point numbers.
+    what : str
+        What the array is, for the message.
+
+    Returns
+    -------
+    (...) float64
+
+    Raises
+    ------
+    ValueError
+        If it is ragged, complex, a date, text, structured or of objects, or a value is infinite.
+    """
+    values = _numbers(given, what, "buif", "real numbers are needed")
+    infinite = int(np.isinf(values).sum())
+    if infinite:
+        raise ValueError(f"{what} has {infinite} infinite values of {values.size}; write NaN where nothing is known")
+    return values
+
+
+def index_array(given: ArrayLike, what: str) -> Integers:
+    """Return whole numbers as int64.
+
+    Parameters
+    ----------
+    given : array_like
+        Whole numbers; of floating-point numbers those without a fraction.
+    what : str
+        What the array is, for the message.
+
+    Returns
+    -------
+    (...) int64
+
+    Raises
+    ------
+    ValueError
+        If the array is of booleans, a number is fractional, hidden, not finite or beyond 2^53.
+    """
+    array = _array(given, what)
+    if array.dtype.kind == "b":
+        raise ValueError(f"{what} is an array of booleans, whole numbers are needed: a mask is np.flatnonzero(mask)")
+    if array.dtype.kind in "iu" and not isinstance(given, np.ma.MaskedArray):
+        if array.size and int(array.max()) > np.iinfo(np.int64).max:
+            raise ValueError(f"{what} has the value {array.max()}, the largest is {np.iinfo(np.int64).max}")
+        return array.astype(np.int64, copy=False)
+    values = real_array(given, what)
+    bad = ~(np.isfinite(values) & (np.abs(values) < LARGEST_WHOLE) & (values == np.floor(values)))
+    if bad.any():
+        raise ValueError(f"{what} has the value {values[bad].ravel()[0]:g}, whole numbers are needed")
+    return values.astype(np.int64)
+
+
+def mask_array(given: ArrayLike, count: int, what: str = "mask") -> NDArray[np.bool_]:
+    """Return which of `count` vertices are inside: those whose number is neither 0 nor NaN nor hidden.
+
+    Parameters
+    ----------
+    given : (n,) array_like
+        Booleans, or numbers; a column (n, 1) is one too.
+    count : int
+    what : str
+        What the array is, for the message.
+
+    Returns
+    -------
+    (n,) bool
+
+    Raises
+    ------
+    ValueError
+        If it has another length, or does not hold numbers.
+    """
+    values = _numbers(given, what, "buif", "booleans, or 0 outside and 1 inside, are needed")
+    values = values.reshape(-1) if values.size == count else values
+    if values.shape != (count,):
+        raise ValueError(f"{what} has shape {np.shape(given)}, the surface has {count} vertices")
+    return np.asarray(np.isfinite(values) & (values != 0))
+
+
+def whole_number(given: Any, what: str, least: int, most: int | None = None) -> int:
+    """Return a whole number within its bounds; 5.0 is one, 2.5, "5" and True are none.
+
+    Parameters
+    ----------
+    given : int, or a float without a fraction
+    what : str
+        Name of the argument.
+    least : int
+    most : int, optional
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    ValueError
+        If it is no whole number, or lies outside of its bounds.
+    """
+    bounds = f"at least {least}" if most is None else f"{least} to {most}"
+    try:
+        if isinstance(given, bool | np.bool_):
+            raise TypeError
+        number = int(given) if isinstance(given, float | np.floating) and given == int(given) else operator.index(given)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{what} = {given!r} is no whole number, {bounds} is needed") from None
+    if number < least or (most is not None and number > most):
+        raise ValueError(f"{what} = {number}, {bounds} is needed")
+    return number
+
+
+def real_number(given: Any, what: str, above: float | None = None, below: float | None = None) -> float:
+    """Return a finite real number between two bounds, which it may not reach.
+
+    Parameters
+    ----------
+    given : float
+    what : str
+        Name of the argument.
+    above, below : float, optional
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ValueError
+        If it is no number, not finite, or not within its bounds.
+    """
+    bounds = " and ".join(
+        f"{word} {bound:g}" for word, bound in (("above", above), ("below", below)) if bound is not None
+    )
+    needed = f"a number {bounds}".rstrip()
+    if isinstance(given, bool | np.bool_ | str | bytes | complex | np.complexfloating) or np.ndim(given):
+        raise ValueError(f"{what} = {given!r}, {needed} is needed")
+    try:
+        number = float(given)
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{what} = {given!r}, {needed} is needed") from None
+    outside = (above is not None and number <= above) or (below is not None and number >= below)
+    if not np.isfinite(number) or outside:
+        raise ValueError(f"{what} = {number:g}, {needed} is needed")
+    return number
+
+
+def frozen(array: NDArray[Any], given: Any) -> NDArray[Any]:
+    """Return an array that nobody can change: a copy where whoever gave it could.
+
+    Parameters
+    ----------
+    array : ndarray
+        Made of what was given; perhaps the same memory.
+    given : array_like
+
+    Returns
+    -------
+    ndarray
+        Read-only.
+    """
+    owned = array.copy() if _is_writable(array) and np.may_share_memory(array, np.asarray(given)) else array.view()
+    owned.flags.writeable = False
+    return owned
+
+
+def _is_writable(array: Any) -> bool:
+    """Whether the memory of an array can be written through it or through an array that it is a view of."""
+    while isinstance(array, np.ndarray):
+        if array.flags.writeable:
+            return True
+        array = array.base
+    return False
+
+
+def _array(given: ArrayLike, what: str) -> NDArray[Any]:
+    try:
+        return np.asarray(given)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{what} is no array of numbers ({' '.join(str(error).split())})") from None
+
+
+def _numbers(given: ArrayLike, what: str, kinds: str, needed: str) -> Floats:
+    array = _array(given, what)
+    if array.dtype.kind == "O":
+        array = _unboxed(array)
+    if array.dtype.names or array.dtype.kind not in kinds:
+        kind = "structured" if array.dtype.names else str(array.dtype)
+        raise ValueError(f"{what} is an array of type {kind}, {needed}")
+    values = array.astype(np.float64, copy=False)
+    hidden = np.ma.getmaskarray(given) if isinstance(given, np.ma.MaskedArray) else np.zeros(())
+    return np.where(hidden, np.nan, values) if hidden.any() else values
+
+
+def _unboxed(array: NDArray[Any]) -> NDArray[Any]:
+    """Numbers that pandas keeps as objects beside its NA, as numbers; anything else as it is."""
+    flat = [np.nan if item is None or type(item).__name__ == "NAType" else item for item in array.ravel().tolist()]
+    if array.size and all(isinstance(item, bool | int | float | np.integer | np.floating) for item in flat):
+        return np.array(flat, dtype=np.float64).reshape(array.shape)
+    return array
