@@ -32,7 +32,8 @@ from surfexp.io.vtp import read_vtp, read_vtu
 READERS: dict[str, Callable[[Path], Decoded]] = {".off": read_off, ".obj": read_obj, ".stl": read_stl, ".ply": read_ply}
 READERS |= {".vtk": read_vtk, ".vtp": read_vtp, ".vtu": read_vtu}
 ARRAYS: dict[str, Callable[[Path], Any]] = {".vert": read_vert_tri, ".tri": read_vert_tri, ".npz": read_npz_mesh}
-KNOWN = ".off, .obj, .ply, .stl, .gii, .vtk, .vtp, .vtu, .npz, .vert/.tri, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"
+ARRAYS |= {".asc": freesurfer.read_ascii_geometry}
+KNOWN = ", ".join([*READERS, ".gii, .npz, .vert/.tri, .asc, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"])
 
 LEFT = {"l", "lh", "left"}
 # lh and rh anywhere between signs, left and right, hemi-L, and the single letters of HCP and BIDS

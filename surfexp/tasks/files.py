@@ -11,7 +11,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.label_files import write_labels
-from surfexp.io.map_files import read_maps, read_mask, read_named_labels, write_maps
+from surfexp.io.map_files import mask_notes, read_maps, read_mask, read_named_labels, write_maps
 from surfexp.io.reading import hemisphere_of_file, read_mesh_file
 from surfexp.io.writing import WITH_MAPS, write_mesh
 from surfexp.mesh.given_arrays import mask_array
@@ -83,12 +83,13 @@ def read(
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
+    notes = file_read.notes
     if isinstance(mask, str | Path):
         _same_side(mask, side, "mask")
+        notes = (*notes, *mask_notes(mask, side))
         mask = read_mask(mask, count, side)
     inside = None if mask is None else mask_array(mask, count)
     mesh = TriangleMesh(vertices, faces)
-    notes = file_read.notes
     if repair:
         mesh, changes, origin = repair_mesh(vertices, faces)
         scalars = {name: values[origin] for name, values in scalars.items()}
