@@ -40,7 +40,7 @@ def _one_experiment(name: str, arguments: list[str]) -> int:
     action: Callable[[Plan], None] = partial(_trials if search else _run, doubtful, arguments)
     try:
         plans = plan_and_act(arguments, _show if name == "plan" else action)
-        if search:
+        if search and plans:
             _tell(plans[-1], doubtful, arguments)
     except OSError as error:
         remedy = "choose another results folder with results=FOLDER"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from threadpoolctl import threadpool_limits
 
@@ -54,16 +56,30 @@ def pairs_between(
                 f"{end - start} eigenvalues lie between {low:g} and {high:g}, at most a quarter of {pencil.size} are found"
             )
         values, vectors = _solved(pencil, bottom, start, end, tolerance, seed)
-        chosen = (values >= low) & (values <= high)
-        return _proved(pencil, vectors[:, chosen], (bottom, top), tolerance)
+        if (counted := int(((values > bottom) & (values < top)).sum())) != end - start:
+            raise EigensolverError(
+                f"{counted} pairs were found between {bottom:g} and {top:g}, the inertia says {end - start}: "
+                "repair slivers, or take other bounds"
+            )
+        # an eigenvalue is known to its residual alone: one that meets a bound is inside
+        below, above = (tolerance * max(abs(bound), _spacing(pencil)) for bound in (low, high))
+        chosen = (values >= low - below) & (values <= high + above)
+        met = int((chosen & ((np.abs(values - low) <= below) | (np.abs(values - high) <= above))).sum())
+        found = _proved(pencil, vectors[:, chosen], (bottom, top), tolerance)
+        notes = (f"{met} eigenvalues meet a bound to {tolerance:g} of it and are taken as inside.",) if met else ()
+        return replace(found, notes=(*found.notes, *notes))
+
+
+def _spacing(pencil: ShiftedPencil) -> float:
+    """The mean distance of eigenvalues, by Weyl's law."""
+    return 4.0 * np.pi / float(pencil.mass.sum())
 
 
 def _outside(pencil: ShiftedPencil, bound: float, side: float) -> tuple[float, int]:
     """Return a shift at the bound or beyond it on one side, and how many eigenvalues lie below it."""
-    spacing = 4.0 * np.pi / float(pencil.mass.sum())
     if side < 0 and bound <= 0:
         return -np.inf, 0
-    shift = pencil.factor(bound + side * CLEARANCE * max(abs(bound), spacing))[0]
+    shift = pencil.factor(bound + side * CLEARANCE * max(abs(bound), _spacing(pencil)))[0]
     return shift, pencil.counts[shift]
 
 

@@ -8,7 +8,6 @@ from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.automatic import automatic_smoothing
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import mask_notes
 
 
 def automatically_denoised(
@@ -46,7 +45,7 @@ def automatically_denoised(
         "relative_gap": found.largest_gap,
         "converged": found.converged,
     }
-    notes = mask_notes(owner, part)
+    notes = part.notes
     if found.at_the_end:
         notes += (
             "The parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: choose "

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.tasks.soundness import sound_part
+from surfexp.tasks.soundness import sound_part, usable_vertices
 
-# further from the median than this many times the distance of nine in ten values; white noise reaches 4, heavy tails 100
-USUAL, ABSURD = 0.9, 1e4
-# what programs write where nothing was measured; -1 and 0 are not among them, since they are values too
-NO_DATA = np.array([-9999.0, -99999.0, -32768.0, 1e20, np.finfo(np.float32).max, -np.finfo(np.float32).max])
 SurfaceLike = Any
 MapLike = str | ArrayLike
 
@@ -96,57 +94,34 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
     return array.copy() if array is given else array
 
 
-def plausible(values: Floats, what: str = "map") -> Floats:
-    """Return the values of a map, if none is a code for "nothing measured" among measured ones.
-
-    Parameters
-    ----------
-    values : (p,) or (p, c) float64
-        Inside the mask.
-
-    Raises
-    ------
-    ValueError
-        If some lie further from the median than any measurement does; it says how many, names one, and what to write there.
-    """
-    for channel in values.reshape(len(values), -1).T:
-        away = np.abs(channel - np.median(channel))
-        usual = float(np.quantile(away, USUAL))
-        absurd = away > ABSURD * usual if usual > 0 else np.zeros(len(away), dtype=bool)
-        codes = np.isin(channel, NO_DATA) & (away > usual)
-        if (found := np.flatnonzero(absurd | codes)).size:
-            raise ValueError(
-                f"{what} has {len(found)} of {len(channel)} values like {channel[found[0]]:g}, its median is "
-                f"{np.median(channel):g}: no measurement lies so far away; write NaN where nothing was measured"
-            )
-    return values
-
-
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
+
+    Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken.
 
     Raises
     ------
     ValueError
         If a map is unknown somewhere inside the mask.
     """
-    finite = finite_mask(maps, len(surface.mesh.vertices))
+    count = len(surface.mesh.vertices)
+    finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
     mask = surface.mask if surface.mask is not None else finite
-    part = surface_part(surface.mesh, mask)
+    part = surface_part(surface.mesh, usable if mask is None else usable & mask)
     if surface.mask is not None and finite is not None:
         unknown = int((~finite[part.vertices]).sum())
         if unknown:
             raise ValueError(
                 f"map is NaN at {unknown} of the {len(part.vertices)} vertices inside the mask: narrow the mask"
             )
-    return part
+    return replace(part, notes=(*_taken(surface, part, finite, usable), *part.notes))
 
 
-def mask_notes(surface: Surface, part: SurfacePart) -> tuple[str, ...]:
-    """Say which part was taken where nobody asked for one, and what the mask cut off."""
-    if part.is_whole:
-        return ()
-    if surface.mask is not None:
-        return part.notes
-    taken = f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
-    return (taken, *part.notes)
+def _taken(
+    surface: Surface, part: SurfacePart, finite: NDArray[np.bool_] | None, usable: NDArray[np.bool_]
+) -> Iterator[str]:
+    """Say which part is taken where nobody asked for one."""
+    if lost := int((~usable).sum()):
+        yield f"{lost} of {part.whole_count} vertices belong to no face or have no finite position: they are outside."
+    if surface.mask is None and finite is not None:
+        yield f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."

@@ -19,7 +19,7 @@ from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 
 NEIGHBOURS = 1000
 # narrow enough for maps that change within ten vertices; see docs/null_models.md
@@ -116,7 +116,7 @@ def null_maps(
     if method not in makers:
         raise ValueError(f"method is {method!r}, choose {' or '.join(makers)}")
     made, certificate = makers[method](owner, part, inside, count, modes, seed)
-    return NullMaps(part.extend(made), method, certificate, mask_notes(owner, part))
+    return NullMaps(part.extend(made), method, certificate, part.notes)
 
 
 def _by_modes(

@@ -18,7 +18,7 @@ from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import zero_modes
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.tasks.soundness import usable_vertices
 
 
@@ -69,7 +69,7 @@ def reeb_graph(
     count = whole_number(count, "count", 1)
     chosen = choose_levels(part.mesh, inside, count, levels)
     skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
-    return replace(skeleton, notes=mask_notes(owner, part) + skeleton.notes)
+    return replace(skeleton, notes=part.notes + skeleton.notes)
 
 
 def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from weakref import WeakSet
 
 import numpy as np
@@ -21,7 +20,7 @@ _SOUND: WeakSet[Surface] = WeakSet()
 def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surface:
     """Return a surface whose part inside the mask every method can work with.
 
-    Vertices that no face names, and those without a finite position, are outside: results are NaN there, and the numbering stays.
+    Vertices that no face names, and those without a finite position, do not matter: `inputs.part_for` leaves them outside.
 
     Parameters
     ----------
@@ -39,26 +38,18 @@ def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surf
     if surface in _SOUND:
         return surface
     mesh = surface.mesh
-    used, known = _used(mesh), np.isfinite(mesh.vertices).all(axis=1)
-    inside = used & known if surface.mask is None else used & known & surface.mask
+    usable = usable_vertices(mesh)
+    inside = usable if surface.mask is None else usable & surface.mask
     if inside.all() or not inside.any():
         require_valid(mesh, name, repair=repair)
     else:
         require_valid(surface_part(mesh, inside).mesh, name, repair=repair)
-        lost = [(~known, "vertices have no finite position"), (~used, "vertices belong to no face")]
-        notes = [f"{where.sum()} of {len(used)} {what}: they are outside." for where, what in lost if where.any()]
-        if notes:
-            surface = replace(surface, mask=inside, notes=(*surface.notes, *notes))
     _SOUND.add(surface)
     return surface
 
 
 def usable_vertices(mesh: TriangleMesh) -> NDArray[np.bool_]:
     """Return which vertices belong to a face and have a finite position."""
-    return _used(mesh) & np.isfinite(mesh.vertices).all(axis=1)
-
-
-def _used(mesh: TriangleMesh) -> NDArray[np.bool_]:
     used = np.zeros(len(mesh.vertices), dtype=bool)
     used[mesh.faces] = True
-    return used
+    return used & np.isfinite(mesh.vertices).all(axis=1)

@@ -18,7 +18,7 @@ from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.slicing import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 
 def eigenpairs(
@@ -76,7 +76,7 @@ def eigenpairs(
         cut, fem(part.mesh), count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
     )
     vectors = system.vectors if part.is_whole else part.extend(system.vectors)
-    return replace(system, vectors=vectors, notes=mask_notes(owner, part) + system.notes)
+    return replace(system, vectors=vectors, notes=part.notes + system.notes)
 
 
 def eigsh(

@@ -13,7 +13,7 @@ from surfexp.spectrum.eigensystem import EigenSystem, clusters
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_range import pairs_between
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, mask_notes, part_for
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 
 class Spectrum:
@@ -91,11 +91,13 @@ class Spectrum:
                 tolerance=self.tolerance,
             )
             self._found = replace(system, vectors=self.part.extend(system.vectors))
-            self._found = replace(self._found, notes=mask_notes(self.surface, self.part) + system.notes)
+            self._found = replace(self._found, notes=self.part.notes + system.notes)
         return _first(self._found, count)
 
     def between(self, low: float, high: float) -> EigenSystem:
         """Return every pair with low <= lambda <= high, proved complete by the inertia just outside of both bounds.
+
+        An eigenvalue that meets a bound to its residual is inside, and a note says so.
 
         Parameters
         ----------
@@ -113,7 +115,7 @@ class Spectrum:
         """
         system = pairs_between(self._pencil, low, high, self.tolerance)
         vectors = self.part.extend(self._elements.extend(system.vectors))
-        notes = mask_notes(self.surface, self.part)
+        notes = self.part.notes + system.notes
         return replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
 
     def count_below(self, value: float) -> int:

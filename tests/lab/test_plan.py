@@ -185,7 +185,7 @@ def test_variants_and_grids_are_a_union_of_products_and_the_command_line_wins() 
     assert all(leaf["surface"] == {"name": "file"} for leaf in expand(configuration, {"surface": {"name": "file"}}))
     both = {"surface.size": 7.0, "surface": {"name": "toy_triangle", "size": 1.0}}  # the option first, then the plugin
     assert all(leaf["surface"]["size"] == 7.0 for leaf in expand(configuration, both))
-    with pytest.raises(UserError, match="option of surface 'szie'; did you mean 'size'"):
+    with pytest.raises(UserError, match="option of surface/toy_triangle 'szie'; did you mean 'size'"):
         expand(configuration, {"surface.szie": 1.0})
 
 

@@ -40,6 +40,17 @@ def test_bounds_on_an_eigenvalue_of_high_multiplicity_take_all_of_it() -> None:
     assert found.values == pytest.approx(values[4:25], rel=1e-8)
 
 
+@pytest.mark.parametrize(("first", "last"), [(0, 0), (0, 3), (1, 3), (4, 8), (9, 15), (0, 8)])
+def test_a_bound_that_is_an_eigenvalue_takes_all_that_equal_it(first: int, last: int) -> None:
+    sphere = sx.shape("icosphere", levels=4)
+    values = sx.eigenpairs(sphere, 30).values
+    low, high = (0.0 if first == 0 else values[first]), values[last] if last else 1e-9
+    found = sx.Spectrum(sphere).between(low, high)
+    tied = (values >= low - 1e-8 * max(low, 1.0)) & (values <= high + 1e-8 * max(high, 1.0))
+    assert found.complete and found.values == pytest.approx(values[tied], rel=1e-8, abs=1e-8)
+    assert any("meet a bound" in note for note in found.notes)
+
+
 def test_fewer_pairs_than_before_cost_nothing_and_are_the_lowest() -> None:
     spectrum = sx.Spectrum(BODY)
     many = spectrum.first(40)

@@ -10,30 +10,31 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from hydra.core.config_search_path import ConfigSearchPath
+from hydra.core.config_search_path import ConfigSearchPath, SearchPathQuery
 from hydra.core.config_store import ConfigStore
-from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import Override
 from hydra.core.utils import JobReturn, JobStatus
 from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
 
 from surfexp.lab.composition.hydra_guard import refuse_code
+from surfexp.lab.composition.overrides import SETTABLE, Request, parsed, request_of
+from surfexp.lab.composition.overrides import without as without_removed
+from surfexp.lab.composition.shown import shown
 from surfexp.lab.digests import file_digest
 from surfexp.lab.errors import UserError
-from surfexp.lab.experiment.configuration import Settings, expand
-from surfexp.lab.experiment.own_data import collection, with_collections, without_foreign_words
+from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.experiment.hydra_flags import ANSWERED_BY_HYDRA, Words, parted
+from surfexp.lab.experiment.own_data import with_collections, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.remembered_plans import place, remembered
 from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry import registry
 from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.store.kinds import KINDS
-
-SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
 
 
 class PlanLauncher(Launcher):
@@ -50,9 +51,9 @@ class PlanLauncher(Launcher):
         file_digest.cache_clear()  # a file may have been replaced since the last batch
         jobs = []
         for overrides in job_overrides:
-            stages, collections, rest = split_overrides(overrides, self.loader.repository)
-            composed = _plain(self.loader.load_sweep_config(self.config, rest))
-            jobs.append(_leaves(composed, overrides, stages, collections))
+            request = request_of(overrides, self.loader.repository)
+            composed = _plain(self.loader.load_sweep_config(self.config, request.rest))
+            jobs.append(_leaves(composed, overrides, request))
         plan = make_plan(leaf for leaves in jobs for leaf in leaves)
         type(self).action(plan)
         values = [_objective(make_plan(leaves)) if plan.settings.objective else None for leaves in jobs]
@@ -63,7 +64,9 @@ class PlanLauncher(Launcher):
 
 
 class ConfigurationFolders(SearchPathPlugin):
-    """Adds `conf/` of the working folder and of installed plugin packages to Hydra's search path."""
+    """Adds `conf/` of the working folder, of plugin packages and of `--config-dir` to Hydra's search path."""
+
+    given: Path | None = None
 
     def manipulate_search_path(self, search_path: ConfigSearchPath) -> None:
         """See Hydra."""
@@ -71,6 +74,9 @@ class ConfigurationFolders(SearchPathPlugin):
             search_path.append("working folder", f"file://{Path('conf').resolve()}")
         for point in entry_points(group="surfexp.plugins"):
             search_path.append(point.name, f"pkg://{point.module.split('.')[0]}.conf")
+        known = {element.provider for element in search_path.get_path()}
+        if self.given is not None and "command-line" not in known:  # where Hydra has not done so itself
+            search_path.prepend("command-line", f"file://{self.given.resolve()}", SearchPathQuery(provider="schema"))
 
 
 def prepare_hydra() -> None:
@@ -89,50 +95,111 @@ def prepare_hydra() -> None:
 
 
 def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
-    """Compose what the command line says and act on its plan; a sweep is Hydra's, in one batch or several."""
+    """Compose what the command line says and act on its plan, or show what a flag of Hydra asks for.
+
+    A sweep is Hydra's, in one batch or several. What a request says of stages is taken out of it before Hydra composes,
+    since it wins over variants and grids.
+    """
+    words = parted(arguments)
     prepare_hydra()
-    ours = re.compile(rf"({'|'.join(KINDS)}|resources)\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
-    # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
-    arguments = [re.sub(r"^axes=", "axes._=", text) for text in arguments]
-    arguments = [f"++{text}" if ours.match(text) else text for text in arguments]  # their names are checked later
-    known = str(OmegaConf.load(package_folder("surfexp.conf") / "config.yaml").defaults)
-    new = {kind for kind in KINDS if f"'{kind}':" not in known}  # of these Hydra asks for a +
-    arguments = [f"+{text}" if text.partition("=")[0] in new else text for text in arguments]
-    if (plan := _plan_without_sweep(arguments)) is not None:
+    ConfigurationFolders.given = words.config_dir
+    parsed(words.overrides)  # what cannot be read is told as it was typed
+    overrides = _as_hydra_wants(words.overrides)
+    if "--cfg" in words.flags:
+        print(_configuration(overrides, words), end="")
+        return
+    if (plan := _plan_without_sweep(overrides, words)) is not None:
         action(plan)
         return
     import hydra
 
     PlanLauncher.action = staticmethod(action)
     os.environ["HYDRA_FULL_ERROR"] = "1"
-    asks = {"--hydra-help", "--info", "-i", "--cfg", "-c"} & set(arguments)
-    sys.argv = ["surfexp run", *([] if asks else ["--multirun"]), *arguments]
-    folder = str(package_folder("surfexp.conf"))
-    hydra.main(version_base="1.3", config_path=folder, config_name="config")(lambda configuration: None)()
+    own_mode = {"--run", "--multirun", *ANSWERED_BY_HYDRA} & words.flags.keys()
+    sys.argv = ["surfexp run", *([] if own_mode else ["--multirun"]), *words.typed, *overrides]
+
+    def job(configuration: DictConfig) -> float | None:
+        """Plan and do one job of a launcher that takes each by itself."""
+        from hydra.core.hydra_config import HydraConfig
+
+        overrides = [str(text) for text in HydraConfig.get().overrides.task]
+        composed, request = _composed(overrides, words)
+        plan = make_plan(_leaves(_plain(composed), overrides, request))
+        action(plan)
+        return _objective(plan) if plan.settings.objective else None
+
+    try:
+        hydra.main(version_base="1.3", config_path=_folder(words), config_name="config")(job)()
+    except SystemExit as ended:  # after --hydra-help and --version
+        if ended.code:
+            raise
 
 
-def _plan_without_sweep(overrides: list[str]) -> Plan | None:
-    """The plan of one job, composed once; None where Hydra is asked for more than that: a sweep, a sweeper, help.
+def _as_hydra_wants(overrides: Sequence[str]) -> list[str]:
+    """Add the + that Hydra asks for where an experiment sets what the first composition does not have."""
+    ours = re.compile(rf"({'|'.join(KINDS)}|resources)\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
+    # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
+    words = [re.sub(r"^axes=", "axes._=", text) for text in overrides]
+    words = [f"++{text}" if ours.match(text) else text for text in words]  # their names are checked later
+    known = str(OmegaConf.load(package_folder("surfexp.conf") / "config.yaml").defaults)
+    new = {kind for kind in KINDS if f"'{kind}':" not in known}
+    return [f"+{text}" if text.partition("=")[0] in new else text for text in words]
 
-    What files say of Hydra itself is checked in any case, before Hydra acts on it.
-    """
-    from hydra import compose, initialize_config_dir
+
+def _folder(words: Words) -> str:
+    given = words.flags.get("--config-path")
+    return str(Path(given).resolve() if given else package_folder("surfexp.conf"))
+
+
+def _composed(overrides: Sequence[str], words: Words) -> tuple[DictConfig, Request]:
+    """What Hydra, which is initialised, composes of one job, with its own section, and what is left for the planner."""
+    from hydra import compose
     from hydra.core.global_hydra import GlobalHydra
 
-    words = [text for text in overrides if not text.startswith("-")]
-    parsed = OverridesParser.create().parse_overrides(words)
-    beyond = [item.is_sweep_override() or item.key_or_group.startswith("hydra") for item in parsed]
-    single = [text for text, more in zip(words, beyond, strict=True) if not more]
-    with initialize_config_dir(str(package_folder("surfexp.conf")), version_base="1.3"):
-        loader: Any = GlobalHydra.instance().config_loader()
-        stages, collections, rest = split_overrides(single, loader.repository)
-        composed = compose("config", overrides=rest, return_hydra_config=True)
+    loader: Any = GlobalHydra.instance().config_loader()
+    request = request_of(overrides, loader.repository)
+    name = words.flags.get("--config-name", "config")
+    return compose(name, overrides=request.rest, return_hydra_config=True), request
+
+
+def _checked(overrides: Sequence[str], words: Words) -> tuple[DictConfig, Request]:
+    """Compose one job without what the command line says of Hydra itself: what files say of it is refused where it is code."""
+    composed, request = _composed(overrides, words)
     of_hydra: Any = OmegaConf.to_container(composed.hydra, resolve=False)
     refuse_code(of_hydra)
-    sweeper = composed.hydra.sweeper
-    if len(single) < len(overrides) or sweeper.get("params") or not sweeper._target_.endswith(".BasicSweeper"):
+    return composed, request
+
+
+def _plan_without_sweep(overrides: Sequence[str], words: Words) -> Plan | None:
+    """The plan of one job, composed once; None where Hydra is asked for more than that: a sweep, a sweeper, a launcher."""
+    from hydra import initialize_config_dir
+
+    beyond = [item.is_sweep_override() or _of_hydra(item) for item in parsed(overrides)]
+    single = [text for text, more in zip(overrides, beyond, strict=True) if not more]
+    with initialize_config_dir(_folder(words), version_base="1.3"):
+        composed, request = _checked(single, words)
+    sweeper, launcher = composed.hydra.sweeper, str(composed.hydra.launcher._target_)
+    usual = sweeper._target_.endswith(".BasicSweeper") and launcher.endswith(f".{PlanLauncher.__name__}")
+    if any(beyond) or words.flags.keys() & {"--run", *ANSWERED_BY_HYDRA} or sweeper.get("params") or not usual:
         return None
-    return make_plan(_leaves(_plain(composed), overrides, stages, collections))
+    return make_plan(_leaves(_plain(composed), overrides, request))
+
+
+def _configuration(overrides: Sequence[str], words: Words) -> str:
+    """What `--cfg` asks for."""
+    from hydra import initialize_config_dir
+
+    read = list(zip(overrides, parsed(overrides), strict=True))
+    if sweeping := [text.lstrip("+") for text, item in read if item.is_sweep_override()]:
+        raise UserError(f"{sweeping[0]}: --cfg shows one job; give one value")
+    with initialize_config_dir(_folder(words), version_base="1.3"):
+        _checked([text for text, item in read if not _of_hydra(item)], words)
+        composed, request = _composed(overrides, words)
+    return shown(composed, request, words.flags)
+
+
+def _of_hydra(override: Override) -> bool:
+    return override.key_or_group.replace("/", ".").partition(".")[0] == "hydra"
 
 
 def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
@@ -140,46 +207,17 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
     arguments = [f"{key}={value}" for key, value in config.items()]
     if (plan := remembered(place(arguments))) is None:
         prepare_hydra()
-        plan = _plan_without_sweep(arguments)
+        plan = _plan_without_sweep(arguments, parted(()))
     if plan is None:
         raise UserError("Snakemake runs one configuration; a sweep is run by surfexp run")
     return plan.write(Path(plan.settings.results).resolve()), plan
 
 
-def _leaves(
-    composed: dict[str, Any], overrides: Sequence[str], stages: Mapping[str, Any], collections: Mapping[str, Any]
-) -> list[dict[str, Any]]:
-    composed = written_out(composed, stages)
-    composed["axes"] = with_collections(composed.get("axes") or {}, collections)
-    return expand(without_foreign_words(composed, overrides), stages)
-
-
-def split_overrides(
-    overrides: Sequence[str], repository: Any
-) -> tuple[dict[str, Any], dict[str, dict[str, Any]], list[str]]:
-    """Part what the command line says of stages, which wins over variants and grids, from the rest, which Hydra composes.
-
-    Returns the stage overrides in order, a plugin or preset as its configuration under the kind, an option as its value
-    under the dotted name; the collections of `axes=NAME` under "" and of `axes.AXIS=NAME` under AXIS; and the other
-    overrides as they are.
-    """
-    stages: dict[str, Any] = {}
-    collections: dict[str, dict[str, Any]] = {}
-    rest = []
-    for text, override in zip(overrides, OverridesParser.create().parse_overrides(list(overrides)), strict=True):
-        key = override.key_or_group
-        if re.fullmatch(r"axes(\.[^.]+)?", key) and isinstance(override.value(), str):
-            collections["" if key == "axes._" else key[5:]] = collection(str(override.value()), repository)
-        elif key.partition(".")[0] not in (*KINDS, *SETTABLE):
-            rest.append(text)
-        elif "." in key or key in SETTABLE:
-            stages[key] = override.value()
-        else:
-            found = repository.load_config(f"{key}/{override.value()}")
-            if found is None:
-                raise registry.unknown_plugin(key, key, str(override.value()))
-            stages[key] = _plain(found.config)
-    return stages, collections, rest
+def _leaves(composed: dict[str, Any], overrides: Sequence[str], request: Request) -> list[dict[str, Any]]:
+    composed = written_out(without_removed(composed, request, dotted=False), request.stages)
+    composed = without_removed(composed, request, dotted=True)
+    composed["axes"] = with_collections(composed.get("axes") or {}, request.collections)
+    return expand(without_foreign_words(composed, overrides), request.stages)
 
 
 def _plain(composed: DictConfig) -> dict[str, Any]:

@@ -124,6 +124,17 @@ def _override(leaves: list[Context], dotted: str, value: Any) -> list[Context]:
     names = [str(stage(leaf[kind]).get("name")) if leaf.get(kind) else None for leaf in leaves]
     options = {name: set(plugin(kind, name).options.model_fields) | {"inputs"} for name in names if name}
     if not any(option.partition(".")[0] in known for known in options.values()):
-        raise unknown(f"option of {kind}", option, set().union(*options.values()) - {"inputs"})
+        raise _no_such_option(kind, option, options)
     applies = [name is not None and option.partition(".")[0] in options[name] for name in names]
     return [assign(leaf, dotted, value) if here else leaf for leaf, here in zip(leaves, applies, strict=True)]
+
+
+def _no_such_option(kind: str, option: str, options: Mapping[str, set[str]]) -> UserError:
+    """Say that no chosen plugin of a kind has an option; `options` are those of the chosen ones."""
+    if not options:
+        way_out = f"add {kind}=NAME (surfexp list {kind} names them, surfexp info {kind}/NAME their options)"
+        return UserError(f"{kind}.{option}: the experiment chooses no {kind}; {way_out}")
+    thing = f"{kind}/{next(iter(options))}" if len(options) == 1 else kind
+    if known := set().union(*options.values()) - {"inputs"}:
+        return unknown(f"option of {thing}", option, known)
+    return UserError(f"unknown option of {thing} {option!r}: it has no options")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.lab.errors import unknown
+from surfexp.lab.experiment.hydra_flags import parted
 from surfexp.lab.experiment.lines import with_line
 from surfexp.lab.experiment.yaml_files import read_yaml
 from surfexp.lab.registry.folders import experiments
@@ -55,14 +56,16 @@ def located(message: str, arguments: Sequence[str]) -> str:
         As of `surfexp run`; what one of them says itself is not looked for in a file.
     """
     for file in _files(arguments):
-        own = [text for text in arguments if text.partition("=")[0].lstrip("+") != "experiment"]
+        own = [text for text in parted(arguments).overrides if text.partition("=")[0].lstrip("+") != "experiment"]
         if not own:
             return with_line(message, file)
     return message
 
 
 def _files(arguments: Iterable[str]) -> list[Path]:
-    files = experiments()
+    words = parted(arguments)
+    files = experiments(words.config_dir)
+    arguments = words.overrides
     values = [text.partition("=")[2] for text in arguments if text.partition("=")[0].lstrip("+") == "experiment"]
     names = [name.strip() for value in values for name in value.split(",")]
     return [files[name] for name in names if name in files]

@@ -95,7 +95,7 @@ def written_out(composed: Mapping[str, Any], given: Mapping[str, Any] | None = N
     if found.get("claims"):
         found["claims"] = [claim_written_out(claim, number) for number, claim in enumerate(found["claims"], 1)]
     found = with_sweeps(axes_written_out(found))
-    if "target" not in found and (last := _last_kind(found)):
+    if "target" not in found and (last := _last_kind(found, given or {})):
         found["target"] = last
     return found
 
@@ -134,10 +134,10 @@ def _seeds(repeat: Mapping[str, Any]) -> dict[str, list[int]]:
     return {str(option): list(range(count)) for option, count in repeat.items()}
 
 
-def _last_kind(found: Mapping[str, Any]) -> str:
+def _last_kind(found: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
     """What a chain ends with if nothing says it: the last kind that is named, unless that is the usual one, a solver."""
     partial = [found, *(found.get("variants") or [])]
-    keys = {key.partition(".")[0] for part in partial for key in [*part, *(part.get("grid") or {})]}
+    keys = {key.partition(".")[0] for part in partial for key in [*part, *(part.get("grid") or {})]} | set(asked)
     given = [kind for kind in KINDS if kind in keys and kind != "figure"]
     stated = any("target" in variant for variant in found.get("variants") or [])
     return "" if stated or "solver" in given or not given else given[-1]

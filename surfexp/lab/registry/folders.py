@@ -33,9 +33,9 @@ def plugin_files(working_folder: Path) -> list[Path]:
     return [file for file in files if file.name != "__init__.py"]
 
 
-def experiments() -> dict[str, Path]:
-    """Experiment name to YAML file, of the package, of installed plugin packages and of the working folder."""
+def experiments(config_dir: Path | None = None) -> dict[str, Path]:
+    """Experiment name to YAML file, of the package, of plugin packages, of the working folder and of Hydra's `--config-dir`."""
     names = [f"{name}.conf" for name in installed_packages()]
     others = [package_folder(name) for name in names if importlib.util.find_spec(name)]
-    folders = (package_folder("surfexp.conf"), *others, Path("conf"))
+    folders = (package_folder("surfexp.conf"), *others, Path("conf"), *([config_dir] if config_dir else []))
     return {file.stem: file for folder in folders for file in sorted((folder / "experiment").glob("*.yaml"))}
