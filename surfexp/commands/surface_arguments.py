@@ -97,7 +97,7 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     import numpy as np
 
     from surfexp.io.map_files import holds_names
-    from surfexp.io.reading import WITH_MAPS
+    from surfexp.io.writing import WITH_MAPS
 
     if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
         return {next(iter(maps)): values}
