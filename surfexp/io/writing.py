@@ -16,6 +16,7 @@ from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.stl import write_stl
 from surfexp.io.vtk import write_vtk
 from surfexp.io.vtp import write_vtp
+from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Writer = Callable[[Path, TriangleMesh], None]
@@ -26,10 +27,13 @@ SINGLE_PRECISION = (".gii", ".stl")
 FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness")
 
 
-def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
+def write_mesh(
+    path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None, frame: SpatialFrame | None = None
+) -> None:
     """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
 
-    .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision.
+    .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision. GIFTI and
+    FreeSurfer's files carry their own part of `frame`, the space of the vertices.
 
     Raises
     ------
@@ -44,7 +48,7 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
     suffix = path.suffix.lower()
-    freesurfer = suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
+    freesurfer = format_of(path) == "FreeSurfer"
     if suffix in WITH_MAPS:
         WITH_MAPS[suffix](path, mesh, maps)
     elif not freesurfer and suffix not in WITHOUT_MAPS:
@@ -54,6 +58,19 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
         raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(WITH_MAPS)}")
     elif freesurfer or suffix in SINGLE_PRECISION:
         check_single_precision_points(mesh.vertices, mesh.faces)
-        (write_freesurfer_geometry if freesurfer else WITHOUT_MAPS[suffix])(path, mesh)
+        if freesurfer:
+            write_freesurfer_geometry(path, mesh, frame.volume if frame is not None else None)
+        elif suffix == ".gii":
+            write_gifti(path, mesh, frame=frame)
+        else:
+            WITHOUT_MAPS[suffix](path, mesh)
     else:
         WITHOUT_MAPS[suffix](path, mesh)
+
+
+def format_of(path: Path) -> str:
+    """Return "FreeSurfer", "GIFTI", or the suffix of the format in which a mesh is written."""
+    suffix = path.suffix.lower()
+    if suffix in FREESURFER or (hemisphere_of(path) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS)):
+        return "FreeSurfer"
+    return "GIFTI" if suffix == ".gii" else suffix
