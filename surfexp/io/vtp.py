@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import polygons_between
-from surfexp.io.vtk import scalar_channels
 from surfexp.io.vtk_cells import polygons_of_cells, triangles
 from surfexp.io.vtk_xml import VtkXml
 from surfexp.mesh.triangle_mesh import TriangleMesh
