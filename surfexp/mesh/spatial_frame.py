@@ -51,6 +51,10 @@ class SpatialFrame:
         Parameters
         ----------
         format_name : {"FreeSurfer", "GIFTI"} or another
+
+        Returns
+        -------
+        str
         """
         moved = any(not np.array_equal(t.matrix, np.eye(4)) for t in self.transforms)
         lost = ["FreeSurfer's volume geometry (cras)"] if self.volume and format_name != "FreeSurfer" else []
