@@ -6,8 +6,9 @@ from pathlib import Path
 
 import click
 
-from surfexp.commands.certificate import write_certificate
+from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
+from surfexp.commands.surface_arguments import ready
 
 DEFECTIVE = 2
 EXPERIMENTS = (".yaml", ".yml")
@@ -52,16 +53,16 @@ def repair(file: str, largest_component: bool, target: Path) -> None:
     Maps are taken along where the format of the result holds some.
     """
     from surfexp.io.reading import read_mesh
-    from surfexp.io.writing import WITH_MAPS, write_mesh
+    from surfexp.io.writing import WITH_MAPS, check_mesh_target, write_mesh
     from surfexp.mesh.repair import repair as task
 
+    files = Inputs(file)
+    ready(target, files, check_mesh_target)
     vertices, faces, maps = read_mesh(file)
     mesh, changes, origin = task(vertices, faces, largest_component=largest_component)
     kept = {name: values[origin] for name, values in maps.items()} if target.suffix.lower() in WITH_MAPS else {}
     write_mesh(target, mesh, kept)
     facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
-    proof = write_certificate(
-        target, "repair", {"largest_component": largest_component}, [Path(file)], facts, tuple(changes)
-    )
+    proof = write_certificate(target, "repair", {"largest_component": largest_component}, files, facts, tuple(changes))
     click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
     click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")

@@ -12,6 +12,7 @@ from surfexp.contract.arrays import Integers
 from surfexp.io.cifti import is_cifti, read_cifti_labels
 from surfexp.io.foreign import parsing
 from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels
+from surfexp.io.replacing import replacing
 from surfexp.mesh.label_map import LabelMap
 
 
@@ -41,12 +42,13 @@ def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> No
         given = f"labels go from {labels.min()} to {labels.max()}"
         raise ValueError(f"{given}, the {len(names)} names are of 0..{len(names) - 1}")
     table = LabelMap(labels, dict(enumerate(names)))
-    if path.suffix == ".gii":
-        write_gifti_labels(path, labels, dict(table.names), label_colors(len(names)))
-    elif path.suffix == ".annot":
-        _write_annotation(path, labels, names)
-    else:
+    if path.suffix not in (".gii", ".annot"):
         raise ValueError(f"{path} has an unknown format of labels, choose one of .label.gii, .annot")
+    with replacing(path) as temporary:
+        if path.suffix == ".gii":
+            write_gifti_labels(temporary, labels, dict(table.names), label_colors(len(names)))
+        else:
+            _write_annotation(temporary, labels, names)
 
 
 def read_label_map(path: Path | str, hemisphere: str = "") -> LabelMap:

@@ -15,15 +15,18 @@ from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
-from surfexp.io.map_shapes import check_map_shapes
+from surfexp.io.map_names import check_map_names
+from surfexp.io.map_shapes import check_map_shapes, scalar_channels
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_maps
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.mesh.label_map import LabelMap
 
 TEXT = (".csv", ".txt", ".dat")
 VOLUMES = (".mgh", ".mgz")
+CURVATURES = (".curv", ".sulc", ".thickness", ".area")
 UNNAMED = ("map", "map 1")
 KNOWN = (
     ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or a FreeSurfer curvature file (lh.sulc)"
@@ -185,24 +188,44 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
         If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range.
     """
     path = Path(path)
+    check_map_target(path)
+    check_map_names(maps)
+    lengths = {len(values) for values in maps.values()}
+    if len(lengths) != 1:
+        raise ValueError(f"{path}: maps have {sorted(lengths)} values, one for each vertex of one surface is needed")
     suffix = path.suffix.lower()
-    if suffix == ".npz":
-        arrays: dict[str, Any] = dict(maps)
-        np.savez_compressed(path, **arrays)
-    elif suffix in TEXT:
-        write_table(path, maps)
-    elif is_cifti(path):
-        write_cifti_maps(path, check_single_precision_maps(maps), hemisphere)
-    elif is_gifti(path):
-        write_gifti_maps(path, check_single_precision_maps(maps), hemisphere)
-    elif suffix == ".npy":
-        np.save(path, _single(path, maps))
-    elif suffix in VOLUMES:
-        freesurfer.write_volume_map(path, _single(path, check_single_precision_maps(maps)))
-    elif suffix in (".curv", ".sulc", ".thickness", ".area") or freesurfer.hemisphere_of(path):
-        freesurfer.write_curvature(path, _single(path, check_single_precision_maps(maps)))
-    else:
+    with replacing(path) as temporary:
+        if suffix == ".npz":
+            arrays: dict[str, Any] = dict(maps)
+            np.savez_compressed(temporary, **arrays)
+        elif suffix in TEXT:
+            write_table(temporary, scalar_channels(maps))
+        elif is_cifti(path):
+            write_cifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
+        elif is_gifti(path):
+            write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
+        elif suffix == ".npy":
+            np.save(temporary, _single(path, maps))
+        elif suffix in VOLUMES:
+            freesurfer.write_volume_map(temporary, _single(path, check_single_precision_maps(maps)))
+        else:
+            freesurfer.write_curvature(temporary, _single(path, check_single_precision_maps(maps)))
+
+
+def check_map_target(path: Path | str) -> None:
+    """Refuse a file that no map can be written to: of an unknown format, or in no writable folder.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or is_cifti(path) or is_gifti(path)
+    if not known and not freesurfer.hemisphere_of(path):
         raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
+    check_writable(path)
 
 
 def _single(path: Path, maps: dict[str, Floats]) -> Floats:

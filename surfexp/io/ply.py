@@ -10,8 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.io.map_names import names_without_spaces
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.polygons import triangles_of_strips, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+COLOURS = ("red", "green", "blue")
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
@@ -159,13 +163,32 @@ def _mixed_element(data: bytes, at: int, element: Element, order: str) -> tuple[
 
 
 def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
-    """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name."""
-    maps = {"_".join(name.split()): values for name, values in (scalars or {}).items()}
-    names = ["x", "y", "z", *maps]
+    """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name.
+
+    A map of three whole numbers from 0 to 255 that is called a colour is written as such, as viewers read it.
+    """
+    colours = {name: values for name, values in (scalars or {}).items() if _is_colour(name, values)}
+    if len(colours) > 1:
+        raise ValueError(f"maps {', '.join(colours)} are all colours, a PLY file holds one: leave the others out")
+    channels = scalar_channels({name: values for name, values in (scalars or {}).items() if name not in colours})
+    reserved = ("x", "y", "z", *(COLOURS if colours else ()))
+    properties = [(axis, "double", "<f8", mesh.vertices[:, k]) for k, axis in enumerate("xyz")]
+    names = names_without_spaces(channels, reserved)
+    properties += [(name, "double", "<f8", values) for name, values in zip(names, channels.values(), strict=True)]
+    for values in colours.values():
+        properties += [(name, "uchar", "u1", values[:, k]) for k, name in enumerate(COLOURS)]
     head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
-    head += [f"property double {name}" for name in names]
+    head += [f"property {kind} {name}" for name, kind, _, _ in properties]
     head += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
-    vertices = np.column_stack([mesh.vertices, *maps.values()]).astype("<f8")
+    vertices = np.empty(len(mesh.vertices), dtype=[(name, code) for name, _, code, _ in properties])
+    for name, _, _, values in properties:
+        vertices[name] = values
     faces = np.empty(len(mesh.faces), dtype=[("length", "u1"), ("corners", "<i4", (3,))])
     faces["length"], faces["corners"] = 3, mesh.faces
-    path.write_bytes("\n".join(head).encode("ascii", "replace") + vertices.tobytes() + faces.tobytes())
+    path.write_bytes("\n".join(head).encode("utf-8") + vertices.tobytes() + faces.tobytes())
+
+
+def _is_colour(name: str, values: Floats) -> bool:
+    """Whether a map is a colour: by its name, its three channels, and their range."""
+    named = any(word in name.lower() for word in ("rgb", "color", "colour"))
+    return named and values.ndim == 2 and values.shape[1] == 3 and bool(np.isin(values, np.arange(256)).all())

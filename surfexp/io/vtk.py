@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.io.map_names import names_without_spaces
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.polygons import polygons_between, triangulate
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -28,18 +30,10 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     lines += [f"POLYGONS {m} {4 * m}", *(f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist())]
     if scalars:
         lines.append(f"POINT_DATA {n}")
-    for name, values in scalar_channels(scalars or {}).items():
-        lines += [f"SCALARS {'_'.join(name.split())} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
+    channels = scalar_channels(scalars or {})
+    for name, values in zip(names_without_spaces(channels), channels.values(), strict=True):
+        lines += [f"SCALARS {name} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
     path.write_text("\n".join(lines) + "\n")
-
-
-def scalar_channels(maps: dict[str, Floats]) -> dict[str, Floats]:
-    """Return maps of one number a vertex: the channels of others by name and number."""
-    flat: dict[str, Floats] = {}
-    for name, values in maps.items():
-        columns = {name: values} if values.ndim == 1 else {f"{name} {k}": values[:, k] for k in range(values.shape[1])}
-        flat |= columns
-    return flat
 
 
 class _Words:

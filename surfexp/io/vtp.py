@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.polygons import polygons_between, triangulate
-from surfexp.io.vtk import scalar_channels
 from surfexp.io.vtk_xml import VtkXml
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

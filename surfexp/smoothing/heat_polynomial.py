@@ -43,6 +43,7 @@ def heat_polynomial(
 
     References
     ----------
+    Amos: Computation of modified Bessel functions and their ratios (1974), for the bound of what is left out.
     Huang, Lyu, Qiu, Chung: Fast polynomial approximation of heat kernel convolution on manifolds and its application to
     brain sulcal and gyral graph pattern analysis (2020).
     """
@@ -75,19 +76,13 @@ def largest_eigenvalue_bound(operator: SurfaceOperator) -> float:
     return float(3.0 * np.linalg.eigvalsh(local)[:, -1].max())
 
 
-def _remainder(last: float, order: int, argument: float) -> float:
-    """Bound of the sum of all terms after the last one: their quotients fall, and Amos (1974) bounds the first of them."""
-    quotient = argument / (order + 0.5 + np.hypot(argument, order + 0.5))
-    return float(last * quotient / (1.0 - quotient))
-
-
 def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
     """Coefficients of exp(-half (1 + x)) on [-1, 1], and the sum of the moduli of those left out."""
     degree = 8
     while degree <= LARGEST_DEGREE:
         terms = 2.0 * ive(np.arange(degree + 64), half)
         terms[0] *= 0.5
-        tails = np.cumsum(terms[::-1])[::-1] + _remainder(terms[-1], len(terms) - 1, half)
+        tails = np.cumsum(terms[::-1])[::-1] + terms[-1] * _rest_over_last(half, degree + 63)
         enough = np.flatnonzero(tails[1:] <= tolerance)
         if len(enough) and enough[0] < degree:
             last = int(enough[0])
@@ -97,3 +92,12 @@ def _coefficients(half: float, tolerance: float) -> tuple[Floats, float]:
         f"time times the largest eigenvalue is {2 * half:.3g}: more than {LARGEST_DEGREE:,} terms; take heat_flow, "
         "whose steps are implicit"
     )
+
+
+def _rest_over_last(half: float, last: int) -> float:
+    """Bound of the sum of the coefficients beyond the last one over that one: a geometric series.
+
+    By Amos (1974), I_(k+1)(x) / I_k(x) <= x / (k + 1/2 + sqrt(x^2 + (k + 1/2)^2)), which falls with k.
+    """
+    ratio = half / (last + 0.5 + np.hypot(half, last + 0.5))
+    return float(ratio / (1.0 - ratio))

@@ -17,10 +17,6 @@ from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.soundness import sound_part, usable_vertices
 
-# further from the median than this many times the distance of nine in ten values; white noise reaches 4, heavy tails 100
-USUAL, ABSURD = 0.9, 1e4
-# what programs write where nothing was measured; -1 and 0 are not among them, since they are values too
-NO_DATA = np.array([-9999.0, -99999.0, -32768.0, 1e20, np.finfo(np.float32).max, -np.finfo(np.float32).max])
 SurfaceLike = Any
 MapLike = str | ArrayLike
 
@@ -96,32 +92,6 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
     return array.copy() if array is given else array
-
-
-def plausible(values: Floats, what: str = "map") -> Floats:
-    """Return the values of a map, if none is a code for "nothing measured" among measured ones.
-
-    Parameters
-    ----------
-    values : (p,) or (p, c) float64
-        Inside the mask.
-
-    Raises
-    ------
-    ValueError
-        If some lie further from the median than any measurement does; it says how many, names one, and what to write there.
-    """
-    for channel in values.reshape(len(values), -1).T:
-        away = np.abs(channel - np.median(channel))
-        usual = float(np.quantile(away, USUAL))
-        absurd = away > ABSURD * usual if usual > 0 else np.zeros(len(away), dtype=bool)
-        codes = np.isin(channel, NO_DATA) & (away > usual)
-        if (found := np.flatnonzero(absurd | codes)).size:
-            raise ValueError(
-                f"{what} has {len(found)} of {len(channel)} values like {channel[found[0]]:g}, its median is "
-                f"{np.median(channel):g}: no measurement lies so far away; write NaN where nothing was measured"
-            )
-    return values
 
 
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:

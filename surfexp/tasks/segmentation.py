@@ -15,10 +15,12 @@ from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for, plausible
+from surfexp.smoothing.absurd_values import refuse_absurd_values
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.own_unit import OwnUnit, own_unit
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
 
@@ -38,8 +40,10 @@ class Segmentation(Summarized):
     c1, c2 : float
         The means of the brighter and of the darker region in the energy that is bounded, c1 > c2.
     energy : float
-        Length of the boundary plus the integral of mu r over the brighter region, r the difference of the squared
-        distances to the two means: 0 for a region that is empty, below it where two regions are better than one.
+        Sum over the faces of area times |gradient| of the piecewise linear field that is 1 in the brighter region and 0 in
+        the darker one, plus the sum of mass times mu r over the brighter region, r the difference of the squared distances
+        to the two means: 0 for a region that is empty, below it where two regions are better than one. The first sum is
+        the length of the line through the midpoints of the edges that the boundary cuts, not `perimeter`.
     lower_bound : float
         No two regions have less energy for these means.
     gap : float
@@ -51,7 +55,7 @@ class Segmentation(Summarized):
     converged : bool
         Whether the relaxed problem reached its tolerance and the means came to rest.
     perimeter : float
-        Length of the boundary, in the unit of the surface.
+        Length of the level line of the field at which the regions meet, in the unit of the surface.
     notes : tuple of str
     """
 
@@ -134,21 +138,26 @@ def segment(
     True
     """
     smoothness = real_number(smoothness, "smoothness", above=0.0)
-    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+    tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
     given = () if values is None else (as_map(owner, values),)
     part = part_for(owner, *given)
     said: tuple[str, ...] = ()
     if given:
-        inside = plausible(np.asarray(part.restrict(given[0]), dtype=np.float64))
+        inside = np.asarray(part.restrict(given[0]), dtype=np.float64)
+        refuse_absurd_values(inside, part.vertices)
     else:
         inside, said = _clipped_curvature(owner, part)
 
     def solve(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None = None) -> Solution:
         return primal_dual(fidelity, operator, start, tolerance=tolerance, progress=progress)
 
-    solution = ConvexChanVese(smoothness=smoothness).run(Image(inside, "map"), fem(part.mesh), solve)
-    return _labelled(solution, part, (*part.notes, *said))
+    if np.ptp(inside) == 0:
+        raise ValueError(f"map is constant at {inside.flat[0]:g}, two regions need two values")
+    own = own_unit(inside)
+    image = Image(own.normalised(inside), "map")
+    solution = ConvexChanVese(smoothness=smoothness).run(image, fem(part.mesh), solve)
+    return _labelled(solution, part, own, (*part.notes, *said))
 
 
 def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:
@@ -159,7 +168,7 @@ def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tup
     return np.clip(curvature, -bound, bound), (note,)
 
 
-def _labelled(solution: Solution, part: SurfacePart, notes: tuple[str, ...]) -> Segmentation:
+def _labelled(solution: Solution, part: SurfacePart, own: OwnUnit, notes: tuple[str, ...]) -> Segmentation:
     """The regions of a solution on a part, put back on the whole."""
     assert solution.segmentation is not None and solution.lower_bound is not None  # noqa: S101, narrows a type
     assert solution.relative_gap is not None  # noqa: S101, narrows a type
@@ -168,8 +177,8 @@ def _labelled(solution: Solution, part: SurfacePart, notes: tuple[str, ...]) -> 
     found = solution.metrics
     return Segmentation(
         labels,
-        c1=found["c1"],
-        c2=found["c2"],
+        c1=float(own.restored(np.array(found["c1"]))),
+        c2=float(own.restored(np.array(found["c2"]))),
         energy=found["labelling_energy"],
         lower_bound=solution.lower_bound,
         gap=solution.relative_gap,

@@ -13,6 +13,8 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.solution import Solution
 
+ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class Iterate:
@@ -49,10 +51,30 @@ def certify(fidelity: Fidelity, operator: SurfaceOperator, values: Floats, load:
     """Return the certificate of `values` by the dual field whose load is given."""
     energy = total_variation(operator, values) + fidelity.value(values)
     lower_bound = fidelity.dual_value(load)
-    gap = energy - lower_bound
-    mu = fidelity.strong_convexity
-    error_bound = float(np.sqrt(2.0 * max(gap, 0.0) / mu)) if mu > 0 else None
-    return Certificate(energy, lower_bound, gap / fidelity.gap_scale(energy, lower_bound), error_bound)
+    scale = fidelity.gap_scale(energy, lower_bound)
+    return certificate_of(energy, lower_bound, scale, fidelity.strong_convexity)
+
+
+def certificate_of(energy: float, lower_bound: float, scale: float, strong_convexity: float) -> Certificate:
+    """Return the certificate of an energy and a bound, without the bound where it cannot be one.
+
+    A bound above the energy by more than 1e-9 of the scale, or a number that is none, proves nothing: the relative gap is
+    then infinite. Below that the bound exceeds the energy by rounding, and the gap counts as 0.
+
+    Parameters
+    ----------
+    energy, lower_bound : float
+    scale : float
+        What the gap is divided by.
+    strong_convexity : float
+        Of the energy in the mass norm; 0 gives no bound of the error.
+    """
+    relative_gap = (energy - lower_bound) / scale
+    if not relative_gap >= -ROUNDING:
+        return Certificate(energy, -float(np.inf), float(np.inf), None)
+    gap = max(energy - lower_bound, 0.0)
+    error_bound = float(np.sqrt(2.0 * gap / strong_convexity)) if strong_convexity > 0 else None
+    return Certificate(energy, lower_bound, max(float(relative_gap), 0.0), error_bound)
 
 
 def run_to_gap(
@@ -120,7 +142,7 @@ def with_certificate(solution: Solution, certificate: Certificate) -> Solution:
     bounded = bool(np.isfinite(certificate.lower_bound))
     metrics = {"energy": certificate.energy, "iterations": float(solution.iterations)}
     if bounded:
-        gap = certificate.energy - certificate.lower_bound
+        gap = max(certificate.energy - certificate.lower_bound, 0.0)
         metrics |= {"lower_bound": certificate.lower_bound, "gap": gap, "relative_gap": certificate.relative_gap}
     if bounded and certificate.error_bound is not None:
         metrics["error_bound"] = certificate.error_bound

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import wraps
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -11,7 +13,10 @@ from surfexp.contract.arrays import Floats
 from surfexp.variational.duality_gap import with_certificate
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
+from surfexp.variational.own_unit import WITH_UNIT, normalised_fidelity, own_unit, restored_solution
 from surfexp.variational.solution import Solution
+
+Solver = TypeVar("Solver", bound=Callable[..., "GeneralisedSolution"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,3 +88,17 @@ def run_to_gap(
     )
     slopes = iterate.unknowns[problem.operator.vertex_count :].reshape(-1, 2).copy()
     return GeneralisedSolution(with_certificate(solution, certificate), slopes)
+
+
+def generalised_in_own_unit(solver: Solver) -> Solver:
+    """Let a solver work on the normalised map; a step or a penalty given in the unit of the map leaves it as it is."""
+
+    @wraps(solver)
+    def solve(problem: GeneralisedVariation, **options: Any) -> GeneralisedSolution:
+        if any(options.get(name) is not None for name in WITH_UNIT):
+            return solver(problem, **options)
+        own = own_unit(problem.fidelity.target)
+        found = solver(problem.with_fidelity(normalised_fidelity(problem.fidelity, own)), **options)
+        return GeneralisedSolution(restored_solution(found.solution, own), own.unit * found.slopes)
+
+    return cast(Solver, solve)

@@ -11,7 +11,7 @@ from scipy.sparse import csr_array
 from surfexp.contract.arrays import Floats
 from surfexp.operators.crouzeix_raviart import TangentFields
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.duality_gap import Certificate
+from surfexp.variational.duality_gap import Certificate, certificate_of
 from surfexp.variational.generalised_forms import GeneralisedForms
 from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive
 
@@ -116,9 +116,7 @@ class GeneralisedVariation:
         energy, longest = self.energy(unknowns), max(part.max() for part in lengths(dual))
         feasible = self.assembled.imbalance(dual) <= BALANCE and longest <= 1.0 + BALANCE
         lower_bound = self.fidelity.dual_value(self.values(self.adjoint @ dual)) if feasible else -float(np.inf)
-        gap = energy - lower_bound
-        error_bound = float(np.sqrt(2.0 * max(gap, 0.0) / self.fidelity.strong_convexity))
-        return Certificate(energy, lower_bound, gap / max(energy, self._least_scale), error_bound)
+        return certificate_of(energy, lower_bound, max(energy, self._least_scale), self.fidelity.strong_convexity)
 
     @cached_property
     def _least_scale(self) -> float:

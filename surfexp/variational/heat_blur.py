@@ -93,8 +93,10 @@ class HeatBlur:
         return 1e-4
 
     def gap_scale(self, energy: float, lower_bound: float) -> float:
-        """The energy, not less than 1e-12 of that of the zero field."""
-        floor = 0.5e-12 * self.mu * float(self.operator.mass @ self.image**2)
+        """The energy, not less than 1e-12 of that of the constant with the mean of the image."""
+        mass = self.operator.mass
+        mean = float(mass @ self.image / mass.sum())
+        floor = 0.5e-12 * self.mu * float(mass @ (self.image - mean) ** 2)
         return max(energy, floor, float(np.finfo(float).tiny))
 
     @cached_property

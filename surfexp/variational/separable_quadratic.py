@@ -103,13 +103,20 @@ class SeparableQuadratic:
     def gap_scale(self, energy: float, lower_bound: float) -> float:
         """The spread from `trivial_energy` to the lower bound, not less than 1e-4 int |r|; without it the energy.
 
-        The energy counts as not less than 1e-12 of that of the zero field.
+        The energy counts as not less than 1e-12 of that of the best constant, so that no offset of the image enters.
         """
         if self.trivial_energy is not None:
             floor = LEAST_SPREAD * float(self._mass @ np.abs(self._data[2]))
             return max(self.trivial_energy - lower_bound, floor, float(np.finfo(float).tiny))
-        floor = 1e-12 * _value(self._mass, *self._data, np.zeros(self.target.size))
-        return float(max(energy, floor, np.finfo(float).tiny))
+        return float(max(energy, 1e-12 * self._energy_of_constant, np.finfo(float).tiny))
+
+    @cached_property
+    def _energy_of_constant(self) -> float:
+        """H of the constant with the mean of the target by weight and mass, each channel its own."""
+        shares = self.weight * self.mass.reshape(-1, *[1] * (len(self.shape) - 1))
+        total = np.maximum(shares.sum(axis=0), np.finfo(float).tiny)
+        means = self.target[0] + (shares * (self.target - self.target[0])).sum(axis=0) / total
+        return float(_value(self._mass, *self._data, _flat(np.broadcast_to(means, self.shape))))
 
     def channel(self, index: int) -> SeparableQuadratic:
         """Return the fidelity of one channel of several."""

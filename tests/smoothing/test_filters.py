@@ -11,9 +11,10 @@ from scipy.linalg import eigh, expm
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.torus import torus
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
-from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
+from surfexp.smoothing.heat_polynomial import _coefficients, heat_polynomial, largest_eigenvalue_bound
 from surfexp.smoothing.neighbour_mean import neighbour_mean
 from surfexp.variational.surface_flows import heat_flow
 
@@ -32,6 +33,24 @@ def test_the_polynomial_is_the_exponential_within_its_bound(name: str, time: flo
     error, size = (np.sqrt((mass * field**2).sum()) for field in (found - exact, values))
     assert bound <= tolerance and error <= (bound + 1e-12) * size
     assert degree <= 10 + 3 * np.sqrt(time * largest_eigenvalue_bound(operator) * np.log(1 / tolerance)) + 30
+
+
+@pytest.mark.parametrize("half", [0.3, 50.0, 3e3, 1e6])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-8])
+def test_the_bound_counts_every_term_that_is_left_out(half: float, tolerance: float) -> None:
+    """The moduli of all coefficients add up to exp(0) = 1, so that those left out are 1 less those kept."""
+    kept, rest = _coefficients(half, tolerance)
+    left = 1.0 - np.abs(kept).sum()
+    assert left - 1e-12 <= rest <= tolerance
+
+
+def test_a_constant_stays_on_slivers_whatever_the_tolerance() -> None:
+    flat = SHAPES["rectangle"].mesh
+    slivers = fem(TriangleMesh(flat.vertices * [1.0, 1e-2, 1.0], flat.faces))
+    ones = np.ones(slivers.vertex_count)
+    for tolerance in (1e-2, 1e-6):
+        found, _, bound = heat_polynomial(slivers, ones, 1.0, tolerance)
+        assert np.abs(found - 1.0).max() <= bound + 1e-9 and bound <= tolerance
 
 
 @pytest.mark.parametrize("name", SHAPES)

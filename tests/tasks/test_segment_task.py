@@ -15,7 +15,7 @@ from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.tasks.segmentation import Segmentation
 from surfexp.variational.image import Image
-from surfexp.variational.models.convex_chan_vese import ConvexChanVese
+from surfexp.variational.models.convex_chan_vese import ConvexChanVese, labelling_gap
 
 SPHERE = sx.shape("icosphere", levels=3)
 Z = SPHERE.mesh.vertices[:, 2]
@@ -117,3 +117,26 @@ def test_the_map_of_labels_is_unknown_outside_the_mask_alone() -> None:
     parts = Segmentation(np.array([0, 1, -1, 1, 0]), 1.0, 0.0, 1.0, 0.9, 0.1, 0.1, True, 2.0)
     assert np.array_equal(parts.values, [0.0, 1.0, np.nan, 1.0, 0.0], equal_nan=True)
     assert parts.label_map.keys.tolist() == [1, 2, 0, 2, 1]
+
+
+@pytest.mark.parametrize("scale", [1e-165, 1e-6, 1e6, 1e150])
+@pytest.mark.parametrize("offset", [0.0, 1e6])
+def test_units_over_hundreds_of_decades_change_no_label_and_no_proof(parts, scale: float, offset: float) -> None:
+    other = sx.segment(SPHERE, scale * (NOISY + offset))
+    assert np.array_equal(other.labels, parts.labels)
+    assert (other.energy, other.gap) == pytest.approx((parts.energy, parts.gap), rel=1e-6)
+    assert other.c1 == pytest.approx(scale * (parts.c1 + offset), rel=1e-9)
+
+
+def test_a_labelling_that_meets_its_bound_is_proved_optimal() -> None:
+    """Also where a threshold is as good, so that the spread is 0."""
+    assert labelling_gap(-3.0, -3.0, -3.0) == 0.0
+    assert labelling_gap(-3.0, -3.0 - 1e-13, -3.0) == 0.0
+    assert labelling_gap(-2.0, -3.0, -1.0) == 0.5 and labelling_gap(-1.0, -3.0, -1.0) == 1.0
+    clean = sx.segment(SPHERE, np.where(Z > 0.1, 1.0, 0.0), smoothness=0.01)
+    assert clean.labelling_gap < 1.0
+
+
+def test_a_constant_map_has_no_regions() -> None:
+    with pytest.raises(ValueError, match="constant at 3, two regions need two values"):
+        sx.segment(SPHERE, np.full(len(Z), 3.0))

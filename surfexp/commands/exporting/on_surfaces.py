@@ -13,8 +13,8 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.gifti import write_gifti, write_gifti_labels
 from surfexp.io.label_files import label_colors
 from surfexp.io.map_files import write_maps
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.single_precision import check_single_precision_points
-from surfexp.io.vtk import scalar_channels
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.variational.duality_gap import certificate_of
 from surfexp.variational.fidelity import Method
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
@@ -26,12 +27,13 @@ def solve_by_channel(fidelity: SeparableQuadratic, operator: SurfaceOperator, me
     energy = sum(part.energy for part in parts)
     bounds = [part.lower_bound for part in parts if part.lower_bound is not None]
     lower_bound = sum(bounds) if len(bounds) == len(parts) else None
-    gap = None if lower_bound is None else energy - lower_bound
-    relative_gap = None
-    if gap is not None and lower_bound is not None:
-        relative_gap = gap / fidelity.gap_scale(energy, lower_bound)
-    mu = fidelity.strong_convexity
-    error_bound = None if gap is None or mu <= 0 else float(np.sqrt(2.0 * max(gap, 0.0) / mu))
+    gap = relative_gap = error_bound = None
+    if lower_bound is not None:
+        gap = max(energy - lower_bound, 0.0)
+        certificate = certificate_of(
+            energy, lower_bound, fidelity.gap_scale(energy, lower_bound), fidelity.strong_convexity
+        )
+        relative_gap, error_bound = certificate.relative_gap, certificate.error_bound
     numbers = {
         "energy": energy,
         "iterations": float(max(part.iterations for part in parts)),

@@ -13,7 +13,7 @@ from surfexp.variational.fidelity import Method
 from surfexp.variational.image import Image
 from surfexp.variational.labellings import Labelling, Mask, best_threshold, edge_cut
 from surfexp.variational.level_sets import perimeters
-from surfexp.variational.mean_updates import MeanUpdates
+from surfexp.variational.mean_updates import SAME, MeanUpdates
 from surfexp.variational.separable_quadratic import SeparableQuadratic, check_positive, convex_chan_vese
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import segmentation_metrics
@@ -201,8 +201,7 @@ class ConvexChanVese:
             "labelling_energy": labelling.energy,
         }
         if solution.lower_bound is not None:
-            spread = (trivial.energy - solution.lower_bound) or np.inf
-            metrics["labelling_gap"] = (labelling.energy - solution.lower_bound) / spread
+            metrics["labelling_gap"] = labelling_gap(labelling.energy, solution.lower_bound, trivial.energy)
         solution = replace(solution, segmentation=region.astype(np.float64))
         if ((solution.values > labelling.threshold) == region).all():
             metrics["threshold"] = labelling.threshold
@@ -210,6 +209,17 @@ class ConvexChanVese:
         field, level = solution.boundary
         metrics["perimeter"] = float(perimeters(operator, field, np.array([level]))[0])
         return replace(solution, metrics=solution.metrics | metrics | segmentation_metrics(image, operator, region))
+
+
+def labelling_gap(energy: float, lower_bound: float, trivial: float) -> float:
+    """Return (energy - lower bound) / (trivial - lower bound): 0 where energy and bound are equal to rounding.
+
+    Then the labelling is proved optimal, also where the best trivial one is, so that nothing was left to gain.
+    """
+    gap = energy - lower_bound
+    if gap <= SAME * max(abs(energy), abs(lower_bound)):
+        return 0.0
+    return gap / (trivial - lower_bound)
 
 
 def _averages(values: Floats, mass: Floats, region: Mask) -> tuple[float, float]:

@@ -19,7 +19,9 @@ GeneralisedMethod = Callable[[GeneralisedVariation], GeneralisedSolution]
 
 @dataclass(frozen=True)
 class TGV:
-    """min over u and w of int |grad u - w| + ratio h |D w| + mu/2 |u - I|^2.
+    """min over u and w of sum over faces of A (|grad u - w| + ratio h |D w|), plus mu/2 |u - I|_m^2.
+
+    w is linear on a face and grad u constant: |grad u - w| is taken of the mean of w on the face, at its middle.
 
     Parameters
     ----------

@@ -9,12 +9,14 @@ import numpy as np
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
 from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.own_unit import in_own_unit
 from surfexp.variational.published.chambolle import published_chambolle
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.chambolle_pock import CHECK_INTERVAL, starting_fields
 from surfexp.variational.solvers.face_sweeps import chambolle_step, face_steps
 
 
+@in_own_unit
 def chambolle_dual(
     fidelity: Fidelity,
     operator: SurfaceOperator,

@@ -10,12 +10,14 @@ from surfexp.operators.calculus import adjoint_gradient, gradient_matrix
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
 from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.own_unit import in_own_unit
 from surfexp.variational.published.vector_pair import project_to_ball
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.fista_dual import require_consistent
 
 
+@in_own_unit
 def conic(
     fidelity: Fidelity,
     operator: SurfaceOperator,

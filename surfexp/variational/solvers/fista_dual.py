@@ -10,12 +10,14 @@ from surfexp.operators.calculus import adjoint_gradient
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
 from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.own_unit import in_own_unit
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.chambolle_dual import require_strong_convexity
 from surfexp.variational.solvers.chambolle_pock import CHECK_INTERVAL, starting_fields
 from surfexp.variational.solvers.face_sweeps import face_steps, fista_step
 
 
+@in_own_unit
 def fista_dual(
     fidelity: Fidelity,
     operator: SurfaceOperator,

@@ -7,12 +7,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from surfexp.variational.fidelity import Progress
-from surfexp.variational.generalised_solution import GeneralisedIterate, GeneralisedSolution, run_to_gap
+from surfexp.variational.generalised_solution import (
+    GeneralisedIterate,
+    GeneralisedSolution,
+    generalised_in_own_unit,
+    run_to_gap,
+)
 from surfexp.variational.generalised_variation import PARTS, GeneralisedVariation, cut
 
 STEPS_PER_CHECK = 50
 
 
+@generalised_in_own_unit
 def generalised_primal_dual(
     problem: GeneralisedVariation,
     *,

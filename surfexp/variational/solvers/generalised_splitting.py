@@ -11,7 +11,12 @@ from surfexp.contract.arrays import Floats
 from surfexp.linalg.factorisation import factorise
 from surfexp.operators.calculus import gradient
 from surfexp.variational.fidelity import Progress
-from surfexp.variational.generalised_solution import GeneralisedIterate, GeneralisedSolution, run_to_gap
+from surfexp.variational.generalised_solution import (
+    GeneralisedIterate,
+    GeneralisedSolution,
+    generalised_in_own_unit,
+    run_to_gap,
+)
 from surfexp.variational.generalised_variation import PARTS, GeneralisedVariation, cut, shortened
 
 STEPS_PER_CHECK = 10
@@ -19,6 +24,7 @@ STEPS_PER_CHECK = 10
 ROUNDS = 2
 
 
+@generalised_in_own_unit
 def generalised_splitting(
     problem: GeneralisedVariation,
     *,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from surfexp.operators.calculus import adjoint_gradient, gradient, total_variati
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
 from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.own_unit import in_own_unit
 from surfexp.variational.separable_quadratic import SeparableQuadratic
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.chambolle_pock import chambolle_pock_iterates
@@ -27,6 +29,7 @@ ROUNDS = 4
 SAFE_CENTRING = 0.8
 
 
+@in_own_unit
 def newton(
     fidelity: Fidelity,
     operator: SurfaceOperator,
@@ -75,6 +78,8 @@ def newton(
     if start is None:
         warm_up = chambolle_pock_iterates(fidelity, operator, None, fidelity.step, 200)
         start = run_to_gap(warm_up, fidelity, operator, "primal_dual", WARM_UP)
+        if start.relative_gap == 0.0:
+            return replace(start, solver="newton")
     iterates = _iterates(fidelity, operator, start, iteration_limit)
     return run_to_gap(iterates, fidelity, operator, "newton", tolerance, progress)
 

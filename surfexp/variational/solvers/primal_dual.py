@@ -5,12 +5,14 @@ from __future__ import annotations
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import run_to_gap
 from surfexp.variational.fidelity import Fidelity, Progress
+from surfexp.variational.own_unit import in_own_unit
 from surfexp.variational.published.averaged_iterations import averaged_primal_dual
 from surfexp.variational.published.consistent_audit import run_and_audit
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.chambolle_pock import chambolle_pock_iterates
 
 
+@in_own_unit
 def primal_dual(
     fidelity: Fidelity,
     operator: SurfaceOperator,
