@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from surfexp.commands import choices
+from surfexp.commands.cited_places import Place, asked_place, experiments_at
 from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import UserError, check_known, unknown
 
@@ -51,18 +52,50 @@ def list_choices(kind: str | None) -> None:
         raise unknown("stage kind", kind, [*known.kinds, "experiment"])
 
 
-@click.command(**shown("info", "solver/primal_dual", "quickstart", cls=click.Command))
-@click.argument("what", metavar="KIND/NAME|EXPERIMENT", shell_complete=choices.plugin_or_experiment)
+@click.command(**shown("info", "solver/primal_dual", "quickstart", "figure 2.3", "2.8", cls=click.Command))
+@click.argument(
+    "what",
+    metavar="KIND/NAME|EXPERIMENT|[KIND] NUMBER",
+    nargs=-1,
+    required=True,
+    shell_complete=choices.plugin_or_experiment,
+)
 @results_option
-def info(what: str, results: Path) -> None:
-    """Show the options of a plugin, or what an experiment asks and cost."""
+def info(what: tuple[str, ...], results: Path) -> None:
+    """Show the options of a plugin, or what an experiment asks and cost.
+
+    A number such as 2.8, table 3.1 or figure 5.9 is that of the dissertation: the experiments about it are listed.
+    """
+    asked = " ".join(what)
     known, console = _known(), _console()
-    if "/" in what:
-        _info(what, known, console)
+    if (place := asked_place(asked)) is not None:
+        _experiments_at(place, console)
+    elif "/" in asked:
+        _info(asked, known, console)
     else:
         from surfexp.commands.experiment_facts import print_facts
 
-        print_facts(what, known, results, console)
+        print_facts(asked, known, results, console)
+
+
+def _experiments_at(place: Place, console: Console) -> None:
+    documents = _documents()
+    rows = experiments_at(place, documents).items()
+    _rows(console, [(name, str(documents[name].get("title", "")), ", ".join(places)) for name, places in rows])
+    console.print("\nsurfexp run experiment=NAME computes one, surfexp info NAME tells what it is.", soft_wrap=True)
+
+
+def _documents() -> dict[str, Any]:
+    """Contents of all experiment files by name, read fast."""
+    import yaml
+
+    from surfexp.lab.registry.folders import experiments
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    return {
+        name: yaml.load(file.read_bytes(), Loader=loader) or {}  # noqa: S506, one of the two safe ones
+        for name, file in experiments().items()
+    }
 
 
 def _console() -> Console:
@@ -83,14 +116,8 @@ def _known() -> Catalogue:
 
 def _menu(console: Console) -> None:
     """Experiments by chapter: where to start, those of the dissertation, the rest, each once."""
-    import yaml
-
-    from surfexp.lab.registry.folders import experiments
-
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *CHAPTERS.values(), OTHERS)}
-    for name, file in experiments().items():
-        known = yaml.load(file.read_bytes(), Loader=loader) or {}  # noqa: S506, one of the two safe ones
+    for name, known in _documents().items():
         chapter, place = known.get("chapter") or (0, 0)
         heading = START if "start" in known else CHAPTERS.get(chapter, OTHERS)
         rows[heading].append((known.get("start", place), name, str(known.get("title", ""))))
@@ -103,7 +130,7 @@ def _menu(console: Console) -> None:
     console.print("surfexp run experiment=NAME computes one, surfexp info NAME tells what it is.")
 
 
-def _rows(console: Console, rows: list[tuple[str, str]]) -> None:
+def _rows(console: Console, rows: list[tuple[str, ...]]) -> None:
     from rich.table import Table
 
     table = Table.grid(padding=(0, 2))

@@ -36,7 +36,9 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
 
     StageFailure if a stage failed.
     """
-    _profile(plan.settings.profile or "default")
+    profile = _profile(plan.settings.profile or "default")
+    if plan.settings.profile and slurm_jobs.settings_of(profile).get("executor") == "slurm":
+        slurm_jobs.check_slurm(plan.settings.profile)
     results = Path(plan.settings.results).resolve()
     for mark in str(results):
         if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):

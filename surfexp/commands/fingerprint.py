@@ -31,12 +31,14 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     The layout is BrainPrint's, a column a structure, with the rows residual, complete and repairs below.
     """
     from surfexp.io.replacing import check_writable
+    from surfexp.mesh.given_arrays import whole_number
     from surfexp.tasks.fingerprints import fingerprint as task
     from surfexp.tasks.fingerprints import structures
 
     if target.suffix != ".csv":
         raise ValueError(f"{target} has an unknown format, choose .csv")
     check_writable(target)
+    count = whole_number(count, "count", 1)
     known = structures(list(sources))
     # hashed before they are read, each once
     files = Inputs(*(source if isinstance(source, Path) else source.file for source in known.values()))

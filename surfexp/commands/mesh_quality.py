@@ -21,7 +21,7 @@ def check(files: tuple[str, ...]) -> int:
 
     An experiment is a file .yaml. The exit code is 2 where something is wrong.
     """
-    from surfexp.io.reading import read_mesh
+    from surfexp.io.reading import read_mesh_file
     from surfexp.mesh.validate import validate
 
     sound = True
@@ -31,15 +31,23 @@ def check(files: tuple[str, ...]) -> int:
 
             click.echo(check_experiment(Path(file)))
             continue
+        if Path(file).is_dir():
+            sound = False
+            click.echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*.ply")
+            continue
         try:
-            vertices, faces, _ = read_mesh(file)
+            found = read_mesh_file(file)
         except ValueError as error:
             sound = False
             click.echo(str(error))
             continue
-        report = validate(vertices, faces)
+        report = validate(found.vertices, found.faces)
         sound &= report.ok
-        click.echo("\n  ".join([f"{file}: {len(vertices)} vertices, {len(faces)} faces", *report.lines()]))
+        click.echo(
+            "\n  ".join(
+                [f"{file}: {len(found.vertices)} vertices, {len(found.faces)} faces", *found.notes, *report.lines()]
+            )
+        )
     return 0 if sound else DEFECTIVE
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
+import shutil
 import subprocess
 import time
 from collections import Counter
@@ -16,9 +17,11 @@ from typing import Any
 
 import yaml
 
+from surfexp.lab.errors import UserError
 from surfexp.lab.plan.outcome import read_event
 from surfexp.lab.plan.plan import Node, stored_inputs
 
+COMMANDS = ("sbatch", "squeue")
 PAUSE = 20.0
 LEAST_MEMORY, LEAST_MINUTES = 2000.0, 10.0
 # a job costs about five seconds, so that this much work makes them a few per cent
@@ -36,6 +39,15 @@ def settings_of(profile: Path) -> dict[str, Any]:
     for file in sorted(profile.glob("config*.yaml")):
         settings |= yaml.safe_load(file.read_text()) or {}
     return settings
+
+
+def check_slurm(profile: str) -> None:
+    """Refuse a profile of Slurm where its commands are not; Snakemake would try for minutes without a word."""
+    if missing := [name for name in COMMANDS if shutil.which(name) is None]:
+        raise UserError(
+            f"profile {profile} submits jobs to Slurm, but {' and '.join(missing)} cannot be found here: "
+            "run it where sbatch works, or without profile= on this machine"
+        )
 
 
 def requests(

@@ -97,7 +97,7 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     import numpy as np
 
     from surfexp.io.map_files import holds_names
-    from surfexp.io.reading import WITH_MAPS
+    from surfexp.io.writing import WITH_MAPS
 
     if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
         return {next(iter(maps)): values}
@@ -155,7 +155,8 @@ def finish(
     from surfexp.tasks.files import write
 
     write(target, result, surface)
-    certificate = write_certificate(target, method, options, files, facts, notes)
+    said = tuple(dict.fromkeys((*(surface.notes if surface is not None else ()), *notes)))
+    certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:
         click.echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)

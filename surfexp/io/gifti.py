@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,14 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
-from surfexp.io.numbers import real_array
+from surfexp.io.numbers import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.spatial_frame import CoordinateTransform, SpatialFrame
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 POINTS, TRIANGLES, LABELS = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE", "NIFTI_INTENT_LABEL"
+NODES = "NIFTI_INTENT_NODE_INDEX"
+LARGEST_COUNT = 1 << 26
 STRUCTURE = "AnatomicalStructurePrimary"
 CORTEX = {"left": "CortexLeft", "right": "CortexRight"}
 
@@ -62,6 +66,33 @@ def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any], str]:
     return np.asarray(points[0].data), np.asarray(triangles[0].data), {v: k for k, v in CORTEX.items()}.get(said, "")
 
 
+def read_gifti_rest(path: Path) -> tuple[dict[str, Floats], SpatialFrame]:
+    """The maps that stand beside a surface in its file, and where its points lie.
+
+    Raises
+    ------
+    ValueError
+        If an array is no map, or the file holds no surface.
+    """
+    image = _load(path)
+    surface = {image_code(POINTS), image_code(TRIANGLES)}
+    beside = [array for array in image.darrays if array.intent not in surface and array.intent != image_code(LABELS)]
+    points = next(array for array in image.darrays if array.intent == image_code(POINTS))
+    system = points.coordsys
+    transforms = []
+    if system is not None:
+        matrix = np.asarray(system.xform, dtype=np.float64).reshape(4, 4)
+        transforms = [CoordinateTransform(_space(system.dataspace), _space(system.xformspace), matrix)]
+    metadata = {str(key): str(value) for key, value in points.metadata.items()}
+    return _maps(beside), SpatialFrame(transforms=tuple(transforms), metadata=metadata)
+
+
+def _space(code: int) -> str:
+    from nibabel.nifti1 import xform_codes
+
+    return str(xform_codes.niistring[code])
+
+
 def hemisphere_of_gifti(path: Path) -> str:
     """Return "left" or "right" where a GIFTI file of any content says so, else nothing.
 
@@ -85,14 +116,51 @@ def read_gifti_maps(path: Path) -> dict[str, Floats]:
         If the file is not GIFTI or holds a surface.
     """
     image = _load(path)
+    return _maps(image.darrays)
+
+
+def _maps(arrays: Sequence[Any]) -> dict[str, Floats]:
     maps: dict[str, Floats] = {}
-    for number, array in enumerate(image.darrays, 1):
+    arrays, nodes = _nodes(arrays)
+    for number, array in enumerate(arrays, 1):
         values = np.asarray(array.data)
         if values.ndim > 2 or array.intent == image_code(POINTS) or array.intent == image_code(TRIANGLES):
             raise ValueError(f"array {number} of the GIFTI file is no map but has shape {values.shape}")
         name = str(array.metadata.get("Name", "")).strip() or f"map {number}"
-        maps[name if name not in maps else f"{name} {number}"] = real_array(np.squeeze(values), "the map")
+        maps[name if name not in maps else f"{name} {number}"] = _at_nodes(
+            real_array(np.squeeze(values), "the map"), nodes
+        )
     return maps
+
+
+def _nodes(arrays: Sequence[Any]) -> tuple[list[Any], Integers | None]:
+    """Return the arrays that hold values, and the vertex of each row where the file lists them.
+
+    Raises
+    ------
+    ValueError
+        If vertices are listed twice.
+    """
+    lists = [array for array in arrays if array.intent == image_code(NODES)]
+    if len(lists) > 1:
+        raise ValueError(f"it has {len(lists)} arrays of {NODES}, one is read")
+    values = [array for array in arrays if array.intent != image_code(NODES)]
+    return values, index_array(np.ravel(lists[0].data), "its node indices") if lists else None
+
+
+def _at_nodes(values: NDArray[Any], nodes: Integers | None, missing: float = np.nan) -> NDArray[Any]:
+    """Put rows at the vertices that the file lists for them; the vertices between are missing."""
+    if nodes is None:
+        return values
+    if len(values) != len(nodes) or len(np.unique(nodes)) < len(nodes) or nodes.min() < 0:
+        raise ValueError(
+            f"it lists {len(nodes)} node indices, not one vertex of its own for each of {len(values)} values"
+        )
+    if nodes.max() >= LARGEST_COUNT:
+        raise ValueError(f"it lists node {nodes.max()}, the largest is {LARGEST_COUNT - 1}")
+    whole = np.full((int(nodes.max()) + 1, *values.shape[1:]), missing, dtype=values.dtype)
+    whole[nodes] = values
+    return whole
 
 
 def read_gifti_labels(path: Path) -> LabelMap:
@@ -105,7 +173,14 @@ def read_gifti_labels(path: Path) -> LabelMap:
     """
     image = _load(path)
     names = {int(key): str(name) for key, name in image.labeltable.get_labels_as_dict().items()}
-    return LabelMap(np.asarray(image.darrays[0].data, dtype=np.int64), names)
+    arrays, nodes = _nodes(image.darrays)
+    if not arrays:
+        raise ValueError("it holds no labels")
+    # an array of another kind, such as a map, may stand before the labels
+    first = next((array for array in arrays if array.intent == image_code(LABELS)), arrays[0])
+    keys = np.asarray(first.data)
+    keys = index_array(keys[:, 0] if keys.ndim == 2 and keys.shape[1] == 1 else keys, "its labels")
+    return LabelMap(_at_nodes(keys, nodes, -1), names)
 
 
 def image_code(intent: str) -> int:
@@ -115,13 +190,20 @@ def image_code(intent: str) -> int:
     return int(intent_codes[intent])
 
 
-def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "") -> None:
-    """Write points (float32, as the format has them) and triangles, compressed inside the XML."""
+def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "", frame: SpatialFrame | None = None) -> None:
+    """Write points (float32, as the format has them) with their space, and triangles, compressed inside the XML."""
     import nibabel
 
     gifti = nibabel.gifti
-    meta = gifti.GiftiMetaData({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {})
-    points = gifti.GiftiDataArray(mesh.vertices.astype(np.float32), POINTS, meta=meta)
+    said = dict(frame.metadata) if frame is not None else {}
+    meta = gifti.GiftiMetaData(said | ({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {}))
+    # nibabel holds one transform of each array
+    transform = frame.transforms[0] if frame is not None and frame.transforms else None
+    system = None
+    if transform is not None:
+        codes = (nibabel.nifti1.xform_codes[name] for name in (transform.source, transform.target))
+        system = gifti.GiftiCoordSystem(*codes, transform.matrix)
+    points = gifti.GiftiDataArray(mesh.vertices.astype(np.float32), POINTS, coordsys=system, meta=meta)
     triangles = gifti.GiftiDataArray(mesh.faces.astype(np.int32), TRIANGLES)
     nibabel.save(gifti.GiftiImage(darrays=[points, triangles]), path)
 

@@ -92,12 +92,23 @@ def read_labels(path: Path | str) -> tuple[Integers, tuple[str, ...]]:
 
 
 def _read_annotation(path: Path) -> LabelMap:
+    """Labels by the file's own numbers of vertices and colours; a colour that is in no entry of the table is -1."""
     import nibabel
 
     with parsing("annotation"), np.errstate(over="ignore"):
-        keys, _, entries = nibabel.freesurfer.read_annot(path)
-    names = {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)}
-    return LabelMap(np.asarray(keys, dtype=np.int64), names)
+        _, table, entries = nibabel.freesurfer.read_annot(path, orig_ids=True)
+    data = path.read_bytes()
+    pairs = np.frombuffer(data, ">i4", 2 * int.from_bytes(data[:4], "big"), 4).reshape(-1, 2).astype(np.int64)
+    count = len(pairs)
+    if not np.array_equal(np.sort(pairs[:, 0]), np.arange(count)):
+        raise ValueError(f"its {count} entries do not name the vertices 0..{count - 1} once each")
+    colors = np.zeros(count, dtype=np.int64)
+    colors[pairs[:, 0]] = pairs[:, 1]
+    values = table[:, 4].astype(np.int64)
+    order = np.argsort(values, kind="stable")
+    place = np.minimum(np.searchsorted(values[order], colors), max(len(order) - 1, 0))
+    keys = np.where(values[order][place] == colors, order[place], -1) if len(order) else np.full(count, -1)
+    return LabelMap(keys, {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)})
 
 
 def _write_annotation(path: Path, labels: Integers, names: Sequence[str]) -> None:

@@ -41,3 +41,9 @@ def names_without_spaces(names: Iterable[str], reserved: Collection[str] = ()) -
         if word in reserved:
             raise ValueError(f"map name {name!r} is what the format calls its own {word}: rename the map")
     return words
+
+
+def printable_name(name: str) -> str:
+    """Return a name that every format holds: what is not printed becomes a space, nothing becomes "map"."""
+    shown = "".join(character if character.isprintable() else " " for character in name)
+    return " ".join(shown.split()) or "map"

@@ -131,10 +131,15 @@ def _empty_database(folder: Path) -> Path:
 
 def _make(database: Path) -> None:
     """Let MLflow make its tables; the experiment "Default", which names the folder, is made anew where it is used."""
-    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
+    try:
+        from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
 
-    store = SqlAlchemyStore(f"sqlite:///{database}", str(database.parent))
-    store.engine.dispose()
+        store = SqlAlchemyStore(f"sqlite:///{database}", str(database.parent))
+        store.engine.dispose()
+    except (ImportError, AttributeError):  # of a version with other insides; its client makes them when it is asked
+        from mlflow.tracking import MlflowClient
+
+        MlflowClient(f"sqlite:///{database}").search_experiments()
     with closing(sqlite3.connect(database)) as connection:
         connection.execute("DELETE FROM experiments")
         connection.commit()

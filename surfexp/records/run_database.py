@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import time
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
 from itertools import islice
 from typing import Any
 
@@ -19,6 +18,8 @@ from mlflow.utils.mlflow_tags import MLFLOW_RUN_NAME
 from mlflow.utils.uri import append_to_uri_path
 from sqlalchemy import bindparam, delete, insert, select, update
 
+from surfexp.records.run_content import LONGEST_PARAMETER, LONGEST_TAG, KnownRun, RunContent
+
 RUNS_AT_ONCE = 500
 _TABLE = SqlRun.__table__
 _CHANGED = (
@@ -26,31 +27,6 @@ _CHANGED = (
     .where(_TABLE.c.run_uuid == bindparam("run"))
     .values(name=bindparam("called"), status=bindparam("state"), end_time=_TABLE.c.start_time + bindparam("took"))
 )
-LONGEST_PARAMETER, LONGEST_TAG = 6000, 8000  # MLflow's own limits
-
-
-@dataclass(frozen=True)
-class RunContent:
-    """All that a run shows. `series` are metrics as (name, step, value); the last step of each is its value.
-
-    `seconds` are those of the computation: what the dashboard calls the duration of the run.
-    """
-
-    name: str
-    status: str
-    seconds: float
-    parameters: Mapping[str, str]
-    series: Sequence[tuple[str, int, float]]
-    tags: Mapping[str, str]
-
-
-@dataclass(frozen=True)
-class KnownRun:
-    """A run in the database, with those of its tags that were asked for."""
-
-    identity: str
-    status: str
-    tags: dict[str, str] = field(default_factory=dict)
 
 
 def known_runs(store: Any, experiment: str, tags: Iterable[str]) -> list[KnownRun]:

@@ -18,7 +18,7 @@ from surfexp.records.origin import commit
 from surfexp.records.table import Row, comparisons, short_name
 
 if TYPE_CHECKING:
-    from surfexp.records.run_database import KnownRun, RunContent
+    from surfexp.records.run_content import KnownRun, RunContent
 
 DATABASE = "mlflow.db"
 NOTE = "mlflow.note.content"
@@ -63,11 +63,9 @@ def record(plan: Plan, results: Path) -> Recording:
     os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
     os.environ.setdefault("MLFLOW_SQLALCHEMYSTORE_POOLCLASS", "NullPool")  # a kept connection is to a file set aside
     logging.getLogger("alembic").setLevel(logging.WARNING)
-    from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
     from mlflow.tracking import MlflowClient
 
     from surfexp.records.database_file import prepare
-    from surfexp.records.run_database import known_runs, set_tag, write_runs
 
     said: tuple[str, ...] = (prepare(results / DATABASE),)
     client = MlflowClient(tracking_uri(results))
@@ -79,8 +77,8 @@ def record(plan: Plan, results: Path) -> Recording:
     if experiment.lifecycle_stage == "deleted":
         client.restore_experiment(experiment.experiment_id)
         said += (f"experiment {name!r} was deleted in MLflow: it is restored",)
-    database = SqlAlchemyStore(tracking_uri(results), location)
-    runs = known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
+    written, database = _way_to_write(client, results, location)
+    runs = written.known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
     parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
     parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
     outcomes = {node.key: outcome(results, node) for node in plan.stored}
@@ -89,17 +87,31 @@ def record(plan: Plan, results: Path) -> Recording:
     tags = {**versions, "mlflow.parentRunId": parent_id}
     page = f"#/experiments/{experiment.experiment_id}/runs/{parent_id}/artifacts/report.html"
     names = _names(plan) if changes else {}
-    write_runs(
+    written.write_runs(
         database,
         experiment,
         ((change.run, _content(plan, results, change, outcomes, names, tags, page)) for change in changes),
     )
-    set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
+    written.set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
     state = (sorted(leaf.key for leaf in plan.leaves), failed)
     own_tags = {"plan": plan.identity, **versions}
     known = parent.tags if parent else {}
     return Recording(client, parent_id, known, own_tags, state, failed, tuple(line for line in said if line))
+
+
+def _way_to_write(client: Any, results: Path, location: str) -> tuple[Any, Any]:
+    """The module that writes runs, and what it writes to: MLflow's tables, or its client where they are others."""
+    try:
+        from mlflow.store.tracking.sqlalchemy_store import SqlAlchemyStore
+
+        from surfexp.records import run_database
+
+        return run_database, SqlAlchemyStore(tracking_uri(results), location)
+    except (ImportError, AttributeError):
+        from surfexp.records import run_client
+
+        return run_client, client
 
 
 def _new_parent(client: Any, experiment: str, name: str) -> str:
@@ -152,7 +164,7 @@ def _content(
 
     A new run leads to the page with its row; after that its note is a person's.
     """
-    from surfexp.records.run_database import RunContent
+    from surfexp.records.run_content import RunContent
 
     leaf, own = change.leaf, outcomes[change.leaf.key]
     upstream = {key: outcomes[key] for key in change.upstream}

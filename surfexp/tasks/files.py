@@ -11,9 +11,9 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.label_files import write_labels
-from surfexp.io.map_files import check_map_target, read_maps, read_mask, read_named_labels, write_maps
+from surfexp.io.map_files import check_map_target, mask_notes, read_maps, read_mask, read_named_labels, write_maps
 from surfexp.io.map_shapes import scalar_channels
-from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.reading import hemisphere_of_file, read_mesh_file
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import WITH_MAPS, write_mesh
 from surfexp.mesh.given_arrays import mask_array, real_array
@@ -42,7 +42,7 @@ def read(
     Parameters
     ----------
     path : path
-        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
+        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
     maps : dict of name to path, optional
         GIFTI, CIFTI-2, .mgh/.mgz, FreeSurfer curvature, .npy/.npz, .csv, text. A file with several maps gives each its own name.
     labels : dict of name to path, optional
@@ -54,7 +54,8 @@ def read(
     hemisphere : {"", "left", "right"}
         Found from the file where it says so. Maps, labels and masks of the other one are refused.
     repair : bool
-        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices.
+        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices. Vertices
+        without faces or position are no defect: they are outside, and the numbering stays.
 
     Returns
     -------
@@ -72,7 +73,8 @@ def read(
     >>> len(sx.read("ball.ply").mesh.faces)
     320
     """
-    vertices, faces, scalars = read_mesh(Path(path))
+    file_read = read_mesh_file(Path(path))
+    vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
     count = len(vertices)
     side = hemisphere or hemisphere_of_file(path)
     for name, file in (maps or {}).items():
@@ -84,21 +86,41 @@ def read(
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
+    notes = file_read.notes
     if isinstance(mask, str | Path):
         _same_side(mask, side, "mask")
+        notes = (*notes, *mask_notes(mask, side))
         mask = read_mask(mask, count, side)
     inside = None if mask is None else mask_array(mask, count)
-    mesh = TriangleMesh(vertices, faces)
-    notes: tuple[str, ...] = ()
-    if repair:
-        mesh, notes, origin = repair_mesh(vertices, faces)
-        scalars = {name: values[origin] for name, values in scalars.items()}
-        tables = {name: replace(table, keys=table.keys[origin]) for name, table in tables.items()}
-        inside = None if inside is None else inside[origin]
     surface = Surface(
-        mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=tuple(notes)
+        TriangleMesh(vertices, faces),
+        Path(path).stem,
+        unit,
+        scalars,
+        mask=inside,
+        hemisphere=side,
+        labels=tables,
+        notes=notes,
+        frame=file_read.frame,
     )
-    return sound_part(surface, str(path), repair="")
+    try:
+        return sound_part(surface, str(path), repair="")
+    except ValueError:
+        if not repair:
+            raise
+    return sound_part(_repaired(surface), str(path), repair="")
+
+
+def _repaired(surface: Surface) -> Surface:
+    mesh, changes, origin = repair_mesh(surface.mesh.vertices, surface.mesh.faces)
+    return replace(
+        surface,
+        mesh=mesh,
+        scalars={name: values[origin] for name, values in surface.scalars.items()},
+        labels={name: replace(table, keys=table.keys[origin]) for name, table in surface.labels.items()},
+        mask=None if surface.mask is None else surface.mask[origin],
+        notes=(*surface.notes, *changes),
+    )
 
 
 def _same_side(file: PathLike, side: str, what: str) -> None:
@@ -143,7 +165,7 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
     target = Path(path)
     if isinstance(what, Surface):
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
-        write_mesh(target, what.mesh, scalars)
+        write_mesh(target, what.mesh, scalars, what.frame)
         return
     table = getattr(what, "label_map", None)
     if target.name.endswith(LABEL_SUFFIXES) and table is not None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands import slurm_jobs
+from surfexp.lab.errors import UserError
 from surfexp.lab.plan.plan import Node
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running.stage_process import death
@@ -135,3 +136,15 @@ def test_slurm_that_is_not_there_says_nothing() -> None:
 def test_the_profile_that_comes_with_the_package_is_one_of_slurm() -> None:
     assert slurm_jobs.settings_of(package_folder("surfexp.profiles") / "slurm")["executor"] == "slurm"
     assert "executor" not in slurm_jobs.settings_of(package_folder("surfexp.profiles") / "default")
+
+
+def test_a_profile_of_slurm_is_refused_at_once_where_there_is_none(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(UserError, match="profiles/slurm submits jobs to Slurm, but sbatch and squeue cannot be found"):
+        slurm_jobs.check_slurm("profiles/slurm")
+    for name in slurm_jobs.COMMANDS:
+        (tmp_path / name).write_text("#!/bin/sh\n")
+        (tmp_path / name).chmod(0o755)
+    slurm_jobs.check_slurm("profiles/slurm")

@@ -96,7 +96,7 @@ def test_a_map_of_another_length_is_refused(tmp_path: Path, suffix: str) -> None
         with pytest.raises(ValueError, match="5 values"):
             sx.write(tmp_path / f"ball{suffix}", {"a": np.zeros(5)}, BALL)
     with pytest.raises(ValueError, match="one for each vertex of one surface"):
-        sx.write(tmp_path / "maps.npz", {"a": np.zeros(5), "b": np.zeros(6)})
+        sx.write(tmp_path / "maps.csv", {"a": np.zeros(5), "b": np.zeros(6)})
 
 
 NAMES = st.text(string.ascii_letters + string.digits + "_ -.", min_size=1, max_size=8).map(str.strip).filter(bool)

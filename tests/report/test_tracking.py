@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import shutil
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -18,7 +19,7 @@ from benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
-from surfexp.records import run_database, tracking
+from surfexp.records import run_content, run_database, tracking
 from surfexp.records.run_addresses import run_addresses
 from surfexp.report.page import write_report
 
@@ -109,7 +110,7 @@ def test_a_run_is_what_the_client_of_mlflow_writes(results: Path) -> None:
     tags = {"leaf": "ours", "failure": "", "note": "two\nlines", "long": "y" * 8000}
     write = sql_store(results)
     run_database.write_runs(
-        write, experiment, [(None, run_database.RunContent("r", "FAILED", 0.0, parameters, series, tags))]
+        write, experiment, [(None, run_content.RunContent("r", "FAILED", 0.0, parameters, series, tags))]
     )
     theirs = client.create_run(identity, run_name="r", tags=tags).info.run_id
     metrics = [Metric(name, value, 0, step) for name, step, value in series]
@@ -251,3 +252,45 @@ def test_a_run_of_older_code_is_kept_and_no_longer_current(results: Path) -> Non
     assert after[newer].info.run_id != before[key].info.run_id
     currents = {leaf: run.data.tags.get("current") for leaf, run in after.items()}
     assert currents == {"plan": None, key: "false", newer: "true", plan.leaves[1].key: "true"}
+
+
+INSIDES = ["mlflow.store.tracking.dbmodels.models", "mlflow.store.tracking.sqlalchemy_store", "mlflow.utils.uri"]
+
+
+@pytest.mark.parametrize("module", INSIDES)
+def test_where_mlflow_has_other_tables_its_client_writes_the_same(
+    tmp_path: Path, empty_database: Path, monkeypatch: pytest.MonkeyPatch, module: str
+) -> None:
+    from mlflow.tracking import MlflowClient
+
+    written = []
+    for name in ("tables", "client"):
+        results = tmp_path / name
+        results.mkdir()
+        shutil.copy(empty_database, results / "mlflow.db")
+        plan = finished(3, results)
+        client = MlflowClient(tracking.tracking_uri(results))  # has what it needs before that is hidden from us
+        client.search_experiments()
+        if name == "client":
+            monkeypatch.delitem(sys.modules, "surfexp.records.run_database")
+            monkeypatch.setitem(sys.modules, module, None)
+            monkeypatch.delattr("surfexp.records.run_database", raising=False)
+            assert tracking._way_to_write(client, results, "")[1] is client
+        leaf = plan.leaves[0].key
+        store.discard(results, "solver", leaf)
+        store.write_text(event_path(results, "solver", leaf), json.dumps({"failure": "no"}))
+        failed = recorded(plan, results)
+        client.set_tag(failed[leaf].info.run_id, "mlflow.note.content", "of a person")
+        fill(plan, results)
+        first = recorded(plan, results)
+        again = recorded(plan, results)
+        assert {run.info.run_id for run in again.values()} == {run.info.run_id for run in first.values()}
+        assert again[leaf].data.tags["mlflow.note.content"] == "of a person"
+        rows = [again[one.key] for one in plan.leaves]
+        written.append([(run.info.status, run.info.run_name, run.data.params, numbers(run)) for run in rows])
+    assert written[0] == written[1]
+
+
+def numbers(run: Any) -> dict[str, float]:
+    """Metrics but those that a clock or the system measures."""
+    return {key: value for key, value in run.data.metrics.items() if "seconds" not in key and "memory" not in key}

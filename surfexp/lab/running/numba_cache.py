@@ -21,7 +21,12 @@ class CheckedFolder(caching.UserProvidedCacheLocator):
     """The folder of NUMBA_CACHE_DIR."""
 
 
-class CheckedFiles(caching.IndexDataCacheFile):
+# what is taken from inside numba; where a version has it no longer, numba keeps its files by itself
+INSIDE = ("save", "load", "_load_index", "_load_data", "_data_name", "_dump", "_data_path")
+_Files: Any = getattr(caching, "IndexDataCacheFile", object)
+
+
+class CheckedFiles(_Files):
     """Index and code files of one function, each with its digest; what cannot be read or written is left out.
 
     Numba numbers code files by the index that it has read: two processes that compile one function for two signatures
@@ -77,4 +82,7 @@ def _complain(text: str) -> None:
     complaints.setdefault(text)
 
 
-caching.IndexDataCacheFile = CheckedFiles
+if all(hasattr(_Files, name) for name in INSIDE):
+    caching.IndexDataCacheFile = CheckedFiles
+else:
+    _complain("this version of numba keeps compiled code in its own way: its files are not checked for damage")

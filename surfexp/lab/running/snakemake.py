@@ -6,9 +6,25 @@ It ends with the process that started it, from its first moment: its imports tak
 
 from __future__ import annotations
 
+import contextlib
 import sys
+from typing import Any
 
 from surfexp.lab.running.lifetime import die_with_parent
+
+
+def register(registry: Any) -> None:
+    """Add our executor to Snakemake's, and put ours for Slurm before that of the plugin, if it is installed."""
+    from surfexp.lab.running import executor
+
+    registry.register_plugin("snakemake_executor_plugin_surfexp", executor)
+    if registry.is_installed("slurm"):
+        with contextlib.suppress(
+            ImportError, AttributeError
+        ):  # of a plugin with other insides, which does without ours
+            from surfexp.lab.running import slurm
+
+            registry.plugins["slurm"] = registry.load_plugin("slurm", slurm)
 
 
 def run(arguments: list[str]) -> None:
@@ -17,14 +33,7 @@ def run(arguments: list[str]) -> None:
     from snakemake.exceptions import print_exception
     from snakemake_interface_executor_plugins.registry import ExecutorPluginRegistry
 
-    from surfexp.lab.running import executor
-
-    registry = ExecutorPluginRegistry()
-    registry.register_plugin("snakemake_executor_plugin_surfexp", executor)
-    if registry.is_installed("slurm"):
-        from surfexp.lab.running import slurm
-
-        registry.plugins["slurm"] = registry.load_plugin("slurm", slurm)
+    register(ExecutorPluginRegistry())
     try:
         parser, options = cli.parse_args(arguments)
         if options.executor == "surfexp":

@@ -31,7 +31,17 @@ if TYPE_CHECKING:
 NUMERICS = ("numpy", "scipy.sparse.linalg", "numba")
 
 
-def preload(plan: Plan, missing: list[Node], state: str) -> Recall:
+class Forgetful:
+    """In place of `Recall` where numba does not let it look inside: each stage loads compiled code by itself."""
+
+    def tell(self) -> None:
+        """Say nothing."""
+
+    def learn(self) -> None:
+        """Learn nothing."""
+
+
+def preload(plan: Plan, missing: list[Node], state: str) -> Recall | Forgetful:
     """Import what the missing stages of one state of the code need: their plugins' files and those of their inputs."""
     compiled_code.use(state)
     files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children)}
@@ -40,15 +50,25 @@ def preload(plan: Plan, missing: list[Node], state: str) -> Recall:
     for file in sorted(files):
         with contextlib.suppress(Exception):  # the stage that needs it fails with the reason
             registry.load_file(Path(file))
-    from surfexp.lab.running.recall import Recall  # which takes numba, whose settings were made here
+    return recalled()
 
-    return Recall()
+
+def recalled() -> Recall | Forgetful:
+    """What this process knows of its stages; nothing where numba has other insides than those that tell."""
+    try:
+        from surfexp.lab.running.recall import Recall  # which takes numba, whose settings were made here
+
+        return Recall()
+    except (ImportError, AttributeError):
+        return Forgetful()
 
 
 class Server:
     """The stages that run, by process id, and where to tell that one has ended."""
 
-    def __init__(self, plan_path: Path, plan: Plan, replies: int, missing: list[Node], recall: Recall) -> None:
+    def __init__(
+        self, plan_path: Path, plan: Plan, replies: int, missing: list[Node], recall: Recall | Forgetful
+    ) -> None:
         self.plan_path, self.plan, self.replies, self.recall = plan_path, plan, replies, recall
         self.awaited = Counter(node.kind for node in missing)
         self.running: dict[int, tuple[str, float]] = {}
