@@ -13,6 +13,7 @@ from surfexp.lab.registry.registry import register
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.files import read
+from surfexp.tasks.soundness import usable_vertices
 
 
 def _triangles(given: Path | None, info: ValidationInfo) -> Path | None:
@@ -50,4 +51,7 @@ def file_surface(
                 f"{finite} has {is_finite.size} values, the surface has {len(surface.mesh.vertices)} vertices"
             )
         inside = is_finite if inside is None else inside & is_finite
+    usable = usable_vertices(surface.mesh)
+    if not usable.all():
+        inside = usable if inside is None else inside & usable
     return cut_to_mask(surface, inside)
