@@ -11,6 +11,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from surfexp.io.replacing import replacing
+
 LIBRARIES = ("surfexp", "numpy", "scipy", "numba", "nibabel")
 
 
@@ -18,7 +20,7 @@ def write_certificate(
     target: Path,
     method: str,
     options: dict[str, Any],
-    inputs: list[Path] | Mapping[str, Any],
+    inputs: Mapping[str, Any],
     facts: dict[str, Any],
     notes: tuple[str, ...],
 ) -> Path:
@@ -31,28 +33,61 @@ def write_certificate(
     method : str
     options : dict
         As they were used, defaults included.
-    inputs : list of Path, or dict
-        Each file enters with the SHA-256 of its bytes; a mapping as it is, such as keys of results by role.
+    inputs : dict
+        Files with the SHA-256 that their bytes had when they were read (`Inputs`), or keys of results by role.
     facts : dict
         What is proved and measured: `complete`, `residual`, `relative_gap`, `seconds`, ...
     notes : tuple of str
     """
-    known = inputs if isinstance(inputs, Mapping) else {str(path): _sha256(path) for path in inputs}
     content = {
         "method": method,
         "options": options,
-        "inputs": known,
+        "inputs": dict(inputs),
         "versions": _versions(),
         **facts,
         "notes": list(notes),
     }
-    path = target.with_name(f"{target.name}.json")
-    path.write_text(json.dumps(_plain(content), indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    path = certificate_of(target)
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(_plain(content), indent=1, allow_nan=False) + "\n", encoding="utf-8")
     return path
 
 
+def certificate_of(target: Path) -> Path:
+    """Return where the certificate of a result stands."""
+    return target.with_name(f"{target.name}.json")
+
+
+class Inputs(dict[str, str]):
+    """The files that went into a result, by path, each with the SHA-256 of its bytes when it was added: before it is read."""
+
+    def __init__(self, *paths: Path | str) -> None:
+        super().__init__()
+        for path in paths:
+            self.add(path)
+
+    def add(self, path: Path | str) -> None:
+        """Add a file; what is not there is left to its reader, who says so."""
+        if Path(path).is_file():
+            self[str(path)] = _sha256(Path(path))
+
+    def refuse_to_overwrite(self, target: Path) -> None:
+        """Refuse a result whose file, or whose certificate, is one of the inputs.
+
+        Raises
+        ------
+        ValueError
+            Naming it.
+        """
+        for written in (target, certificate_of(target)):
+            for path in self:
+                if written.exists() and written.samefile(path):
+                    raise ValueError(f"--to {target} would overwrite the input {path}: give another file")
+
+
 def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 @cache

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import click
 
-from surfexp.commands.certificate import write_certificate
+from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
+from surfexp.commands.surface_arguments import NOT_CERTIFIED
 
 SPOKEN_EVERY = 30.0
 
@@ -20,7 +21,7 @@ SPOKEN_EVERY = 30.0
 @click.option("--tolerance", default=1e-8, help="largest relative residual")
 @click.option("--strict", is_flag=True, help="leave defective meshes out instead of repairing them")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the table, .csv")
-def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> None:
+def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> int:
     """Area, volume and lowest eigenvalues of many surfaces as a table.
 
     SOURCES are files, a folder, a SUBJECTS_DIR or BIDS derivatives.
@@ -29,11 +30,19 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
 
     The layout is BrainPrint's, a column a structure, with the rows residual, complete and repairs below.
     """
+    from surfexp.io.replacing import check_writable
+    from surfexp.mesh.given_arrays import whole_number
     from surfexp.tasks.fingerprints import fingerprint as task
     from surfexp.tasks.fingerprints import structures
 
     if target.suffix != ".csv":
         raise ValueError(f"{target} has an unknown format, choose .csv")
+    check_writable(target)
+    count = whole_number(count, "count", 1)
+    known = structures(list(sources))
+    # hashed before they are read, each once
+    files = Inputs(*(source if isinstance(source, Path) else source.file for source in known.values()))
+    files.refuse_to_overwrite(target)
     started = time.monotonic()
     table = task(list(sources), count, repair=not strict, tolerance=tolerance, progress=_Clock())
     if sys.stderr.isatty():
@@ -43,8 +52,8 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     if not table.columns:
         raise ValueError(f"none of {len(table.refused)} surfaces can be read: nothing is written")
     table.save(target)
-    taken = [source for name, source in structures(list(sources)).items() if name in table.columns]
-    files = list(dict.fromkeys(source if isinstance(source, Path) else source.file for source in taken))
+    taken = [source for name, source in known.items() if name in table.columns]
+    used = {str(source if isinstance(source, Path) else source.file) for source in taken}
     facts = {
         "complete": all(table.complete.values()),
         "residual": max(table.residuals.values()),
@@ -53,9 +62,11 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
         "seconds": time.monotonic() - started,
     }
     options = {"k": count, "tolerance": tolerance, "repair": not strict}
-    proof = write_certificate(target, "fingerprint", options, files, facts, table.notes)
+    inputs = {file: digest for file, digest in files.items() if file in used}
+    proof = write_certificate(target, "fingerprint", options, inputs, facts, table.notes)
     said = f"{len(table.columns)} structures, {len(table.refused)} left out, residual {facts['residual']:.1e}"
     click.echo(f"{target}: {said} (certificate: {proof.name})")
+    return 0 if facts["complete"] else NOT_CERTIFIED
 
 
 class _Clock:

@@ -15,6 +15,7 @@ from surfexp.commands.surface_arguments import (
     named_as,
     opened,
     progress_line,
+    ready,
     result_option,
     surface_options,
 )
@@ -50,16 +51,18 @@ def denoise(
     tolerance: float,
     target: Path,
     **given: Any,
-) -> None:
+) -> int:
     """Remove the noise of a map by total variation, which keeps its edges.
 
     MAP is a file, or a map that the surface carries.
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
+    from surfexp.tasks.files import check_target
 
     surface, files = opened(path, **given)
     maps = given_maps(surface, map_name, files)
+    ready(target, files, check_target)
     values = side_by_side(maps, map_name)
     started = time.perf_counter()
     with progress_line("denoise") as progress:
@@ -67,7 +70,7 @@ def denoise(
         clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
     chosen = {} if method == "auto" else {"weight": weight, "tolerance": tolerance}
-    finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
+    return finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
 
 
 def millimetres(text: str) -> float:
@@ -86,20 +89,22 @@ def millimetres(text: str) -> float:
 )
 @surface_options
 @result_option()
-def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> None:
+def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> int:
     """Smooth a map by heat flow, as a Gaussian of a given width would.
 
     MAP is a file, or a map that the surface carries.
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import smooth as task
+    from surfexp.tasks.files import check_target
 
     surface, files = opened(path, **given)
     maps = given_maps(surface, map_name, files)
+    ready(target, files, check_target)
     values = side_by_side(maps, map_name)
     started = time.perf_counter()
     smoothed = task(surface, values, width)
     facts = smoothed.certificate | {"seconds": time.perf_counter() - started}
-    finish(
+    return finish(
         target, named_as(maps, smoothed.values, target), surface, "heat", {"width": width}, files, facts, smoothed.notes
     )

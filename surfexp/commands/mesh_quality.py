@@ -6,8 +6,9 @@ from pathlib import Path
 
 import click
 
-from surfexp.commands.certificate import write_certificate
+from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
+from surfexp.commands.surface_arguments import ready
 
 DEFECTIVE = 2
 EXPERIMENTS = (".yaml", ".yml")
@@ -20,7 +21,7 @@ def check(files: tuple[str, ...]) -> int:
 
     An experiment is a file .yaml. The exit code is 2 where something is wrong.
     """
-    from surfexp.io.reading import read_mesh
+    from surfexp.io.reading import read_mesh_file
     from surfexp.mesh.validate import validate
 
     sound = True
@@ -30,15 +31,23 @@ def check(files: tuple[str, ...]) -> int:
 
             click.echo(check_experiment(Path(file)))
             continue
+        if Path(file).is_dir():
+            sound = False
+            click.echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*.ply")
+            continue
         try:
-            vertices, faces, _ = read_mesh(file)
+            found = read_mesh_file(file)
         except ValueError as error:
             sound = False
             click.echo(str(error))
             continue
-        report = validate(vertices, faces)
+        report = validate(found.vertices, found.faces)
         sound &= report.ok
-        click.echo("\n  ".join([f"{file}: {len(vertices)} vertices, {len(faces)} faces", *report.lines()]))
+        click.echo(
+            "\n  ".join(
+                [f"{file}: {len(found.vertices)} vertices, {len(found.faces)} faces", *found.notes, *report.lines()]
+            )
+        )
     return 0 if sound else DEFECTIVE
 
 
@@ -52,16 +61,16 @@ def repair(file: str, largest_component: bool, target: Path) -> None:
     Maps are taken along where the format of the result holds some.
     """
     from surfexp.io.reading import read_mesh
-    from surfexp.io.writing import WITH_MAPS, write_mesh
+    from surfexp.io.writing import WITH_MAPS, check_mesh_target, write_mesh
     from surfexp.mesh.repair import repair as task
 
+    files = Inputs(file)
+    ready(target, files, check_mesh_target)
     vertices, faces, maps = read_mesh(file)
     mesh, changes, origin = task(vertices, faces, largest_component=largest_component)
     kept = {name: values[origin] for name, values in maps.items()} if target.suffix.lower() in WITH_MAPS else {}
     write_mesh(target, mesh, kept)
     facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
-    proof = write_certificate(
-        target, "repair", {"largest_component": largest_component}, [Path(file)], facts, tuple(changes)
-    )
+    proof = write_certificate(target, "repair", {"largest_component": largest_component}, files, facts, tuple(changes))
     click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
     click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")

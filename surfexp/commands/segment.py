@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
+from surfexp.commands.surface_arguments import (
+    finish,
+    map_of,
+    opened,
+    progress_line,
+    ready,
+    result_option,
+    surface_options,
+)
 
 
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))
@@ -19,20 +28,22 @@ from surfexp.commands.surface_arguments import finish, map_of, opened, progress_
 @click.option("--tolerance", default=1e-3, help="largest relative duality gap of the relaxed problem")
 @surface_options
 @result_option()
-def segment(path: str, map_name: str | None, smoothness: float, tolerance: float, target: Path, **given: Any) -> None:
+def segment(path: str, map_name: str | None, smoothness: float, tolerance: float, target: Path, **given: Any) -> int:
     """Two regions of a surface with a short boundary and a proved lower bound.
 
     They are where MAP is larger and where it is smaller. Without MAP it is the mean curvature, clipped at the median of
     its size: gyri and sulci of a cortex.
     """
+    from surfexp.tasks.files import check_target
     from surfexp.tasks.segmentation import segment as task
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files) if map_name else None
+    ready(target, files, partial(check_target, labels=True))
     started = time.perf_counter()
     with progress_line("segment") as progress:
         parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, progress=progress)
     names = ("c1", "c2", "energy", "lower_bound", "gap", "labelling_gap", "converged", "perimeter")
     facts = {name: getattr(parts, name) for name in names} | {"seconds": time.perf_counter() - started}
     options = {"smoothness": smoothness, "tolerance": tolerance, "map": map_name or "mean curvature"}
-    finish(target, parts, surface, "convex Chan-Vese", options, files, facts, parts.notes)
+    return finish(target, parts, surface, "convex Chan-Vese", options, files, facts, parts.notes)

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from surfexp.commands.certificate import write_certificate
+from surfexp.commands.certificate import Inputs, write_certificate
 
 if TYPE_CHECKING:
     from surfexp.contract.arrays import Floats
     from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]
+NOT_CERTIFIED = 3
 
 
 def surface_options(command: Command) -> Command:
@@ -48,28 +49,29 @@ def result_option(required: bool = True) -> Callable[[Command], Command]:
 
 def opened(
     path: str, mask: str | None, maps: tuple[str, ...], unit: str, hemisphere: str | None, repair: bool
-) -> tuple[Surface, list[Path]]:
+) -> tuple[Surface, Inputs]:
     """Return the surface that the arguments describe, and the files that went into it."""
     from surfexp.tasks.files import read
 
     named = dict(item.partition("=")[::2] for item in maps)
     if "" in named.values():
         raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
+    masks = [str(mask) if Path(str(mask)).is_file() else str(mask).partition(":")[0]] if mask else []
+    files = Inputs(path, *named.values(), *masks)
     surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
     for note in surface.notes:
         click.echo(f"{path}: {note}", err=True)
-    masks = [Path(str(mask).partition(":")[0])] if mask else []
-    return surface, [Path(path), *map(Path, named.values()), *masks]
+    return surface, files
 
 
-def map_of(surface: Surface, given: str, files: list[Path]) -> Floats:
+def map_of(surface: Surface, given: str, files: Inputs) -> Floats:
     """Return a map by the name that the surface carries it under, or those of a file side by side."""
     from surfexp.io.map_files import side_by_side
 
     return side_by_side(given_maps(surface, given, files), given)
 
 
-def given_maps(surface: Surface, given: str, files: list[Path]) -> dict[str, Floats]:
+def given_maps(surface: Surface, given: str, files: Inputs) -> dict[str, Floats]:
     """Return a map by the name that the surface carries it under, or those of a file, which joins the inputs.
 
     Raises
@@ -86,7 +88,7 @@ def given_maps(surface: Surface, given: str, files: list[Path]) -> dict[str, Flo
         near = get_close_matches(given, known, 1)
         hint = f"did you mean {near[0]!r}?" if near else f"it carries {', '.join(known)}"
         raise ValueError(f"{given} is no file, and no map that {surface.name} carries; {hint}")
-    files.append(Path(given))
+    files.add(given)
     return read_maps(given, surface.hemisphere)
 
 
@@ -95,13 +97,25 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     import numpy as np
 
     from surfexp.io.map_files import holds_names
-    from surfexp.io.reading import WITH_MAPS
+    from surfexp.io.writing import WITH_MAPS
 
     if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
         return {next(iter(maps)): values}
     widths = [1 if part.ndim == 1 else part.shape[1] for part in maps.values()]
     parts = np.split(values, np.cumsum(widths)[:-1], axis=1)
     return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in zip(maps, parts, strict=True)}
+
+
+def ready(target: Path, files: Inputs, check: Callable[[Path], None]) -> None:
+    """Refuse a result that cannot be written, or would overwrite what it is made of, before anything is computed.
+
+    Raises
+    ------
+    ValueError
+        Naming what is wrong with the target.
+    """
+    check(target)
+    files.refuse_to_overwrite(target)
 
 
 @contextmanager
@@ -127,11 +141,17 @@ def finish(
     surface: Surface | None,
     method: str,
     options: dict[str, Any],
-    files: list[Path],
+    files: Inputs,
     facts: dict[str, Any],
     notes: tuple[str, ...] = (),
-) -> None:
-    """Write a result with its certificate, and say both in one line."""
+) -> int:
+    """Write a result with its certificate, and say both in one line.
+
+    Returns
+    -------
+    int
+        3 where the certificate says that something did not converge or is not proved complete, else 0.
+    """
     from surfexp.tasks.files import write
 
     write(target, result, surface)
@@ -140,6 +160,7 @@ def finish(
         click.echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
     click.echo(f"{target}: {shown} (certificate: {certificate.name})")
+    return NOT_CERTIFIED if facts.get("converged") is False or facts.get("complete") is False else 0
 
 
 def _short(value: Any) -> str:

@@ -8,8 +8,17 @@ from typing import Any
 
 import click
 
+from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, progress_line, result_option, surface_options
+from surfexp.commands.surface_arguments import (
+    finish,
+    map_of,
+    opened,
+    progress_line,
+    ready,
+    result_option,
+    surface_options,
+)
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
@@ -29,11 +38,13 @@ EXAMPLES = {
 @click.option("--tolerance", default=1e-8, help="largest relative residual")
 @surface_options
 @result_option()
-def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> None:
+def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> int:
     """Laplace-Beltrami eigenpairs of a surface, proved to be the lowest."""
+    from surfexp.tasks.files import check_target
     from surfexp.tasks.spectra import eigenpairs
 
     surface, files = opened(path, **given)
+    ready(target, files, check_target)
     started = time.perf_counter()
     with progress_line("modes") as progress:
         system = eigenpairs(surface, count, tolerance=tolerance, progress=progress)
@@ -42,7 +53,9 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
         "residual": float(system.residuals.max()),
         "seconds": time.perf_counter() - started,
     }
-    finish(target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes)
+    return finish(
+        target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes
+    )
 
 
 @click.command(**shown("geodesic", *EXAMPLES["geodesic"]))
@@ -52,9 +65,11 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
 @result_option()
 def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) -> None:
     """Geodesic distance from vertices, by fast marching."""
+    from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import geodesic as task
 
     surface, files = opened(path, **given)
+    ready(target, files, check_target)
     started = time.perf_counter()
     values = task(surface, sources)
     facts = {"seconds": time.perf_counter() - started}
@@ -67,9 +82,11 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
 @result_option()
 def curvature(path: str, target: Path, **given: Any) -> None:
     """Mean curvature, positive where the surface bulges outward."""
+    from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import mean_curvature
 
     surface, files = opened(path, **given)
+    ready(target, files, check_target)
     finish(target, {"mean curvature": mean_curvature(surface)}, surface, "mean curvature", {}, files, {})
 
 
@@ -85,12 +102,14 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     Without MAP it is that of the first eigenfunction. The result is .vtk, .ply or .graphml.
     """
     from surfexp.commands.certificate import write_certificate
-    from surfexp.skeleton.export import write_skeleton
+    from surfexp.skeleton.export import check_skeleton_target, write_skeleton
     from surfexp.tasks.skeletons import first_eigenfunction, reeb_graph
     from surfexp.tasks.spectra import eigenpairs
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files) if map_name else first_eigenfunction(eigenpairs(surface, 3))
+    given_map = map_of(surface, map_name, files) if map_name else None
+    ready(target, files, check_skeleton_target)
+    values = first_eigenfunction(eigenpairs(surface, 3)) if given_map is None else given_map
     graph = reeb_graph(surface, values, count=count)
     write_skeleton(target, graph)
     facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}
@@ -113,8 +132,12 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
     """
     import numpy as np
 
+    from surfexp.io.map_files import check_map_target
     from surfexp.tasks.distances import distance as task
 
+    files = Inputs(first, second)
+    if target is not None:
+        ready(target, files, check_map_target)
     started = time.perf_counter()
     with progress_line("distance") as progress:
         found = task(first, second, count, limit=limit, progress=progress)
@@ -130,7 +153,7 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
             "seconds": time.perf_counter() - started,
         }
         maps = {"correspondence": found.correspondence.astype(float)}
-        finish(target, maps, None, found.method, {"n": count}, [Path(first), Path(second)], facts, found.notes)
+        finish(target, maps, None, found.method, {"n": count}, files, facts, found.notes)
 
 
 @click.command(**shown("align", *EXAMPLES["align"]))
@@ -143,8 +166,11 @@ def align(first: str, second: str, count: int, target: Path) -> None:
 
     Signs, order and rotations of the modes of SECOND become those of FIRST.
     """
+    from surfexp.io.map_files import check_map_target
     from surfexp.tasks.distances import align as task
 
+    files = Inputs(first, second)
+    ready(target, files, check_map_target)
     started = time.perf_counter()
     with progress_line("align") as progress:
         found = task(first, second, count, progress=progress)
@@ -156,7 +182,7 @@ def align(first: str, second: str, count: int, target: Path) -> None:
         "seconds": time.perf_counter() - started,
     }
     maps = {"vectors": found.vectors, "basis": found.basis}
-    finish(target, maps, None, "mode alignment", {"k": count}, [Path(first), Path(second)], facts, found.notes)
+    finish(target, maps, None, "mode alignment", {"k": count}, files, facts, found.notes)
 
 
 @click.command(**shown("convert", *EXAMPLES["convert"]))
@@ -168,9 +194,11 @@ def convert(path: str, target: Path, **given: Any) -> None:
 
     The suffix of TARGET decides; maps are left out where the format has no room for them.
     """
+    from surfexp.io.writing import check_mesh_target
     from surfexp.tasks.files import write
 
-    surface, _ = opened(path, **given)
+    surface, files = opened(path, **given)
+    ready(target, files, check_mesh_target)
     write(target, surface)
     click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
 
@@ -189,9 +217,11 @@ def plot(path: str, map_name: str | None, width: int, label: str, target: Path, 
 
     The picture is .png or .svg.
     """
+    from surfexp.tasks.pictures import check_picture_target
     from surfexp.tasks.pictures import plot as task
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files) if map_name else None
+    ready(target, files, check_picture_target)
     task(surface, values, width=width, label=label or Path(map_name or "").name).save(target)
     click.echo(str(target))

@@ -12,7 +12,7 @@ from surfexp.io.foreign import parsing
 from surfexp.io.numbers import real_array
 from surfexp.mesh.label_map import LabelMap
 
-SUFFIXES = (".dscalar.nii", ".dlabel.nii", ".dtseries.nii")
+SUFFIXES = (".dscalar.nii", ".dlabel.nii", ".dtseries.nii", ".pscalar.nii")
 STRUCTURES = {"left": "CIFTI_STRUCTURE_CORTEX_LEFT", "right": "CIFTI_STRUCTURE_CORTEX_RIGHT"}
 
 
@@ -84,7 +84,9 @@ def _rows(path: Path, hemisphere: str) -> tuple[Any, Floats]:
         stored = np.asarray(image.dataobj)
     data = real_array(stored, "its data")
     if type(models).__name__ != "BrainModelAxis":
-        raise ValueError(f"its columns are a {type(models).__name__}, vertices of cortex are needed (dense maps)")
+        raise ValueError(
+            f"its columns are a {type(models).__name__}, vertices of cortex are needed: write a dense map (.dscalar.nii)"
+        )
     for name, columns, model in models.iter_structures():
         if name == structure:
             count = int(models.nvertices[name])

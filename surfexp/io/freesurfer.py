@@ -39,7 +39,14 @@ def read_geometry(path: Path) -> tuple[Floats, Integers]:
     """
     from nibabel.freesurfer import read_geometry as read
 
-    _check_length(path.read_bytes())
+    data = path.read_bytes()
+    _check_length(data)
+    if data.startswith(TRIANGLES):
+        head = _end_of_stamp(data)
+        count, corners = np.frombuffer(data, ">i4", 2, head).tolist()
+        points = np.frombuffer(data, ">f4", 3 * count, head + 8).reshape(-1, 3)
+        triangles = np.frombuffer(data, ">i4", 3 * corners, head + 8 + 12 * count).reshape(-1, 3)
+        return points.astype(np.float64), triangles.astype(np.int64)
     with parsing("FreeSurfer geometry"):
         vertices, faces = read(path)
     return vertices.astype(np.float64), faces.astype(np.int64)
@@ -52,9 +59,7 @@ def _check_length(data: bytes) -> None:
     """
     if not data.startswith(TRIANGLES):
         return
-    head = data.find(b"\n\n", 3) + 2
-    if head < 2 or len(data) < head + 8:
-        raise ValueError("FreeSurfer geometry has no header")
+    head = _end_of_stamp(data)
     vertices, faces = np.frombuffer(data, ">i4", 2, head).tolist()
     end = head + 8 + 12 * (vertices + faces)
     if vertices < 0 or faces < 0 or len(data) < end:
@@ -65,6 +70,15 @@ def _check_length(data: bytes) -> None:
         raise ValueError(
             f"FreeSurfer geometry has {len(data) - end} bytes beyond its {faces} faces: the header's count is wrong"
         )
+
+
+def _end_of_stamp(data: bytes) -> int:
+    """Return where the counts begin: behind two ends of line, or behind one, as some versions wrote it."""
+    first = data.find(b"\n", 3) + 1
+    head = first + 1 if data[first : first + 1] == b"\n" else first
+    if not first or len(data) < head + 8:
+        raise ValueError("FreeSurfer geometry has no header")
+    return head
 
 
 def write_freesurfer_geometry(path: Path, mesh: TriangleMesh) -> None:
@@ -94,6 +108,59 @@ def read_map(path: Path) -> Floats:
     return real_array(np.frombuffer(data, ">f4", count, 15), "the map")
 
 
+def is_old_map(path: Path) -> bool:
+    """Whether the length of a file is that of FreeSurfer's old curvature format: two counts of 3 bytes, then 2 a vertex."""
+    with path.open("rb") as stream:
+        count = int.from_bytes(stream.read(3), "big")
+    return count > 0 and path.stat().st_size == 6 + 2 * count
+
+
+def read_old_map(path: Path) -> Floats:
+    """(n,) values of a curvature file in the old format, hundredths in two bytes each."""
+    data = path.read_bytes()
+    return real_array(np.frombuffer(data, ">i2", int.from_bytes(data[:3], "big"), 6) / 100.0, "the map")
+
+
+def read_ascii_geometry(path: Path) -> tuple[Floats, Integers]:
+    """Vertices and faces of an ASCII surface (.asc of mris_convert); the ripped flag of each is left out.
+
+    Raises
+    ------
+    ValueError
+        If the file ends early.
+    """
+    rows = _ascii_rows(path)
+    if not rows or len(rows[0]) != 2:
+        raise ValueError("it is no ASCII surface of FreeSurfer: its first row has no two counts")
+    vertices, faces = map(int, rows[0])
+    if vertices < 0 or faces < 0 or len(rows) != 1 + vertices + faces:
+        raise ValueError(f"it has {len(rows) - 1} rows for {vertices} vertices and {faces} faces")
+    points = np.array([row[:3] for row in rows[1 : 1 + vertices]], dtype=np.float64)
+    return points, np.array([row[:3] for row in rows[1 + vertices :]], dtype=np.int64)
+
+
+def read_ascii_map(path: Path) -> Floats:
+    """(n,) values of an ASCII map (.asc of mris_convert): rows of vertex, x, y, z, value.
+
+    Raises
+    ------
+    ValueError
+        If a row has another length, or vertices are not counted from 0.
+    """
+    rows = _ascii_rows(path)
+    if not rows or any(len(row) != 5 for row in rows):
+        raise ValueError("it is no ASCII map of FreeSurfer, which has five numbers a row: vertex, x, y, z, value")
+    table = np.array(rows, dtype=np.float64)
+    if not np.array_equal(table[:, 0], np.arange(len(table))):
+        raise ValueError("its vertices are not counted from 0 in order")
+    return real_array(table[:, 4].copy(), "the map")
+
+
+def _ascii_rows(path: Path) -> list[list[str]]:
+    lines = path.read_text("ascii", "replace").splitlines()
+    return [words for line in lines if (words := line.split("#")[0].split())]
+
+
 def write_curvature(path: Path, values: Floats, face_count: int = 0) -> None:
     """Write (n,) values as a curvature file, in single precision; NaN, which FreeSurfer does not know, is refused.
 
@@ -111,7 +178,7 @@ def write_curvature(path: Path, values: Floats, face_count: int = 0) -> None:
 
 
 def read_volume_map(path: Path) -> Floats:
-    """(n,) or (n, frames) values of a map in a .mgh or .mgz file.
+    """(n,) or (n, frames) values of a map in a .mgh, .mgz or NIfTI file of one row of voxels.
 
     Raises
     ------
@@ -120,12 +187,19 @@ def read_volume_map(path: Path) -> Floats:
     """
     import nibabel
 
-    with parsing(".mgh file"):
-        data = np.asarray(nibabel.freesurfer.load(path).dataobj)
-    n = data.shape[0] if data.ndim else 0
-    if data.size == 0 or any(length != 1 for length in data.shape[1:3]):
-        raise ValueError(f"it is a volume of shape {data.shape}, a map has shape (n, 1, 1) or (n, 1, 1, frames)")
-    values = real_array(data.reshape(n, -1), "the map")
+    folded = path.name.lower().endswith((".nii", ".nii.gz"))
+    with parsing("NIfTI file" if folded else ".mgh file"):
+        image = nibabel.load(path) if folded else nibabel.freesurfer.load(path)
+        data = np.asarray(image.dataobj)
+    folded = folded and data.shape[1:2] == (1,)
+    space = data.shape[:3]
+    # mri_convert folds rows that are too long for NIfTI into (a, 1, b), the first axis fastest
+    if data.size == 0 or sum(length != 1 for length in space) > (2 if folded else 1):
+        raise ValueError(
+            f"it is a volume of shape {data.shape}, a map has one row of voxels: (n, 1, 1) or (n, 1, 1, frames); "
+            "sample it on the surface first (mri_vol2surf)"
+        )
+    values = real_array(data.reshape(int(np.prod(space)), -1, order="F"), "the map")
     return values[:, 0] if values.shape[1] == 1 else values
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,13 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
-from surfexp.io.numbers import real_array
+from surfexp.io.numbers import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 POINTS, TRIANGLES, LABELS = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE", "NIFTI_INTENT_LABEL"
+NODES = "NIFTI_INTENT_NODE_INDEX"
+LARGEST_COUNT = 1 << 26
 STRUCTURE = "AnatomicalStructurePrimary"
 CORTEX = {"left": "CortexLeft", "right": "CortexRight"}
 
@@ -85,14 +88,51 @@ def read_gifti_maps(path: Path) -> dict[str, Floats]:
         If the file is not GIFTI or holds a surface.
     """
     image = _load(path)
+    return _maps(image.darrays)
+
+
+def _maps(arrays: Sequence[Any]) -> dict[str, Floats]:
     maps: dict[str, Floats] = {}
-    for number, array in enumerate(image.darrays, 1):
+    arrays, nodes = _nodes(arrays)
+    for number, array in enumerate(arrays, 1):
         values = np.asarray(array.data)
         if values.ndim > 2 or array.intent == image_code(POINTS) or array.intent == image_code(TRIANGLES):
             raise ValueError(f"array {number} of the GIFTI file is no map but has shape {values.shape}")
         name = str(array.metadata.get("Name", "")).strip() or f"map {number}"
-        maps[name if name not in maps else f"{name} {number}"] = real_array(np.squeeze(values), "the map")
+        maps[name if name not in maps else f"{name} {number}"] = _at_nodes(
+            real_array(np.squeeze(values), "the map"), nodes
+        )
     return maps
+
+
+def _nodes(arrays: Sequence[Any]) -> tuple[list[Any], Integers | None]:
+    """Return the arrays that hold values, and the vertex of each row where the file lists them.
+
+    Raises
+    ------
+    ValueError
+        If vertices are listed twice.
+    """
+    lists = [array for array in arrays if array.intent == image_code(NODES)]
+    if len(lists) > 1:
+        raise ValueError(f"it has {len(lists)} arrays of {NODES}, one is read")
+    values = [array for array in arrays if array.intent != image_code(NODES)]
+    return values, index_array(np.ravel(lists[0].data), "its node indices") if lists else None
+
+
+def _at_nodes(values: NDArray[Any], nodes: Integers | None, missing: float = np.nan) -> NDArray[Any]:
+    """Put rows at the vertices that the file lists for them; the vertices between are missing."""
+    if nodes is None:
+        return values
+    if len(values) != len(nodes) or len(np.unique(nodes)) < len(nodes) or nodes.min() < 0:
+        raise ValueError(
+            f"it lists {len(nodes)} node indices, not one vertex of its own for each of {len(values)} values"
+        )
+    if nodes.max() >= LARGEST_COUNT:
+        raise ValueError(f"it lists node {nodes.max()}, the largest is {LARGEST_COUNT - 1}")
+    whole = np.full((int(nodes.max()) + 1, *values.shape[1:]), missing, dtype=values.dtype)
+    whole[nodes] = values
+    return whole
 
 
 def read_gifti_labels(path: Path) -> LabelMap:
@@ -105,7 +145,14 @@ def read_gifti_labels(path: Path) -> LabelMap:
     """
     image = _load(path)
     names = {int(key): str(name) for key, name in image.labeltable.get_labels_as_dict().items()}
-    return LabelMap(np.asarray(image.darrays[0].data, dtype=np.int64), names)
+    arrays, nodes = _nodes(image.darrays)
+    if not arrays:
+        raise ValueError("it holds no labels")
+    # an array of another kind, such as a map, may stand before the labels
+    first = next((array for array in arrays if array.intent == image_code(LABELS)), arrays[0])
+    keys = np.asarray(first.data)
+    keys = index_array(keys[:, 0] if keys.ndim == 2 and keys.shape[1] == 1 else keys, "its labels")
+    return LabelMap(_at_nodes(keys, nodes, -1), names)
 
 
 def image_code(intent: str) -> int:

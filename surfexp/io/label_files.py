@@ -12,6 +12,7 @@ from surfexp.contract.arrays import Integers
 from surfexp.io.cifti import is_cifti, read_cifti_labels
 from surfexp.io.foreign import parsing
 from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels
+from surfexp.io.replacing import replacing
 from surfexp.mesh.label_map import LabelMap
 
 
@@ -41,12 +42,13 @@ def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> No
         given = f"labels go from {labels.min()} to {labels.max()}"
         raise ValueError(f"{given}, the {len(names)} names are of 0..{len(names) - 1}")
     table = LabelMap(labels, dict(enumerate(names)))
-    if path.suffix == ".gii":
-        write_gifti_labels(path, labels, dict(table.names), label_colors(len(names)))
-    elif path.suffix == ".annot":
-        _write_annotation(path, labels, names)
-    else:
+    if path.suffix not in (".gii", ".annot"):
         raise ValueError(f"{path} has an unknown format of labels, choose one of .label.gii, .annot")
+    with replacing(path) as temporary:
+        if path.suffix == ".gii":
+            write_gifti_labels(temporary, labels, dict(table.names), label_colors(len(names)))
+        else:
+            _write_annotation(temporary, labels, names)
 
 
 def read_label_map(path: Path | str, hemisphere: str = "") -> LabelMap:
@@ -90,12 +92,23 @@ def read_labels(path: Path | str) -> tuple[Integers, tuple[str, ...]]:
 
 
 def _read_annotation(path: Path) -> LabelMap:
+    """Labels by the file's own numbers of vertices and colours; a colour that is in no entry of the table is -1."""
     import nibabel
 
     with parsing("annotation"), np.errstate(over="ignore"):
-        keys, _, entries = nibabel.freesurfer.read_annot(path)
-    names = {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)}
-    return LabelMap(np.asarray(keys, dtype=np.int64), names)
+        _, table, entries = nibabel.freesurfer.read_annot(path, orig_ids=True)
+    data = path.read_bytes()
+    pairs = np.frombuffer(data, ">i4", 2 * int.from_bytes(data[:4], "big"), 4).reshape(-1, 2).astype(np.int64)
+    count = len(pairs)
+    if not np.array_equal(np.sort(pairs[:, 0]), np.arange(count)):
+        raise ValueError(f"its {count} entries do not name the vertices 0..{count - 1} once each")
+    colors = np.zeros(count, dtype=np.int64)
+    colors[pairs[:, 0]] = pairs[:, 1]
+    values = table[:, 4].astype(np.int64)
+    order = np.argsort(values, kind="stable")
+    place = np.minimum(np.searchsorted(values[order], colors), max(len(order) - 1, 0))
+    keys = np.where(values[order][place] == colors, order[place], -1) if len(order) else np.full(count, -1)
+    return LabelMap(keys, {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)})
 
 
 def _write_annotation(path: Path, labels: Integers, names: Sequence[str]) -> None:

@@ -15,20 +15,25 @@ from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.label_files import read_label_map
-from surfexp.io.map_shapes import check_map_shapes
+from surfexp.io.map_names import check_map_names
+from surfexp.io.map_shapes import check_map_shapes, scalar_channels
+from surfexp.io.medial_wall import is_outside, outside_names
 from surfexp.io.npz import read_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_maps
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.mesh.label_map import LabelMap
 
 TEXT = (".csv", ".txt", ".dat")
 VOLUMES = (".mgh", ".mgz")
+CURVATURES = (".curv", ".sulc", ".thickness", ".area")
+NIFTI = (".nii", ".nii.gz")
 UNNAMED = ("map", "map 1")
 KNOWN = (
-    ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or a FreeSurfer curvature file (lh.sulc)"
+    ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .nii, .npy, .npz, .csv, .txt, .asc, or a FreeSurfer curvature file "
+    "(lh.sulc)"
 )
-OUTSIDE = {"unknown", "medial_wall", "medial wall", "medialwall", "???", "none", "background"}
 
 
 def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
@@ -72,12 +77,17 @@ def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
         return read_cifti_maps(path, hemisphere)
     if is_gifti(path):
         return read_gifti_maps(path)
-    if suffix in VOLUMES:
+    if suffix in VOLUMES or path.name.lower().endswith(NIFTI):
         return {"map": freesurfer.read_volume_map(path)}
+    if suffix == ".asc":
+        return {"map": freesurfer.read_ascii_map(path)}
     with path.open("rb") as stream:
-        if stream.read(3) != b"\xff\xff\xff":
-            raise ValueError(f"its format is unknown; known are {KNOWN}")
-    return {"map": freesurfer.read_map(path)}
+        start = stream.read(3)
+    if start == b"\xff\xff\xff":
+        return {"map": freesurfer.read_map(path)}
+    if freesurfer.is_old_map(path):
+        return {"map": freesurfer.read_old_map(path)}
+    raise ValueError(f"its format is unknown; known are {KNOWN}")
 
 
 def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
@@ -137,10 +147,10 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     file = Path(text)
     if file.suffix == ".label":
         inside = _listed(file, count)
-    elif file.suffix == ".annot" or file.name.endswith((".label.gii", ".label.gii.gz", ".dlabel.nii")):
+    elif _has_names(file):
         labels = read_named_labels(file, hemisphere)
         wanted = [name.strip() for name in names.split(",") if name.strip()]
-        kept = wanted or [name for name in labels.names.values() if name.strip().lower() not in OUTSIDE]
+        kept = wanted or [name for name in labels.names.values() if not is_outside(name)]
         if not labels.names and not wanted:
             inside = labels.keys != 0
         else:
@@ -159,9 +169,36 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     return inside
 
 
+def mask_notes(path: Path | str, hemisphere: str = "") -> tuple[str, ...]:
+    """Say which labels of a file were taken for the medial wall, where nobody named those inside.
+
+    Raises
+    ------
+    ValueError
+        As `read_mask`.
+    """
+    file = Path(path)
+    if not file.is_file() or not _has_names(file):
+        return ()
+    labels = read_named_labels(file, hemisphere)
+    used = set(np.unique(labels.keys).tolist())
+    names = outside_names(name for key, name in labels.names.items() if key in used)
+    unnamed = int((~np.isin(labels.keys, list(labels.names))).sum()) if labels.names else 0
+    said = [f"Outside the mask are the labels {', '.join(map(repr, names))} of {file.name}."] if names else []
+    if unnamed:
+        said.append(f"Outside the mask are {unnamed} vertices of {file.name} whose label has no name.")
+    return tuple(said)
+
+
+def _has_names(file: Path) -> bool:
+    return file.suffix == ".annot" or file.name.endswith((".label.gii", ".label.gii.gz", ".dlabel.nii"))
+
+
 def _listed(file: Path, count: int) -> NDArray[np.bool_]:
     with reading(file, "cannot be read as a label"):
         numbers = freesurfer.read_vertex_list(file)
+    # FreeSurfer writes -1 for a point that it could not assign to a vertex
+    numbers = numbers[numbers != -1]
     if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
         worst = numbers.min() if numbers.min() < 0 else numbers.max()
         raise ValueError(f"{file} names vertex {worst}, the surface has 0..{count - 1}")
@@ -185,24 +222,45 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
         If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range.
     """
     path = Path(path)
+    check_map_target(path)
+    check_map_names(maps)
+    lengths = {len(values) for values in maps.values()}
+    # an archive also holds results whose arrays are no maps
+    if len(lengths) != 1 and path.suffix.lower() != ".npz":
+        raise ValueError(f"{path}: maps have {sorted(lengths)} values, one for each vertex of one surface is needed")
     suffix = path.suffix.lower()
-    if suffix == ".npz":
-        arrays: dict[str, Any] = dict(maps)
-        np.savez_compressed(path, **arrays)
-    elif suffix in TEXT:
-        write_table(path, maps)
-    elif is_cifti(path):
-        write_cifti_maps(path, check_single_precision_maps(maps), hemisphere)
-    elif is_gifti(path):
-        write_gifti_maps(path, check_single_precision_maps(maps), hemisphere)
-    elif suffix == ".npy":
-        np.save(path, _single(path, maps))
-    elif suffix in VOLUMES:
-        freesurfer.write_volume_map(path, _single(path, check_single_precision_maps(maps)))
-    elif suffix in (".curv", ".sulc", ".thickness", ".area") or freesurfer.hemisphere_of(path):
-        freesurfer.write_curvature(path, _single(path, check_single_precision_maps(maps)))
-    else:
+    with replacing(path) as temporary:
+        if suffix == ".npz":
+            arrays: dict[str, Any] = dict(maps)
+            np.savez_compressed(temporary, **arrays)
+        elif suffix in TEXT:
+            write_table(temporary, scalar_channels(maps))
+        elif is_cifti(path):
+            write_cifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
+        elif is_gifti(path):
+            write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
+        elif suffix == ".npy":
+            np.save(temporary, _single(path, maps))
+        elif suffix in VOLUMES:
+            freesurfer.write_volume_map(temporary, _single(path, check_single_precision_maps(maps)))
+        else:
+            freesurfer.write_curvature(temporary, _single(path, check_single_precision_maps(maps)))
+
+
+def check_map_target(path: Path | str) -> None:
+    """Refuse a file that no map can be written to: of an unknown format, or in no writable folder.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or is_cifti(path) or is_gifti(path)
+    if not known and not freesurfer.hemisphere_of(path):
         raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
+    check_writable(path)
 
 
 def _single(path: Path, maps: dict[str, Floats]) -> Floats:

@@ -18,3 +18,12 @@ def check_map_shapes(maps: Mapping[str, Floats]) -> None:
     for name, values in maps.items():
         if values.ndim not in (1, 2):
             raise ValueError(f"map {name!r} has shape {values.shape}, (vertices,) or (vertices, channels) is needed")
+
+
+def scalar_channels(maps: dict[str, Floats]) -> dict[str, Floats]:
+    """Return maps of one number a vertex: the channels of others by name and number."""
+    flat: dict[str, Floats] = {}
+    for name, values in maps.items():
+        columns = {name: values} if values.ndim == 1 else {f"{name} {k}": values[:, k] for k in range(values.shape[1])}
+        flat |= columns
+    return flat

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.numbers import checked_geometry, real_array
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -58,5 +59,5 @@ def write_npz_mesh(path: Path, mesh: TriangleMesh, maps: dict[str, Floats]) -> N
     """
     if {"vertices", "faces"} & set(maps):
         raise ValueError("a map is called 'vertices' or 'faces', the names of the mesh: rename it")
-    arrays: dict[str, Any] = {"vertices": mesh.vertices, "faces": mesh.faces, **maps}
+    arrays: dict[str, Any] = {"vertices": mesh.vertices, "faces": mesh.faces, **scalar_channels(maps)}
     np.savez_compressed(path, **arrays)

@@ -1,4 +1,4 @@
-"""Wavefront OBJ files."""
+"""Wavefront OBJ files, and the polygons of MNI's .obj files."""
 
 from __future__ import annotations
 
@@ -6,46 +6,71 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.io.polygons import triangulate
+from surfexp.io.mesh_file import Decoded
+from surfexp.io.polygons import polygons_between
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # fmt: off
-IGNORED = {
-    "vt", "vn", "vp", "g", "o", "s", "usemtl", "mtllib", "l", "p", "usemap", "maplib", "cstype", "deg", "curv", "surf", "end",
-    "lod", "bevel", "c_interp", "d_interp",
+KNOWN = {
+    "vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "l", "p", "usemap", "maplib", "cstype", "deg", "curv", "surf",
+    "end", "lod", "bevel", "c_interp", "d_interp",
 }
 # fmt: on
 
 
-def read_obj(path: Path) -> tuple[Floats, Integers]:
+def read_obj(path: Path) -> Decoded:
     """Vertices and faces of an OBJ file; texture, normals, materials, groups and lines are left out.
+
+    A file of the Montreal Neurological Institute (CIVET's surfaces), which has the same suffix, begins with P.
 
     Raises
     ------
     ValueError
-        If a statement is unknown or cut short, or no vertex or face is there.
+        If a vertex or face is cut short, or none is there.
     """
+    text = path.read_text("utf-8-sig", "replace")
+    if text.lstrip()[:2] in ("P ", "P\t"):
+        return _read_mni(text.split())
     vertices: list[list[float]] = []
     polygons: list[list[int]] = []
-    for number, line in enumerate(path.read_text("utf-8", "replace").replace("\\\n", " ").splitlines(), 1):
+    unknown: dict[str, int] = {}
+    for number, line in enumerate(text.replace("\\\n", " ").splitlines(), 1):
         words = line.split("#")[0].split()
-        if not words or words[0] in IGNORED:
+        if not words or words[0] in KNOWN:
             continue
         try:
             if words[0] == "v" and len(words) >= 4:
                 vertices.append([float(word) for word in words[1:4]])
                 continue
-            if words[0] == "f" and len(words) >= 4:
+            if words[0] in ("f", "fo") and len(words) >= 4:
                 corners = [int(word.split("/")[0]) for word in words[1:]]
                 polygons.append([corner - 1 if corner > 0 else len(vertices) + corner for corner in corners])
                 continue
         except ValueError:
             pass
-        raise ValueError(f"line {number} is not an OBJ statement or is cut short: {line[:40]!r}")
+        if words[0] in ("v", "f", "fo"):
+            raise ValueError(f"line {number} is not an OBJ statement or is cut short: {line[:40]!r}")
+        unknown[words[0][:12]] = unknown.get(words[0][:12], 0) + 1
     if not vertices or not polygons:
         raise ValueError(f"it has {len(vertices)} vertices and {len(polygons)} faces, at least one of each is needed")
-    return np.array(vertices), triangulate(polygons)
+    named = ", ".join(ascii(word) for word in list(unknown)[:5])
+    notes = (f"{sum(unknown.values())} statements of unknown kinds are passed over: {named}.",) if unknown else ()
+    return Decoded(np.array(vertices), polygons, notes=notes)
+
+
+def _read_mni(words: list[str]) -> Decoded:
+    """Five numbers of the material; points, their normals, polygons by where each ends; colours are left out."""
+    try:
+        count = int(words[6])
+        points = np.array(words[7 : 7 + 3 * count], dtype=np.float64).reshape(count, 3)
+        at = 7 + 6 * count
+        items, colours = int(words[at]), {0: 1, 1: int(words[at]), 2: count}[int(words[at + 1])]
+        at += 2 + 4 * colours
+        ends = list(map(int, words[at : at + items]))
+        corners = list(map(int, words[at + items : at + items + ends[-1]]))
+    except (IndexError, KeyError, ValueError) as error:
+        raise ValueError("it begins as an MNI .obj of polygons (P) and is cut short") from error
+    return Decoded(points, polygons_between([0, *ends], corners))
 
 
 def write_obj(path: Path, mesh: TriangleMesh) -> None:

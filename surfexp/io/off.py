@@ -1,41 +1,92 @@
-"""OFF files."""
+"""OFF files in text: OFF, COFF, NOFF, STOFF, 4OFF and their mixtures, with or without the header."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.io.polygons import triangulate
+from surfexp.io.mesh_file import Decoded
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
+HEADER = re.compile(r"(?P<attributes>(?:ST)?C?N?)(?P<homogeneous>4?)(?P<dimension>n?)(?:OFF|off)(?P<count>\d*)")
+Rows = list[list[str]]
 
-def read_off(path: Path) -> tuple[Floats, Integers]:
-    """Vertices and faces of an ASCII OFF file; normals, colours and texture coordinates are left out.
+
+def read_off(path: Path) -> Decoded:
+    """Vertices and faces of an OFF file in text; normals, colours and texture coordinates are left out.
+
+    One row is read for each vertex and face; where rows do not fit, numbers are read in their order, as the format has it.
+    Homogeneous coordinates (4OFF) are divided by their last.
 
     Raises
     ------
     ValueError
-        If the file breaks the format or ends early.
+        If the file breaks the format, is binary, of another dimension than 3, or ends early.
     """
     lines = [line for raw in path.read_text("ascii", "replace").splitlines() if (line := raw.split("#")[0].split())]
-    if not lines or not lines[0][0].endswith("OFF") or len(lines[0][0]) > 6:
+    header = HEADER.fullmatch(lines[0][0]) if lines else None
+    if header is not None:
+        lines[0] = ([header["count"]] if header["count"] else []) + lines[0][1:]
+        if lines[0][:1] and lines[0][0].upper() == "BINARY":
+            raise ValueError("it is a binary OFF file: write it in text, or as PLY")
+    elif not lines or len(lines[0]) != 3 or not all(word.isdecimal() for word in lines[0]):
         raise ValueError("the first word is not OFF")
-    head = lines[0][1:] or (lines.pop(1) if len(lines) > 1 else [])
-    if len(head) < 2:
+    lines = [line for line in lines if line]
+    if header is not None and header["dimension"] and (lines.pop(0) if lines else []) != ["3"]:
+        raise ValueError("its header is nOFF of a dimension that is not 3: three coordinates a vertex are needed")
+    if not lines or len(lines[0]) < 2:
         raise ValueError("the counts of vertices and faces are missing")
-    vertex_count, face_count = int(head[0]), int(head[1])
-    body = lines[1:]
+    vertex_count, face_count = int(lines[0][0]), int(lines[0][1])
+    width = 4 if header is not None and header["homogeneous"] else 3
+    # the count of edges is left out by some
+    body = [line for line in [lines[0][3:], *lines[1:]] if line]
+    try:
+        rows, polygons = _by_rows(body, vertex_count, face_count, width)
+    except ValueError as error:
+        if header is not None and header["attributes"]:
+            raise
+        try:
+            rows, polygons = _by_words(body, vertex_count, face_count, width)
+        except ValueError:
+            raise error from None
+    vertices = np.array(rows, dtype=np.float64).reshape(vertex_count, width)
+    if width == 4:
+        vertices = vertices[:, :3] / vertices[:, 3:]
+    return Decoded(vertices, polygons)
+
+
+def _by_rows(body: Rows, vertex_count: int, face_count: int, width: int) -> tuple[Rows, list[list[int]]]:
     if len(body) < vertex_count + face_count:
         raise ValueError(f"it ends after {len(body)} of {vertex_count} vertices and {face_count} faces")
-    vertices = np.array([line[:3] for line in body[:vertex_count]], dtype=np.float64)
-    rows = body[vertex_count : vertex_count + face_count]
-    polygons = [list(map(int, row[1 : 1 + int(row[0])])) for row in rows]
-    short = [index for index, row in enumerate(rows) if len(polygons[index]) != int(row[0])]
-    if short:
-        raise ValueError(f"face {short[0]} is cut short: {' '.join(rows[short[0]])!r}")
-    return vertices, triangulate(polygons)
+    rows = [line[:width] for line in body[:vertex_count]]
+    for number, row in enumerate(rows):
+        if len(row) < width:
+            raise ValueError(f"vertex {number} has {len(row)} coordinates, {width} are needed")
+    faces = body[vertex_count : vertex_count + face_count]
+    polygons = [list(map(int, row[1 : 1 + int(row[0])])) for row in faces]
+    for row, polygon in zip(faces, polygons, strict=True):
+        if len(polygon) != int(row[0]):
+            raise ValueError(f"face {faces.index(row)} is cut short: {' '.join(row)!r}")
+    return rows, polygons
+
+
+def _by_words(body: Rows, vertex_count: int, face_count: int, width: int) -> tuple[Rows, list[list[int]]]:
+    words = [word for line in body for word in line]
+    at = width * vertex_count
+    rows = [words[k : k + width] for k in range(0, at, width)]
+    polygons = []
+    for _ in range(face_count):
+        size = int(words[at]) if at < len(words) else -1
+        polygon = list(map(int, words[at + 1 : at + 1 + size]))
+        if size < 0 or len(polygon) != size:
+            raise ValueError("it ends early")
+        polygons.append(polygon)
+        at += 1 + size
+    if at != len(words):
+        raise ValueError(f"it has {len(words)} numbers, {at} are announced")
+    return rows, polygons
 
 
 def write_off(path: Path, mesh: TriangleMesh) -> None:

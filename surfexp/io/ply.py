@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -9,9 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.io.polygons import triangles_of_strips, triangulate
+from surfexp.contract.arrays import Floats
+from surfexp.io.map_names import names_without_spaces
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.mesh_file import Decoded
+from surfexp.io.polygons import triangles_of_strips
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+COLOURS = ("red", "green", "blue")
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
@@ -30,7 +36,7 @@ class Element:
     properties: list[tuple[str, str, str | None]] = field(default_factory=list)
 
 
-def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
+def read_ply(path: Path) -> Decoded:
     """Vertices, faces and the vertices' other scalar properties.
 
     Raises
@@ -40,15 +46,17 @@ def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     """
     data = path.read_bytes()
     order, elements, offset = _header(data)
-    text = data[offset:].split() if order == "=" else None
     columns: dict[str, dict[str, Any]] = {}
-    offset = 0 if text is not None else offset
-    for element in elements:
-        if text is not None:
-            columns[element.name], offset = _ascii_element(text, offset, element)
-        else:
+    if order == "=":
+        columns = _ascii_columns(data[offset:], elements)
+    else:
+        for element in elements:
             columns[element.name], offset = _binary_element(data, offset, element, order)
     vertex, polygons, strips = columns.get("vertex", {}), _lists(columns, "face"), _lists(columns, "tristrips")
+    if {"x", "y", "z"} <= set(vertex) and polygons is None and strips is None and len(vertex["x"]):
+        raise ValueError(
+            f"it holds {len(vertex['x'])} points without faces: reconstruct a surface from them first (point_cloud)"
+        )
     if not {"x", "y", "z"} <= set(vertex) or (polygons is None and strips is None):
         raise ValueError(
             "it has no element 'vertex' with x, y, z or no element 'face' or 'tristrips' with vertex_indices"
@@ -57,10 +65,28 @@ def read_ply(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     scalars = {
         name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)
     }
-    parts = [] if strips is None else [triangles_of_strips(strips)]
-    if polygons is not None:
-        parts.append(polygons.astype(np.int64) if isinstance(polygons, np.ndarray) else triangulate(polygons))
-    return positions, np.concatenate(parts), scalars
+    found = triangles_of_strips([] if strips is None else strips)
+    if polygons is None:
+        return Decoded(positions, found, scalars)
+    return Decoded(positions, polygons if not len(found) else [*found.tolist(), *polygons], scalars)
+
+
+def _ascii_columns(data: bytes, elements: list[Element]) -> dict[str, dict[str, Any]]:
+    """Columns of all elements, word by word; where a row has more than is declared, row by row."""
+    words, at = data.split(), 0
+    columns = {}
+    try:
+        for element in elements:
+            columns[element.name], at = _ascii_element(words, at, element)
+        if at == len(words):
+            return columns
+        error = ValueError(f"it has {len(words)} numbers where {at} are declared")
+    except ValueError as found:
+        error = found
+    try:
+        return _ascii_rows(data.splitlines(), elements)
+    except (ValueError, IndexError):
+        raise error from None
 
 
 def _lists(columns: dict[str, dict[str, Any]], element: str) -> Any:
@@ -69,9 +95,10 @@ def _lists(columns: dict[str, dict[str, Any]], element: str) -> Any:
 
 
 def _header(data: bytes) -> tuple[str, list[Element], int]:
-    end = data.find(b"end_header")
-    if not data.startswith(b"ply") or end < 0:
+    closing = re.search(rb"(?:^|[\r\n])[ \t]*end_header[ \t]*(?:\r\n|\n|\r|$)", data)
+    if not data.startswith(b"ply") or closing is None:
         raise ValueError("it has no PLY header")
+    end = closing.start()
     order, elements = "", list[Element]()
     for line in data[:end].decode("ascii", "replace").splitlines():
         words = line.split()
@@ -86,7 +113,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
             elements[-1].properties.append((words[-1], TYPES[words[-2]], TYPES[words[2]] if is_list else None))
     if not order:
         raise ValueError("its header names no format")
-    return order, elements, data.index(b"\n", end) + 1 if b"\n" in data[end:] else len(data)
+    return order, elements, closing.end()
 
 
 def _ascii_element(words: list[bytes], at: int, element: Element) -> tuple[dict[str, Any], int]:
@@ -99,16 +126,39 @@ def _ascii_element(words: list[bytes], at: int, element: Element) -> tuple[dict[
             )
         table = np.array(block, dtype=np.float64).reshape(element.count, width)
         return {name: table[:, k] for k, (name, _, _) in enumerate(element.properties)}, at + len(block)
-    lists: dict[str, list[list[int]]] = {name: [] for name, _, _ in element.properties}
+    lists: dict[str, list[list[float]]] = {name: [] for name, _, _ in element.properties}
     for index in range(element.count):
-        for name, _, length in element.properties:
+        for name, kind, length in element.properties:
             size = int(words[at]) if length and at < len(words) else 1
             at += bool(length)
-            if at + size > len(words):
+            if size < 0 or at + size > len(words):
                 raise ValueError(f"it ends after {index} of {element.count} entries of {element.name!r}")
-            lists[name].append([int(float(word)) for word in words[at : at + size]])
+            lists[name].append(list(map(int if kind[0] in "iu" else float, words[at : at + size])))
             at += size
-    return dict(lists), at
+    return {name: _scalars_or_lists(lists[name], length) for name, _, length in element.properties}, at
+
+
+def _ascii_rows(lines: list[bytes], elements: list[Element]) -> dict[str, dict[str, Any]]:
+    """Columns of elements of which each has a row of its own; what follows the declared properties is left out."""
+    rows = [words for line in lines if (words := line.split())]
+    columns = {}
+    at = 0
+    for element in elements:
+        kept: list[bytes] = []
+        for number, row in enumerate(rows[at : at + element.count]):
+            width = 0
+            for _, _, length in element.properties:
+                width += 1 + (int(row[width]) if length and width < len(row) else 0)
+            if width > len(row):
+                raise ValueError(f"entry {number} of {element.name!r} is cut short")
+            kept += row[:width]
+        columns[element.name], _ = _ascii_element(kept, 0, element)
+        at += element.count
+    return columns
+
+
+def _scalars_or_lists(rows: list[list[float]], length: str | None) -> Any:
+    return rows if length is not None else np.array(rows, dtype=np.float64).reshape(-1)
 
 
 def _binary_element(data: bytes, at: int, element: Element, order: str) -> tuple[dict[str, Any], int]:
@@ -143,7 +193,7 @@ def _column(values: NDArray[Any], is_list: bool) -> Any:
 
 
 def _mixed_element(data: bytes, at: int, element: Element, order: str) -> tuple[dict[str, Any], int]:
-    lists: dict[str, list[list[int]]] = {name: [] for name, _, _ in element.properties}
+    lists: dict[str, list[list[float]]] = {name: [] for name, _, _ in element.properties}
     for index in range(element.count):
         for name, kind, length in element.properties:
             try:
@@ -155,17 +205,36 @@ def _mixed_element(data: bytes, at: int, element: Element, order: str) -> tuple[
             except ValueError as error:
                 raise ValueError(f"it ends after {index} of {element.count} entries of {element.name!r}") from error
             at += size * np.dtype(kind).itemsize
-    return dict(lists), at
+    return {name: _scalars_or_lists(lists[name], length) for name, _, length in element.properties}, at
 
 
 def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
-    """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name."""
-    maps = {"_".join(name.split()): values for name, values in (scalars or {}).items()}
-    names = ["x", "y", "z", *maps]
+    """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name.
+
+    A map of three whole numbers from 0 to 255 that is called a colour is written as such, as viewers read it.
+    """
+    colours = {name: values for name, values in (scalars or {}).items() if _is_colour(name, values)}
+    if len(colours) > 1:
+        raise ValueError(f"maps {', '.join(colours)} are all colours, a PLY file holds one: leave the others out")
+    channels = scalar_channels({name: values for name, values in (scalars or {}).items() if name not in colours})
+    reserved = ("x", "y", "z", *(COLOURS if colours else ()))
+    properties = [(axis, "double", "<f8", mesh.vertices[:, k]) for k, axis in enumerate("xyz")]
+    names = names_without_spaces(channels, reserved)
+    properties += [(name, "double", "<f8", values) for name, values in zip(names, channels.values(), strict=True)]
+    for values in colours.values():
+        properties += [(name, "uchar", "u1", values[:, k]) for k, name in enumerate(COLOURS)]
     head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
-    head += [f"property double {name}" for name in names]
+    head += [f"property {kind} {name}" for name, kind, _, _ in properties]
     head += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
-    vertices = np.column_stack([mesh.vertices, *maps.values()]).astype("<f8")
+    vertices = np.empty(len(mesh.vertices), dtype=[(name, code) for name, _, code, _ in properties])
+    for name, _, _, values in properties:
+        vertices[name] = values
     faces = np.empty(len(mesh.faces), dtype=[("length", "u1"), ("corners", "<i4", (3,))])
     faces["length"], faces["corners"] = 3, mesh.faces
-    path.write_bytes("\n".join(head).encode("ascii", "replace") + vertices.tobytes() + faces.tobytes())
+    path.write_bytes("\n".join(head).encode("utf-8") + vertices.tobytes() + faces.tobytes())
+
+
+def _is_colour(name: str, values: Floats) -> bool:
+    """Whether a map is a colour: by its name, its three channels, and their range."""
+    named = any(word in name.lower() for word in ("rgb", "color", "colour"))
+    return named and values.ndim == 2 and values.shape[1] == 3 and bool(np.isin(values, np.arange(256)).all())

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io import freesurfer
@@ -12,35 +16,50 @@ from surfexp.io.entrance import reading
 from surfexp.io.gifti import hemisphere_of_gifti, is_gifti, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.map_shapes import check_map_shapes
+from surfexp.io.mesh_file import Decoded, MeshFile
 from surfexp.io.npz import read_npz_mesh
-from surfexp.io.numbers import LARGEST_BYTES, checked_geometry
+from surfexp.io.numbers import LARGEST_BYTES, checked_geometry, real_array
 from surfexp.io.obj import read_obj
 from surfexp.io.off import read_off
 from surfexp.io.open3d_files import MESH_SUFFIXES, POINT_SUFFIXES, read_with_open3d
 from surfexp.io.ply import read_ply
+from surfexp.io.polygons import triangulate
 from surfexp.io.stl import read_stl
 from surfexp.io.tosca import read_vert_tri
 from surfexp.io.vtk import read_vtk
-from surfexp.io.vtp import read_vtp
+from surfexp.io.vtp import read_vtp, read_vtu
 
-WITHOUT_MAPS = {".off": read_off, ".obj": read_obj, ".stl": read_stl, ".vert": read_vert_tri, ".tri": read_vert_tri}
-WITH_MAPS = {".ply": read_ply, ".vtk": read_vtk, ".vtp": read_vtp, ".npz": read_npz_mesh}
-KNOWN = (
-    ".off, .obj, .ply, .stl, .gii, .vtk, .vtp, .npz, .vert/.tri, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"
-)
+READERS: dict[str, Callable[[Path], Decoded]] = {".off": read_off, ".obj": read_obj, ".stl": read_stl, ".ply": read_ply}
+READERS |= {".vtk": read_vtk, ".vtp": read_vtp, ".vtu": read_vtu}
+ARRAYS: dict[str, Callable[[Path], Any]] = {".vert": read_vert_tri, ".tri": read_vert_tri, ".npz": read_npz_mesh}
+ARRAYS |= {".asc": freesurfer.read_ascii_geometry}
+KNOWN = ", ".join([*READERS, ".gii, .npz, .vert/.tri, .asc, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"])
 
 LEFT = {"l", "lh", "left"}
 # lh and rh anywhere between signs, left and right, hemi-L, and the single letters of HCP and BIDS
 NAMED_SIDE = re.compile(r"(?:^|(?<=[._-]))(lh|rh|LH|RH|left|right|(?<=hemi-)[LR]|(?<=[.])[LR](?=[.]))(?=$|[._-])")
 
-__all__ = ["hemisphere_of_file", "read_maps", "read_mesh"]
+__all__ = ["hemisphere_of_file", "read_maps", "read_mesh", "read_mesh_file"]
 
 
 def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
     """Vertices, faces and scalar maps of a mesh file, exactly as they stand there.
 
-    OFF, OBJ, PLY, STL (welded), VTK (.vtk, .vtp), GIFTI, npz, FreeSurfer geometry (any name), TOSCA's .vert/.tri; what open3d
-    reads beside. Polygons become triangles. Numbers are checked, the surface is not: see `surfexp.mesh.validate`.
+    Raises
+    ------
+    ValueError
+        As `read_mesh_file`.
+    """
+    file = read_mesh_file(path)
+    return file.vertices, file.faces, file.scalars
+
+
+def read_mesh_file(path: Path | str) -> MeshFile:
+    """Return all that a mesh file holds, exactly as it stands there, with what was passed over.
+
+    OFF, OBJ (also MNI's), PLY, STL (welded), VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry (any name), TOSCA's
+    .vert/.tri; what open3d reads beside. Polygons become triangles. Numbers are checked, the surface is not: see
+    `surfexp.mesh.validate`.
 
     Raises
     ------
@@ -49,13 +68,15 @@ def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
     """
     path = Path(path)
     with reading(path, "cannot be read as a mesh"):
-        vertices, faces, scalars = _read(path)
+        found = _read(path)
+        vertices = real_array(np.asarray(found.vertices), "the vertices")
+        faces, notes = triangulate(found.polygons, vertices)
         points, corners = checked_geometry(vertices, faces)
-        check_map_shapes(scalars)
-        for name, values in scalars.items():
+        check_map_shapes(found.scalars)
+        for name, values in found.scalars.items():
             if len(values) != len(points):
                 raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")
-    return points, corners, scalars
+    return MeshFile(points, corners, found.scalars, (*found.notes, *notes), found.frame)
 
 
 def hemisphere_of_file(path: Path | str) -> str:
@@ -74,25 +95,25 @@ def hemisphere_of_name(name: str) -> str:
     return sides.pop() if len(sides) == 1 else ""
 
 
-def _read(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
+def _read(path: Path) -> Decoded:
     suffix = path.suffix.lower()
     if not path.is_file():
         raise ValueError(f"no such file in {path.parent.absolute()}")
     size = path.stat().st_size
     if not 0 < size <= LARGEST_BYTES:
         raise ValueError("the file is empty" if size == 0 else f"it has {size} bytes, the most is {LARGEST_BYTES}")
-    if suffix in WITHOUT_MAPS:
-        return *WITHOUT_MAPS[suffix](path), {}
-    if suffix in WITH_MAPS:
-        return WITH_MAPS[suffix](path)
+    if suffix in READERS:
+        return READERS[suffix](path)
+    if suffix in ARRAYS:
+        return Decoded(*ARRAYS[suffix](path))
     if is_gifti(path):
         check_declared_sizes(path)
         points, triangles, _ = read_gifti_surface(path)
-        return points, triangles, {}
+        return Decoded(points, triangles)
     if suffix in MESH_SUFFIXES:
-        return *read_with_open3d(path), {}
+        return Decoded(*read_with_open3d(path))
     if suffix in POINT_SUFFIXES:
         raise ValueError(f"{suffix} holds points without faces; reconstruct a surface from them first (point_cloud)")
     if freesurfer.is_geometry(path):
-        return *freesurfer.read_geometry(path), {}
+        return Decoded(*freesurfer.read_geometry(path))
     raise ValueError(f"its format is unknown; known are {KNOWN}")

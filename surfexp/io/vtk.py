@@ -1,23 +1,29 @@
-"""Legacy VTK polygonal data (.vtk, ASCII and binary), for ParaView and its relatives.
+"""Legacy VTK files of polygons or of an unstructured grid of them (.vtk), for ParaView and its relatives.
 
 By hand: meshio 5.3 reads no POLYDATA and ends the process when it meets one; the vtk package has over 100 MB.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.io.polygons import polygons_between, triangulate
+from surfexp.contract.arrays import Floats
+from surfexp.io.legacy_vtk import LegacyVtk
+from surfexp.io.map_names import names_without_spaces
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.mesh_file import Decoded
+from surfexp.io.polygons import polygons_between
+from surfexp.io.vtk_cells import passed_over, polygons_of_cells, triangles
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-TYPES = {"float": "f4", "double": "f8", "int": "i4", "long": "i8", "vtktypeint64": "i8", "vtktypeint32": "i4"}
-TYPES |= {"unsigned_char": "u1", "char": "i1", "short": "i2", "unsigned_short": "u2", "unsigned_int": "u4"}
+# numbers a point of the attributes that have a fixed width; they are no maps
+DIRECTIONS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "TENSORS6": 6}
+NUMBERS = ("GLOBAL_IDS", "PEDIGREE_IDS", "EDGE_FLAGS")
+CELLS = ("POLYGONS", "VERTICES", "LINES", "TRIANGLE_STRIPS", "CELLS")
 
 
 def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
@@ -28,119 +34,110 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     lines += [f"POLYGONS {m} {4 * m}", *(f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist())]
     if scalars:
         lines.append(f"POINT_DATA {n}")
-    for name, values in scalar_channels(scalars or {}).items():
-        lines += [f"SCALARS {'_'.join(name.split())} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
+    channels = scalar_channels(scalars or {})
+    for name, values in zip(names_without_spaces(channels), channels.values(), strict=True):
+        lines += [f"SCALARS {name} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
     path.write_text("\n".join(lines) + "\n")
 
 
-def scalar_channels(maps: dict[str, Floats]) -> dict[str, Floats]:
-    """Return maps of one number a vertex: the channels of others by name and number."""
-    flat: dict[str, Floats] = {}
-    for name, values in maps.items():
-        columns = {name: values} if values.ndim == 1 else {f"{name} {k}": values[:, k] for k in range(values.shape[1])}
-        flat |= columns
-    return flat
+def read_vtk(path: Path) -> Decoded:
+    """Points, polygons, strips and the maps among point data (SCALARS, VECTORS and FIELD arrays) of a legacy VTK file.
 
-
-class _Words:
-    """A legacy file read piece by piece: lines of words, then numbers as text or big-endian bytes."""
-
-    def __init__(self, data: bytes) -> None:
-        self.data, self.at = data, 0
-        head = [self.line() for _ in range(3)]
-        version = re.match(r"# vtk datafile version (\d{1,3})\.", head[0], re.I)
-        if not version or head[2].upper() not in ("ASCII", "BINARY"):
-            raise ValueError("it has no header of a legacy VTK file")
-        self.major, self.binary = int(version[1]), head[2].upper() == "BINARY"
-
-    def line(self) -> str:
-        """Return the next line that is not empty, or nothing at the end."""
-        while self.at < len(self.data):
-            stop = self.data.find(b"\n", self.at)
-            stop = len(self.data) if stop < 0 else stop
-            line, self.at = self.data[self.at : stop].decode("latin-1").strip(), stop + 1
-            if line:
-                return line
-        return ""
-
-    def numbers(self, count: int, kind: str) -> NDArray[np.generic]:
-        """Return the next `count` numbers of a type."""
-        if kind.lower() not in TYPES:
-            raise ValueError(f"it has numbers of type {kind[:20]!r}, known are {', '.join(TYPES)}")
-        dtype = np.dtype(TYPES[kind.lower()])
-        if count < 0 or count * (dtype.itemsize if self.binary else 2) > len(self.data) - self.at + 1:
-            raise ValueError(f"it ends before {count} numbers that it announces")
-        if self.binary:
-            found = np.frombuffer(self.data, dtype.newbyteorder(">"), count, self.at)
-            self.at += count * dtype.itemsize
-            return found.astype(dtype)
-        words: list[str] = []
-        while len(words) < count:
-            line = self.line()
-            if not line:
-                raise ValueError(f"it ends after {len(words)} of {count} numbers")
-            words += line.split()
-        if len(words) > count:
-            raise ValueError(f"it has {len(words)} numbers where {count} are announced")
-        return np.array(words, dtype=np.float64).astype(dtype)
-
-    def named(self, name: str, count: int) -> list[int]:
-        """Return `count` whole numbers behind a line with this name and their type."""
-        line = self.line().split()
-        if len(line) != 2 or line[0].upper() != name:
-            raise ValueError(f"it has {' '.join(line)[:40]!r} where {name} and a type are needed")
-        return self.numbers(count, line[1]).astype(np.int64).tolist()
-
-
-def read_vtk(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
-    """Points, polygons and point data (SCALARS and FIELD arrays) of legacy polygonal data.
+    Normals, colours, texture coordinates, identities and data of cells are passed over by their length.
 
     Raises
     ------
     ValueError
-        If it is another data set, or ends early.
+        If it is another data set, holds volumes, or ends early.
     """
-    words = _Words(path.read_bytes())
+    words = LegacyVtk(path.read_bytes())
     kind = words.line().split()
-    if [word.upper() for word in kind] != ["DATASET", "POLYDATA"]:
-        raise ValueError(f"it holds {' '.join(kind)[:40]!r}, polygons are needed: DATASET POLYDATA")
-    points, polygons, maps, at_points = np.zeros((0, 3)), np.zeros((0, 3), np.int64), dict[str, Floats](), False
-    seen: set[str] = set()
+    if [word.upper() for word in kind] not in (["DATASET", "POLYDATA"], ["DATASET", "UNSTRUCTURED_GRID"]):
+        raise ValueError(
+            f"it holds {' '.join(kind)[:40]!r}, polygons are needed: DATASET POLYDATA or UNSTRUCTURED_GRID"
+        )
+    points, maps = np.zeros((0, 3)), dict[str, Floats]()
+    cells: dict[str, list[Sequence[int]]] = {}
+    types: list[int] = []
+    rows, at_points = 0, False
     while line := words.line().split():
         key = line[0].upper()
-        if key in ("POINTS", "POLYGONS") and key in seen:
+        if key in ("POINTS", "POLYGONS", "CELLS") and (key in cells or (key == "POINTS" and len(points))):
             raise ValueError(f"it has {key} twice, one is read: merge them")
-        seen.add(key)
         if key == "POINTS" and len(line) == 3:
             points = words.numbers(3 * int(line[1]), line[2]).reshape(-1, 3).astype(np.float64)
-        elif key in ("POLYGONS", "VERTICES", "LINES") and len(line) == 3:
-            cells = _cells(words, int(line[1]), int(line[2]))
-            polygons = triangulate(cells) if key == "POLYGONS" else polygons
-        elif key == "TRIANGLE_STRIPS":
-            raise ValueError("it holds triangle strips, which only PLY files may have here: write polygons")
-        elif key in ("POINT_DATA", "CELL_DATA"):
-            at_points = key == "POINT_DATA"
-        elif key == "SCALARS" and len(line) >= 3:
-            width = int(line[3]) if len(line) > 3 else 1
+        elif key in CELLS and len(line) == 3:
+            cells[key] = _cells(words, int(line[1]), int(line[2]))
+        elif key == "CELL_TYPES" and len(line) == 2:
+            types = words.numbers(int(line[1]), "int").astype(np.int64).tolist()
+        elif key in ("POINT_DATA", "CELL_DATA") and len(line) == 2:
+            at_points, rows = key == "POINT_DATA", int(line[1])
+            if at_points and rows != len(points):
+                raise ValueError(f"its POINT_DATA has {rows} rows for {len(points)} points")
+        elif key == "METADATA":
+            words.skip_metadata()
+        else:
+            found = _attribute(words, line, rows)
+            if at_points:
+                maps |= found
+    if types or "CELLS" in cells:
+        polygons, notes = polygons_of_cells(cells.get("CELLS", []), types)
+    else:
+        polygons = [*cells.get("POLYGONS", []), *triangles(cells.get("TRIANGLE_STRIPS", []))]
+        notes = passed_over({"vertices": len(cells.get("VERTICES", [])), "lines": len(cells.get("LINES", []))})
+    return Decoded(points, polygons, maps, notes)
+
+
+def _attribute(words: LegacyVtk, line: list[str], rows: int) -> dict[str, Floats]:
+    """Read one attribute of points or cells to its end, and return the maps in it."""
+    key = line[0].upper()
+    if key == "SCALARS" and len(line) >= 3:
+        width = int(line[3]) if len(line) > 3 else 1
+        if words.peek()[:1] and words.peek()[0].upper() == "LOOKUP_TABLE" and len(words.peek()) == 2:
             words.line()
-            _keep(maps, at_points, line[1], words.numbers(width * len(points), line[2]), width)
-        elif key == "FIELD" and len(line) == 3:
-            for _ in range(int(line[2])):
-                name, channels, count, field_kind = words.line().split()
-                numbers = words.numbers(int(channels) * int(count), field_kind)
-                _keep(maps, at_points, name, numbers, int(channels))
-        elif key not in ("METADATA", "INFORMATION", "NAME", "DATA"):
-            raise ValueError(f"it has the statement {' '.join(line)[:40]!r}, which is not known here")
-    return points, polygons, maps
+        return {line[1]: _columns(words.numbers(width * rows, line[2]), width)}
+    if key in DIRECTIONS and len(line) == 3:
+        values = _columns(words.numbers(DIRECTIONS[key] * rows, line[2]), DIRECTIONS[key])
+        return {line[1]: values} if key == "VECTORS" else {}
+    if key in NUMBERS and len(line) == 3:
+        words.numbers(rows, line[2])
+    elif key == "TEXTURE_COORDINATES" and len(line) == 4:
+        words.numbers(int(line[2]) * rows, line[3])
+    elif key == "COLOR_SCALARS" and len(line) == 3:
+        words.numbers(int(line[2]) * rows, "unsigned_char" if words.binary else "float")
+    elif key == "LOOKUP_TABLE" and len(line) == 3:
+        words.numbers(4 * int(line[2]), "unsigned_char" if words.binary else "float")
+    elif key == "FIELD" and len(line) == 3:
+        return _field(words, int(line[2]), rows)
+    else:
+        raise ValueError(f"it has the statement {' '.join(line)[:40]!r}, which is not known here")
+    return {}
 
 
-def _keep(maps: dict[str, Floats], at_points: bool, name: str, values: NDArray[np.generic], width: int) -> None:
-    if at_points:
-        columns = values.astype(np.float64).reshape(-1, width)
-        maps[name] = columns[:, 0].copy() if width == 1 else columns
+def _field(words: LegacyVtk, count: int, rows: int) -> dict[str, Floats]:
+    maps: dict[str, Floats] = {}
+    for _ in range(count):
+        line = words.line().split()
+        if line[:1] == ["METADATA"]:
+            words.skip_metadata()
+            line = words.line().split()
+        name, channels, length, kind = line
+        width, size = int(channels), int(channels) * int(length)
+        if kind.lower() == "string":
+            words.skip_strings(size)
+            continue
+        numbers = words.numbers(size, kind)
+        if rows and int(length) == rows and width > 0:
+            maps[name] = _columns(numbers, width)
+    return maps
 
 
-def _cells(words: _Words, count: int, size: int) -> list[Sequence[int]]:
+def _columns(values: NDArray[np.generic], width: int) -> Floats:
+    columns = values.astype(np.float64).reshape(-1, width)
+    return columns[:, 0].copy() if width == 1 else columns
+
+
+def _cells(words: LegacyVtk, count: int, size: int) -> list[Sequence[int]]:
     """Read cells: each behind its number of corners, or since version 5.1 where each begins, then all corners."""
     if words.major >= 5:
         starts, corners = words.named("OFFSETS", count), words.named("CONNECTIVITY", size)

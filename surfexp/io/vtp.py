@@ -1,18 +1,21 @@
-"""VTK polygonal data in XML (.vtp)."""
+"""VTK polygonal data in XML (.vtp), and the polygons of unstructured grids (.vtu)."""
 
 from __future__ import annotations
 
 import re
 from base64 import b64encode
+from collections.abc import Sequence
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.io.polygons import polygons_between, triangulate
-from surfexp.io.vtk import scalar_channels
+from surfexp.contract.arrays import Floats
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.mesh_file import Decoded
+from surfexp.io.polygons import polygons_between
+from surfexp.io.vtk_cells import polygons_of_cells, triangles
 from surfexp.io.vtk_xml import VtkXml
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -42,27 +45,60 @@ def _xml_array(name: str, values: NDArray[np.generic]) -> str:
     return f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{width}" format="binary">{text}</DataArray>'
 
 
-def read_vtp(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
-    """Points, polygons and point data of XML polygonal data, however its arrays are written: see `surfexp.io.vtk_xml`.
+def read_vtp(path: Path) -> Decoded:
+    """Points, polygons, strips and point data of XML polygonal data, however its arrays are written: `surfexp.io.vtk_xml`.
 
     Raises
     ------
     ValueError
-        If it is another data set, in pieces, of strips, packed by LZ4, or ends early.
+        If it is another data set, in pieces, packed by LZ4, or ends early.
     """
     file = VtkXml.read(path, "PolyData")
+    points, maps = _points_and_maps(file)
+    polygons, strips = _cells(file, "Polys"), _cells(file, "Strips")
+    if not polygons and not strips:
+        raise ValueError("it has no points or no polygons")
+    for what, found in (("Polys", polygons), ("Strips", strips)):
+        announced = re.search(rf'<Piece\b[^>]*\bNumberOf{what}="\s*(\d+)', file.text)
+        if announced and int(announced[1]) != len(found):
+            raise ValueError(f"it announces {announced[1]} {what.lower()} and has {len(found)}")
+    return Decoded(points, [*polygons, *triangles(strips)], maps)
+
+
+def read_vtu(path: Path) -> Decoded:
+    """Points, the polygons among cells, and point data of an XML unstructured grid.
+
+    Raises
+    ------
+    ValueError
+        As `read_vtp`, or if a cell is a volume.
+    """
+    file = VtkXml.read(path, "UnstructuredGrid")
+    points, maps = _points_and_maps(file)
+    kinds = file.arrays("Cells").get("types", np.zeros((0, 1)))
+    polygons, notes = polygons_of_cells(_cells(file, "Cells"), kinds.astype(np.int64).ravel().tolist())
+    if not polygons:
+        raise ValueError("it has no points or no polygons")
+    return Decoded(points, polygons, maps, notes)
+
+
+def _points_and_maps(file: VtkXml) -> tuple[Floats, dict[str, Floats]]:
     pieces = re.findall(r"<Piece\b([^>]*)>", file.text)
     if len(pieces) > 1:
         raise ValueError(f"it has {len(pieces)} pieces, one is read: merge them, as ParaView's Merge Blocks does")
-    if strips := re.search(r'NumberOfStrips="\s*(0*[1-9]\d*)', pieces[0] if pieces else ""):
-        raise ValueError(f"it holds {strips[1]} triangle strips, which only PLY files may have here: write polygons")
-    points, cells = file.arrays("Points"), file.arrays("Polys")
-    if not points or not {"connectivity", "offsets"} <= set(cells):
+    points = file.arrays("Points")
+    if not points:
         raise ValueError("it has no points or no polygons")
-    corners, offsets = (cells[name].astype(np.int64).ravel().tolist() for name in ("connectivity", "offsets"))
     maps = {name: values.astype(np.float64) for name, values in file.arrays("PointData").items()}
     return (
         np.asarray(next(iter(points.values())), dtype=np.float64).reshape(-1, 3),
-        triangulate(polygons_between([0, *offsets], corners)),
         {name: values[:, 0] if values.shape[1] == 1 else values for name, values in maps.items()},
     )
+
+
+def _cells(file: VtkXml, section: str) -> list[Sequence[int]]:
+    arrays = file.arrays(section)
+    if not {"connectivity", "offsets"} <= set(arrays):
+        return []
+    corners, offsets = (arrays[name].astype(np.int64).ravel().tolist() for name in ("connectivity", "offsets"))
+    return polygons_between([0, *offsets], corners) if offsets or corners else []

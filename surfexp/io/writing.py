@@ -8,10 +8,12 @@ from pathlib import Path
 from surfexp.contract.arrays import Floats
 from surfexp.io.freesurfer import hemisphere_of, write_freesurfer_geometry
 from surfexp.io.gifti import write_gifti
+from surfexp.io.map_names import check_map_names
 from surfexp.io.npz import write_npz_mesh
 from surfexp.io.obj import write_obj
 from surfexp.io.off import write_off
 from surfexp.io.ply import write_ply
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.stl import write_stl
 from surfexp.io.vtk import write_vtk
@@ -37,23 +39,50 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
         If the format is unknown or cannot carry scalar maps, a map has another length than the mesh, or single precision
         cannot hold the mesh.
     """
-    path, maps = Path(path), scalars or {}
-    for name, values in maps.items():
+    path, maps = Path(path), {}
+    check_map_names(scalars or {})
+    for name, values in (scalars or {}).items():
         if len(values) != len(mesh.vertices):
             raise ValueError(
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
+        maps[name] = values
+    writer = _writer(path, mesh, maps)
+    with replacing(path) as temporary:
+        writer(temporary)
+
+
+def check_mesh_target(path: Path | str) -> None:
+    """Refuse a file that no mesh can be written to: of an unknown format, or in no writable folder.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    path = Path(path)
     suffix = path.suffix.lower()
-    freesurfer = suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
-    if suffix in WITH_MAPS:
-        WITH_MAPS[suffix](path, mesh, maps)
-    elif not freesurfer and suffix not in WITHOUT_MAPS:
+    if suffix not in (*WITH_MAPS, *WITHOUT_MAPS) and not _is_freesurfer(path):
         known = ", ".join([*WITHOUT_MAPS, *WITH_MAPS, *FREESURFER])
         raise ValueError(f"{path} has an unknown format, choose one of {known}")
-    elif maps:
+    check_writable(path)
+
+
+def _is_freesurfer(path: Path) -> bool:
+    suffix = path.suffix.lower()
+    return suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
+
+
+def _writer(path: Path, mesh: TriangleMesh, maps: dict[str, Floats]) -> Callable[[Path], None]:
+    """Return what writes the mesh, once the format is known to hold it."""
+    check_mesh_target(path)
+    suffix = path.suffix.lower()
+    if suffix in WITH_MAPS:
+        return lambda place: WITH_MAPS[suffix](place, mesh, maps)
+    if maps:
         raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(WITH_MAPS)}")
-    elif freesurfer or suffix in SINGLE_PRECISION:
+    freesurfer = _is_freesurfer(path)
+    if freesurfer or suffix in SINGLE_PRECISION:
         check_single_precision_points(mesh.vertices, mesh.faces)
-        (write_freesurfer_geometry if freesurfer else WITHOUT_MAPS[suffix])(path, mesh)
-    else:
-        WITHOUT_MAPS[suffix](path, mesh)
+    write = write_freesurfer_geometry if freesurfer else WITHOUT_MAPS[suffix]
+    return lambda place: write(place, mesh)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from surfexp.contract.arrays import Integers
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Mask = NDArray[np.bool_]
@@ -73,12 +73,51 @@ def fans_per_vertex(mesh: TriangleMesh, fans: Integers) -> Integers:
 
 
 def inside_out_components(mesh: TriangleMesh) -> Mask:
-    """(m,) faces of closed, consistently oriented components whose enclosed volume is negative."""
+    """(m,) faces of closed, consistently oriented components inside of which the winding number is negative.
+
+    A component that is oriented inward inside of one that is oriented outward bounds a cavity, and is sound. Where the
+    outer one is inside out, components inside that are oriented against it are turned over with it.
+    """
     label = mesh.component_labels[mesh.faces[:, 0]]
     count = mesh.component_labels.max(initial=-1) + 1
     defects = (mesh.edge_face_counts != 2) | inconsistent_edges(mesh)
-    open_faces = defects[mesh.face_edges].any(axis=1)
+    closed = np.bincount(label, defects[mesh.face_edges].any(axis=1), count) == 0
     centred = mesh.vertices - mesh.vertices.mean(axis=0)
-    volumes = (centred[mesh.faces[:, 0]] * mesh.face_cross_products).sum(axis=1)
-    inward = (np.bincount(label, volumes, count) < 0) & (np.bincount(label, open_faces, count) == 0)
-    return np.asarray(inward[label])
+    shares = (centred[mesh.faces[:, 0]] * mesh.face_cross_products).sum(axis=1)
+    volumes = np.where(closed, np.bincount(label, shares, count), 0.0)
+    turned = volumes < 0
+    if not turned.any() or (volumes != 0).sum() == 1:
+        return np.asarray(turned[label])
+    around = _enclosing(mesh, label, volumes)
+    signs, turned = np.sign(volumes).astype(np.int64), np.zeros(count, dtype=bool)
+    for component in np.argsort(-np.abs(volumes), kind="stable").tolist():
+        outer = around[component]
+        parent = min(outer, key=lambda k: abs(volumes[k]), default=-1)
+        sign = int(np.sign(volumes[component]))
+        follows = parent >= 0 and turned[parent] and sign == -int(np.sign(volumes[parent]))
+        winding = int(signs[outer].sum()) + (-sign if follows else sign)
+        turned[component] = (follows and winding >= 0) or (not follows and sign < 0 and winding < 0)
+        signs[component] = -sign if turned[component] else sign
+    return np.asarray(turned[label])
+
+
+def _enclosing(mesh: TriangleMesh, label: Integers, volumes: Floats) -> list[list[int]]:
+    """Return the closed components that enclose each closed component."""
+    count = len(volumes)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    corner = label.repeat(3)
+    np.minimum.at(low, corner, mesh.vertices[mesh.faces.ravel()])
+    np.maximum.at(high, corner, mesh.vertices[mesh.faces.ravel()])
+    first = np.full(count, -1)
+    first[label[::-1]] = mesh.faces[::-1, 0]
+    around: list[list[int]] = [[] for _ in range(count)]
+    for outer in np.flatnonzero(volumes).tolist():
+        within = (low > low[outer]).all(axis=1) & (high < high[outer]).all(axis=1) & (volumes != 0)
+        inner = np.flatnonzero(within)
+        if len(inner):
+            faces = np.ascontiguousarray(mesh.faces[label == outer])
+            winding = igl.winding_number(np.array(mesh.vertices), faces, np.array(mesh.vertices[first[inner]]))
+            for component, number in zip(inner.tolist(), np.ravel(winding).tolist(), strict=True):
+                if abs(number) > 0.5:
+                    around[component].append(outer)
+    return around

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.skeleton.skeleton import Skeleton
 
 FORMATS = (".graphml", ".vtk", ".ply")
@@ -21,14 +22,28 @@ def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
         If the ending is none of .graphml, .vtk and .ply.
     """
     path = Path(path)
-    if path.suffix not in FORMATS:
-        raise ValueError(f"{path.name} ends in {path.suffix!r}, a skeleton is written as one of {', '.join(FORMATS)}")
+    check_skeleton_target(path)
     if path.suffix == ".graphml":
         import networkx
 
-        networkx.write_graphml(skeleton.graph(), path)
+        with replacing(path) as temporary:
+            networkx.write_graphml(skeleton.graph(), temporary)
         return
-    path.write_text(_vtk(skeleton) if path.suffix == ".vtk" else _ply(skeleton), encoding="ascii")
+    with replacing(path) as temporary:
+        temporary.write_text(_vtk(skeleton) if path.suffix == ".vtk" else _ply(skeleton), encoding="ascii")
+
+
+def check_skeleton_target(path: Path) -> None:
+    """Refuse a file that no skeleton can be written to: of another format, or in no writable folder.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    if path.suffix not in FORMATS:
+        raise ValueError(f"{path.name} ends in {path.suffix!r}, a skeleton is written as one of {', '.join(FORMATS)}")
+    check_writable(path)
 
 
 def _points(skeleton: Skeleton) -> list[str]:

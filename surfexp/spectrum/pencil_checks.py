@@ -21,8 +21,8 @@ def check_request(size: int, k: int, tolerance: float) -> None:
     ------
     EigensolverError
     """
-    if size < 3:
-        raise EigensolverError(f"the surface has {size} degrees of freedom, an eigenproblem needs at least 3")
+    if size < 1:
+        raise EigensolverError("the matrices have 0 rows, an eigenproblem needs at least 1")
     if not 1 <= k <= size:
         raise EigensolverError(f"k = {k} eigenpairs of {size} degrees of freedom: take 1 <= k <= {size}")
     if not 1e-12 <= tolerance <= 1e-2:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.summary import Summarized, Summary
 
 
@@ -26,6 +26,8 @@ class DenoisedMap(Summarized):
     notes : tuple of str
     name : str
         Under which the surface carries the map that it was made of; what a file calls it.
+    outliers : (k,) int64
+        Vertices whose values "auto" replaced before, far from those of all their neighbours.
     """
 
     values: Floats
@@ -33,6 +35,7 @@ class DenoisedMap(Summarized):
     certificate: dict[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     name: str = "map"
+    outliers: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     def _summary(self) -> Summary:
         known = np.isfinite(self.values)

@@ -20,6 +20,7 @@ from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.noise_level import noise_level
+from surfexp.variational.noise_reading import read_noise
 from surfexp.variational.own_unit import own_unit
 from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
 from surfexp.variational.solution import Solution
@@ -53,7 +54,8 @@ def denoise(
     mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor leave:
     the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
     generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least
-    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges.
+    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges. It replaces outliers
+    before, which the others follow.
 
     Parameters
     ----------
@@ -79,7 +81,7 @@ def denoise(
     DenoisedMap
         `values`, and the certificate with noise, weight, relative_gap and error_bound (largest possible root-mean-square
         distance to the exact minimiser, in the unit of the map). Of "auto": chosen (the method), parameter (a full width at
-        half maximum, or a weight), risk_METHOD (estimated mean square error over the variance of the noise).
+        half maximum, or a weight), outliers (how many), risk_METHOD (estimated mean square error over the variance of the noise).
 
     Raises
     ------
@@ -97,7 +99,7 @@ def denoise(
     """
     weight = real_number(weight, "weight", above=0.0)
     ratio = real_number(ratio, "ratio", above=0.0)
-    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+    tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
@@ -105,16 +107,25 @@ def denoise(
     refuse_absurd_values(image, part.vertices)
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
-    sigma = noise_level(operator, image) if noise is None else real_number(noise, "noise", above=0.0)
+    given = None if noise is None else real_number(noise, "noise", above=0.0)
     if method == "auto":
-        found = automatically_denoised(owner, part, operator, image, sigma, noise is None)
+        found = automatically_denoised(part, operator, image, given)
         return replace(found, name=name_of(values))
+    sigma, said = _noise(operator, image, given)
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
-    notes = part.notes + solution.notes
+    notes = part.notes + solution.notes + said
     certificate = facts | _proof(solution, operator)
     return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
+
+
+def _noise(operator: SurfaceOperator, image: Floats, given: float | None) -> tuple[float, tuple[str, ...]]:
+    """The noise of a map, and what is to be said about it; several channels are pooled, and nothing is said of them."""
+    if image.ndim > 1:
+        return (noise_level(operator, image) if given is None else given), ()
+    found = read_noise(operator, image)
+    return (found.level if given is None else given), found.notes
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:

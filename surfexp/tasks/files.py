@@ -11,10 +11,12 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.label_files import write_labels
-from surfexp.io.map_files import read_maps, read_mask, read_named_labels, write_maps
-from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.map_files import check_map_target, mask_notes, read_maps, read_mask, read_named_labels, write_maps
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.reading import hemisphere_of_file, read_mesh_file
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import WITH_MAPS, write_mesh
-from surfexp.mesh.given_arrays import mask_array
+from surfexp.mesh.given_arrays import mask_array, real_array
 from surfexp.mesh.repair import repair as repair_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -40,7 +42,7 @@ def read(
     Parameters
     ----------
     path : path
-        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
+        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
     maps : dict of name to path, optional
         GIFTI, CIFTI-2, .mgh/.mgz, FreeSurfer curvature, .npy/.npz, .csv, text. A file with several maps gives each its own name.
     labels : dict of name to path, optional
@@ -70,7 +72,8 @@ def read(
     >>> len(sx.read("ball.ply").mesh.faces)
     320
     """
-    vertices, faces, scalars = read_mesh(Path(path))
+    file_read = read_mesh_file(Path(path))
+    vertices, faces, scalars = file_read.vertices, file_read.faces, dict(file_read.scalars)
     count = len(vertices)
     side = hemisphere or hemisphere_of_file(path)
     for name, file in (maps or {}).items():
@@ -82,20 +85,20 @@ def read(
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
+    notes = file_read.notes
     if isinstance(mask, str | Path):
         _same_side(mask, side, "mask")
+        notes = (*notes, *mask_notes(mask, side))
         mask = read_mask(mask, count, side)
     inside = None if mask is None else mask_array(mask, count)
     mesh = TriangleMesh(vertices, faces)
-    notes: tuple[str, ...] = ()
     if repair:
-        mesh, notes, origin = repair_mesh(vertices, faces)
+        mesh, changes, origin = repair_mesh(vertices, faces)
         scalars = {name: values[origin] for name, values in scalars.items()}
         tables = {name: replace(table, keys=table.keys[origin]) for name, table in tables.items()}
         inside = None if inside is None else inside[origin]
-    surface = Surface(
-        mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=tuple(notes)
-    )
+        notes = (*notes, *changes)
+    surface = Surface(mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=notes)
     return sound_part(surface, str(path), repair="")
 
 
@@ -112,7 +115,8 @@ def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> di
     for values in maps.values():
         if len(values) != count:
             raise ValueError(f"map {file} has {len(values)} values, the surface has {count} vertices")
-    return {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
+    named = {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
+    return scalar_channels(named)
 
 
 def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
@@ -148,7 +152,8 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
         return
     if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
         arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
-        np.savez_compressed(target, **arrays)
+        with replacing(target) as temporary:
+            np.savez_compressed(temporary, **arrays)
         return
     maps = maps_of(what)
     if target.suffix.lower() in (".ply", ".vtk", ".vtp"):
@@ -170,11 +175,33 @@ def maps_of(what: Any) -> dict[str, Floats]:
         If it has none.
     """
     if isinstance(what, Mapping):
-        return {str(name): np.asarray(values, dtype=np.float64) for name, values in what.items()}
+        return {str(name): real_array(values, f"map {str(name)!r}") for name, values in what.items()}
     if hasattr(what, "vectors"):
         return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
-    values = getattr(what, "values", what)
-    array = np.asarray(values)
-    if array.dtype.kind not in "buif" or array.ndim not in (1, 2):
-        raise ValueError(f"{type(what).__name__} is no map: give an array with one row a vertex, or a result of a task")
-    return {what.name if isinstance(what, DenoisedMap) else "map": array.astype(np.float64)}
+    array = real_array(getattr(what, "values", what), f"{type(what).__name__} given as a map")
+    if array.ndim not in (1, 2):
+        raise ValueError(
+            f"map has shape {array.shape}, one row a vertex is needed; a surface is written as sx.Surface(mesh)"
+        )
+    return {what.name if isinstance(what, DenoisedMap) else "map": array}
+
+
+def check_target(path: PathLike, labels: bool = False) -> None:
+    """Refuse a file that no map on a surface can be written to, before anything is computed.
+
+    Parameters
+    ----------
+    path : path
+    labels : bool
+        Whether formats of labels are among those that are known.
+
+    Raises
+    ------
+    ValueError
+        If the format is unknown, the folder is missing, or it cannot be written to.
+    """
+    target = Path(path)
+    if target.suffix.lower() in WITH_MAPS or (labels and target.name.endswith(LABEL_SUFFIXES)):
+        check_writable(target)
+    else:
+        check_map_target(target)

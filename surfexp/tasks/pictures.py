@@ -17,6 +17,7 @@ from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
+from surfexp.io.replacing import check_writable, replacing
 from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
 
 SUFFIXES = (".png", ".svg")
@@ -46,12 +47,12 @@ class Picture:
             If the format is unknown.
         """
         target = Path(path)
-        if target.suffix.lower() not in SUFFIXES:
-            raise ValueError(f"{target} has an unknown format, choose one of {', '.join(SUFFIXES)}")
-        if target.suffix.lower() == ".png":
-            target.write_bytes(encode_png(self.figure.pixels))
-        else:
-            target.write_text(_as_svg(self.figure), encoding="utf-8")
+        check_picture_target(target)
+        with replacing(target) as temporary:
+            if target.suffix.lower() == ".png":
+                temporary.write_bytes(encode_png(self.figure.pixels))
+            else:
+                temporary.write_text(_as_svg(self.figure), encoding="utf-8")
 
     def __repr__(self) -> str:
         height, width = self.figure.pixels.shape[:2]
@@ -137,3 +138,16 @@ def _colormap_for(field: Floats | None) -> str:
         return "viridis"
     low, high = np.nanpercentile(field, [1.0, 99.0])
     return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"
+
+
+def check_picture_target(target: Path) -> None:
+    """Refuse a file that no picture can be written to: of another format, or in no writable folder.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    if target.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"{target} has an unknown format, choose one of {', '.join(SUFFIXES)}")
+    check_writable(target)

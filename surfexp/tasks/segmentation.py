@@ -138,7 +138,7 @@ def segment(
     True
     """
     smoothness = real_number(smoothness, "smoothness", above=0.0)
-    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+    tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
     given = () if values is None else (as_map(owner, values),)
     part = part_for(owner, *given)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, issparse
 
 from surfexp.contract.arrays import Floats
@@ -16,6 +16,7 @@ from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
 from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.hermitian import hermitian_pairs
 from surfexp.spectrum.slicing import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
@@ -94,7 +95,7 @@ def eigsh(
     OPinv: Any = None,
     mode: str = "normal",
     rng: Any = None,
-) -> Floats | tuple[Floats, Floats]:
+) -> Floats | tuple[Floats, Floats | NDArray[np.complex128]]:
     """Find the k lowest eigenpairs of A x = lambda M x, called as `scipy.sparse.linalg.eigsh` is, complete by inertia.
 
     For a positive semidefinite A, "nearest to a sigma at or below 0" and "smallest" are one and the same request: the lowest k.
@@ -103,11 +104,11 @@ def eigsh(
     Parameters
     ----------
     A : (n, n) sparse
-        Symmetric, positive semidefinite.
+        Real symmetric or complex Hermitian, positive semidefinite.
     k : int
         How many pairs.
     M : (n, n) sparse, optional
-        Symmetric, positive definite; the identity if not given.
+        Real symmetric or complex Hermitian, positive definite; the identity if not given.
     sigma : float, optional
         At most 0; or not given, with which = "SM" or "SA".
     which : {"LM", "SM", "SA"}
@@ -128,7 +129,8 @@ def eigsh(
     Returns
     -------
     (k,) float64, (n, k) float64
-        Increasing values and M-orthonormal vectors; the values alone without `return_eigenvectors`.
+        Increasing values and M-orthonormal vectors, complex128 where a matrix is complex; the values alone without
+        `return_eigenvectors`.
 
     Raises
     ------
@@ -144,11 +146,38 @@ def eigsh(
     [0.0, 1.0, 2.0]
     """
     _check_request(A, sigma, which, mode)
-    unit = csr_array((np.ones(A.shape[0]), (np.arange(A.shape[0]),) * 2), shape=A.shape)
-    system = matrix_eigenpairs(A, unit if M is None else M, k, tolerance=tol or 1e-8)
-    if not system.complete:
-        raise ValueError(f"the {k} pairs found are not proved to be the lowest ({'; '.join(system.notes)}): raise k")
-    return (system.values, np.ascontiguousarray(system.vectors)) if return_eigenvectors else system.values
+    n = A.shape[0]
+    mass = csr_array((np.ones(n), (np.arange(n),) * 2), shape=A.shape) if M is None else _sparse(M, "M")
+    sizes = _largest_entry(A, "A"), _largest_entry(mass, "M")
+    pencil = csr_array(A) / sizes[0], csr_array(mass) / sizes[1]
+    tolerance = tol or 1e-8
+    vectors: NDArray[np.float64] | NDArray[np.complex128]
+    if any(np.iscomplexobj(matrix) for matrix in pencil):
+        values, vectors = hermitian_pairs(*pencil, k, tolerance)
+    else:
+        system = matrix_eigenpairs(*pencil, k, tolerance=tolerance)
+        values, vectors = system.values, np.ascontiguousarray(system.vectors)
+    # one factor after the other: their quotient may be beyond the largest number where the values are not
+    values, vectors = values * sizes[0] / sizes[1], vectors / np.sqrt(sizes[1])
+    if not np.isfinite(values).all():
+        raise ValueError(
+            f"A has entries up to {sizes[0]:.0e}, M up to {sizes[1]:.0e}: eigenvalues overflow, scale them"
+        )
+    return (values, vectors) if return_eigenvectors else values
+
+
+def _largest_entry(matrix: Any, name: str) -> float:
+    """Return the largest modulus of an entry, 1 where all are 0."""
+    largest = float(np.abs(csr_array(matrix).data).max(initial=0.0))
+    if not np.isfinite(largest):
+        raise ValueError(f"{name} has entries that are not finite: repair what it was assembled from")
+    return largest or 1.0
+
+
+def _sparse(matrix: Any, name: str) -> Any:
+    if not issparse(matrix):
+        raise ValueError(f"{name} is a {type(matrix).__name__}, a sparse matrix is needed: it is factorised")
+    return matrix
 
 
 def _check_request(A: Any, sigma: float | None, which: str, mode: str) -> None:
@@ -159,5 +188,4 @@ def _check_request(A: Any, sigma: float | None, which: str, mode: str) -> None:
         raise ValueError(
             f"{asked}: only the lowest pairs are found here; give sigma <= 0, or which = 'SM', mode = 'normal'"
         )
-    if not issparse(A):
-        raise ValueError(f"A is a {type(A).__name__}, a sparse matrix is needed: it is factorised")
+    _sparse(A, "A")

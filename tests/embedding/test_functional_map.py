@@ -82,15 +82,19 @@ def test_the_orthogonal_map_takes_source_to_target() -> None:
 def test_refinement_with_a_field_is_one_round_of_the_same_formula() -> None:
     rng = np.random.default_rng(6)
     source, target = system(80, 8, 1), system(60, 8, 2)
-    areas = np.ones(80), np.ones(60)
+    areas = rng.uniform(0.2, 3.0, 80), rng.uniform(0.2, 3.0, 60)
     fields = rng.normal(size=80), rng.normal(size=60)
     start = rng.integers(0, 80, 60)
     found = refine_with_field(source, target, areas, start, fields, 8, 0.3, 1)
-    phi, psi = source.vectors * np.sqrt(80.0), target.vectors * np.sqrt(60.0)
-    weights = 1.0 / np.sqrt(np.concatenate([[1.0], target.values[1:] * 60.0]))
+    phi, psi = source.vectors * np.sqrt(areas[0].sum()), target.vectors * np.sqrt(areas[1].sum())
+    weights = 1.0 / np.sqrt(np.concatenate([[1.0], target.values[1:] * areas[1].sum()]))
     scale = 0.3 * np.sqrt(((psi * weights) ** 2).sum(axis=1).mean())
-    moved = (phi @ lstsq(psi, phi[start])[0].T) * weights
-    heights = [scale * (field - field.mean()) / field.std() for field in fields]
+    roots = np.sqrt(areas[1])[:, None]
+    moved = (phi @ lstsq(roots * psi, roots * phi[start])[0].T) * weights
+    heights = []
+    for field, area in zip(fields, areas, strict=True):
+        mean = np.average(field, weights=area)
+        heights.append(scale * (field - mean) / np.sqrt(np.average((field - mean) ** 2, weights=area)))
     table = cdist(np.column_stack([psi * weights, heights[1]]), np.column_stack([moved, heights[0]]))
     assert (found == table.argmin(axis=1)).all()
 

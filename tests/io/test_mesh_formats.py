@@ -133,7 +133,12 @@ def test_garbage_is_refused_with_its_name(tmp_path: Path, suffix: str, content: 
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "line 4"),
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names vertex 8"),
         ("a.obj", "v 0 0 0\n", "1 vertices and 0 faces"),
-        ("a.obj", "v 0 0 0\nblah\n", "line 2"),
+        ("a.obj", "v 0 0 0\nblah\n", "1 vertices and 0 faces"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+            "point_cloud",
+        ),
         ("a.tri", "1 2 3\n", "a.vert beside it is missing"),
         ("a.xyz", "1 2 3\n", "point_cloud"),
         ("a.doc", "1 2 3\n", "format is unknown"),

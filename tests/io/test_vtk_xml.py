@@ -157,7 +157,7 @@ def with_counts(*counts: int) -> bytes:
         (file_of().replace(b"</DataArray>", b"AAAA</DataArray>", 1), "announces 168 bytes and has more"),
         (file_of().replace(b">qAAAA", b">qQAAA"), "announces 173 bytes and ends before"),
         (file_of().replace(b">qAAAA", b">q%AAA"), "an array is not base64, or ends early"),
-        (file_of().replace(b'Strips="0"', b'Strips="2"'), "it holds 2 triangle strips"),
+        (file_of().replace(b'Strips="0"', b'Strips="2"'), "it announces 2 strips and has 0"),
         (file_of().replace(b"<PolyData>", b"<PolyData><Piece></Piece>"), "it has 2 pieces, one is read: merge them"),
     ],
 )

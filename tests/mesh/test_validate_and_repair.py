@@ -258,3 +258,41 @@ def test_repair_always_validates_and_is_idempotent(mesh: Arrays) -> None:
     assert again.changes == ()
     assert (again.mesh.faces == repaired.mesh.faces).all() and (again.mesh.vertices == repaired.mesh.vertices).all()
     assert np.linalg.norm(repaired.mesh.vertices - mesh[0][repaired.origin], axis=1).max(initial=0.0) < 0.05
+
+
+SHELLS = [
+    # signs of nested spheres from outside to inside, and what a repair makes of them
+    ((1,), (1,)),
+    ((-1,), (1,)),
+    ((1, -1), (1, -1)),
+    ((1, 1), (1, 1)),
+    ((-1, 1), (1, -1)),
+    ((-1, -1), (1, -1)),
+    ((1, -1, 1), (1, -1, 1)),
+    ((-1, 1, -1), (1, -1, 1)),
+    ((1, -1, -1), (1, -1, 1)),
+]
+
+
+def shells(signs: tuple[int, ...], moved: float = 0.0) -> Arrays:
+    count = len(SPHERE.vertices)
+    vertices = [(len(signs) - k) * SPHERE.vertices + [k * moved, 0, 0] for k in range(len(signs))]
+    faces = [(SPHERE.faces if sign > 0 else SPHERE.faces[:, ::-1]) + k * count for k, sign in enumerate(signs)]
+    return np.concatenate(vertices), np.concatenate(faces)
+
+
+@pytest.mark.parametrize(("signs", "expected"), SHELLS)
+def test_cavities_stay_cavities(signs: tuple[int, ...], expected: tuple[int, ...]) -> None:
+    mesh, changes, _ = repair(*shells(signs))
+    blocks = mesh.faces.reshape(len(signs), -1, 3)
+    found = [np.sign(np.linalg.det(mesh.vertices[block]).sum()) for block in blocks]
+    assert tuple(found) == expected
+    assert bool(changes) == (signs != expected)
+    assert validate(*shells(signs)).ok == (signs == expected)
+
+
+def test_beside_each_other_every_component_is_turned_outward() -> None:
+    mesh, _, _ = repair(*shells((1, -1, -1), moved=10.0))
+    assert (
+        np.linalg.det((mesh.vertices - mesh.vertices.mean(axis=0))[mesh.faces]).reshape(3, -1).sum(axis=1) > 0
+    ).all()

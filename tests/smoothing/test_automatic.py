@@ -11,6 +11,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, AutomaticSmoothing, automatic_smoothing
+from surfexp.smoothing.methods import MethodName, Methods
 from surfexp.studies.smoothing.automatic_trial import automatic_trial
 from surfexp.tasks import automatic_denoising
 from surfexp.tasks.denoising import denoise
@@ -58,6 +59,40 @@ def test_the_choice_does_not_depend_on_the_units() -> None:
     only = ("heat_polynomial",)
     widths = [automatic_smoothing(mesh, fem(mesh), rough, candidates=only).parameter for mesh in (BALL, large)]
     assert widths[1] == pytest.approx(50.0 * widths[0])
+
+
+@pytest.mark.parametrize("size", [1.0, 50.0])
+@pytest.mark.parametrize("name", ["total_variation", "heat_polynomial"])
+def test_the_parameter_that_is_reported_gives_the_map_again(size: float, name: MethodName) -> None:
+    """A weight has no unit and a width has that of the surface, whatever its size: its own method repeats the result."""
+    mesh = TriangleMesh(size * BALL.vertices, BALL.faces)
+    rough = 2.0 * (X > 0) + np.random.default_rng(0).standard_normal(len(X))
+    found = automatic_smoothing(mesh, fem(mesh), rough, candidates=(name,))
+    smoother, _ = Methods(mesh, fem(mesh), found.noise).smoother(name)
+    assert smoother(rough[:, None], found.parameter)[:, 0] == pytest.approx(found.values, abs=1e-6)
+
+
+@pytest.mark.parametrize("border", [True, False])
+def test_outliers_are_replaced_and_listed_and_cost_nearly_nothing(border: bool) -> None:
+    mesh = icosphere(4).mesh
+    operator, x = fem(mesh), mesh.vertices[:, 0]
+    rng = np.random.default_rng(3)
+    truth = 3.0 * (x > 0.2) if border else np.sin(3.0 * x)
+    white = truth + 0.3 * truth.std() * rng.standard_normal(len(x))
+    bad = np.sort(rng.choice(len(x), len(x) // 50, replace=False))
+    rough = white.copy()
+    rough[bad] += 6.0 * truth.std() * rng.choice([-1.0, 1.0], len(bad))
+    found = denoise(Surface(mesh), rough, method="auto")
+
+    def error(values: Floats) -> float:
+        return float(np.sqrt(operator.mass @ (values - truth) ** 2 / operator.mass.sum()))
+
+    assert np.array_equal(found.outliers, bad) and found.certificate["outliers"] == len(bad)
+    assert any("replaced by the median" in note for note in found.notes)
+    assert error(found.values) < 1.1 * error(denoise(Surface(mesh), white, method="auto").values)
+    # what named methods do with them is said
+    followed = denoise(Surface(mesh), rough, method="rof")
+    assert len(followed.outliers) == 0 and any("method auto replaces them" in note for note in followed.notes)
 
 
 def test_it_refuses_what_it_cannot_do() -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 from scipy.sparse import csr_array
+from scipy.sparse.linalg import aslinearoperator
 from scipy.sparse.linalg import eigsh as arpack
 
 import surfexp as sx
@@ -43,3 +45,61 @@ def test_dense_matrices_are_refused() -> None:
     with pytest.raises(ValueError, match="sparse"):
         sx.eigsh(np.eye(5), 2, sigma=0)
     assert sx.eigsh(csr_array(np.diag(np.arange(8.0))), 2, sigma=0)[0] == pytest.approx([0.0, 1.0], abs=1e-12)
+
+
+def magnetic_ring(count: int, flux: float) -> csr_array:
+    """Laplacian of a ring with a phase on every edge; its values are 2 - 2 cos((2 pi j + flux) / n)."""
+    near = np.arange(count)
+    hops = csr_array((np.full(count, -np.exp(1j * flux / count)), (near, (near + 1) % count)), shape=(count, count))
+    return csr_array(csr_array((np.full(count, 2.0), (near, near))) + hops + hops.conj().T)
+
+
+@pytest.mark.parametrize(("count", "k"), [(5, 2), (60, 7), (900, 12), (900, 11)])
+@pytest.mark.parametrize("flux", [0.3, np.pi, 0.0])
+def test_complex_hermitian_matrices_are_solved(count: int, k: int, flux: float) -> None:
+    """The exact values; pairs of equal ones at the fluxes 0 and pi, which an odd k or an even one cuts."""
+    matrix = magnetic_ring(count, flux)
+    exact = np.sort(4.0 * np.sin((2.0 * np.pi * np.arange(count) + flux) / (2 * count)) ** 2)[:k]
+    values, vectors = sx.eigsh(matrix, k, sigma=0)
+    assert values == pytest.approx(exact, rel=1e-7, abs=1e-11)
+    assert vectors.shape == (count, k) and np.abs(vectors.conj().T @ vectors - np.eye(k)).max() < 1e-9
+    assert np.abs(matrix @ vectors - vectors * values).max() < 1e-7 * exact[-1]
+
+
+def test_a_complex_mass_is_not_cut_to_its_real_part() -> None:
+    a, m = magnetic_ring(40, 1.0), magnetic_ring(40, -2.0) + 3.0 * magnetic_ring(40, 0.4)
+    m = csr_array(m + csr_array(np.eye(40)))
+    values, vectors = sx.eigsh(a, 6, m, sigma=0)
+    assert values == pytest.approx(eigh(a.toarray(), m.toarray(), eigvals_only=True)[:6], rel=1e-8, abs=1e-11)
+    assert np.abs(vectors.conj().T @ (m @ vectors) - np.eye(6)).max() < 1e-9
+
+
+def test_matrices_that_are_not_hermitian_are_refused() -> None:
+    matrix = magnetic_ring(30, 1.0)
+    matrix.data[matrix.data.imag > 0] *= 1j
+    with pytest.raises(ValueError, match="not symmetric"):
+        sx.eigsh(matrix, 3, sigma=0)
+
+
+@pytest.mark.parametrize("size", [1, 2])
+@pytest.mark.parametrize("unit", [1.0, 1j])
+def test_one_and_two_rows_are_a_pencil(size: int, unit: complex) -> None:
+    a = np.array([[2.0, unit], [np.conj(unit), 3.0]])[:size, :size]
+    values, vectors = sx.eigsh(csr_array(a), size, sigma=0)
+    assert values == pytest.approx(np.linalg.eigvalsh(a), rel=1e-12)
+    assert np.abs(a @ vectors - vectors * values).max() < 1e-9
+
+
+@pytest.mark.parametrize("scales", [(1e200, 1.0), (1e-200, 1.0), (1.0, 1e200), (1.0, 1e-200), (1e200, 1e200)])
+def test_the_unit_of_a_matrix_scales_the_values(scales: tuple[float, float]) -> None:
+    values, vectors = sx.eigsh(A, 6, M, sigma=0)
+    scaled, others = sx.eigsh(A * scales[0], 6, M * scales[1], sigma=0)
+    assert scaled / (scales[0] / scales[1]) == pytest.approx(values, rel=1e-9, abs=1e-9)
+    assert others * np.sqrt(scales[1]) == pytest.approx(vectors, rel=1e-6, abs=1e-6)
+
+
+def test_operators_without_entries_are_refused_by_name() -> None:
+    with pytest.raises(ValueError, match=r"M is a .*LinearOperator, a sparse matrix is needed"):
+        sx.eigsh(A, 3, aslinearoperator(M), sigma=0)
+    with pytest.raises(ValueError, match="A has entries that are not finite"):
+        sx.eigsh(A * np.inf, 3, M, sigma=0)

@@ -82,7 +82,7 @@ def test_an_open_surface_has_no_volume(working_folder: Path) -> None:
         (["fingerprint", "nowhere", "--to", "a.csv"], "nowhere"),
         (["fingerprint", ".", "--to", "a.csv"], "no surface in"),
         (["fingerprint", ".", "--to", "a.xls"], "choose .csv"),
-        (["fingerprint", ".", "-k", "0", "--to", "a.csv"], "count is 0"),
+        (["fingerprint", ".", "-k", "0", "--to", "a.csv"], "count = 0"),
     ],
 )
 def test_mistakes_are_one_line(

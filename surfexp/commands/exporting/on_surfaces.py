@@ -13,8 +13,9 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.gifti import write_gifti, write_gifti_labels
 from surfexp.io.label_files import label_colors
 from surfexp.io.map_files import write_maps
+from surfexp.io.map_names import printable_name
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.single_precision import check_single_precision_points
-from surfexp.io.vtk import scalar_channels
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
@@ -33,7 +34,8 @@ def _surface(surface: Surface, place: Place) -> None:
     if surface.part is not None and not surface.part.is_whole:
         own["vertex of the whole"] = surface.part.vertices.astype(np.float64)
     parcellations = {name: table.keys.astype(np.float64) for name, table in surface.labels.items()}
-    write_mesh(place.file(".vtp"), surface.mesh, {**parcellations, **own, **place.carried})
+    maps = {printable_name(name): values for name, values in {**parcellations, **own, **place.carried}.items()}
+    write_mesh(place.file(".vtp"), surface.mesh, maps)
     if surface.hemisphere:
         check_single_precision_points(surface.mesh.vertices, surface.mesh.faces)
         write_gifti(place.file(".surf.gii"), surface.mesh, surface.hemisphere)
@@ -85,7 +87,7 @@ def _maps_of_solution(solution: Solution) -> dict[str, Floats]:
 
 def _write_maps(place: Place, maps: Mapping[str, Floats], name: str) -> None:
     """Write maps as one .shape.gii, and where the surface was cut out of another, as one more for the whole of that."""
-    named = scalar_channels({f"{name} {part}".rstrip(): values for part, values in maps.items()})
+    named = scalar_channels({printable_name(f"{name} {part}"): values for part, values in maps.items()})
     surface = place.surface
     write_maps(place.file(".shape.gii"), named, surface.hemisphere if surface else "")
     if surface is not None and surface.part is not None and not surface.part.is_whole:
