@@ -30,20 +30,28 @@ def clean(everything: bool, yes: bool, results: Path) -> None:
     if not (results / "store").exists():
         raise UserError(f"{results} holds no stored results")
     hold_results(results)
-    doomed = _everything(results) if everything else _unplanned(results)
+    found = _everything(results) if everything else _unplanned(results)
+    doomed = [path for path in found if _is_below(path, results)]
+    if left := [path for path in found if path not in doomed]:
+        click.echo(f"left alone: {len(left)} entries that lie elsewhere, behind links, as {left[0]}", err=True)
     if not doomed:
         click.echo("nothing to remove: every stored result belongs to the latest plan of its experiment")
         return
-    size = sum(file.stat().st_size for path in doomed for file in ([path] if path.is_file() else path.rglob("*")))
+    size = sum(file.lstat().st_size for path in doomed for file in ([path] if path.is_file() else path.rglob("*")))
     click.echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}")
     if not yes and (not sys.stdin.isatty() or not click.confirm("remove them?")):
         click.echo("nothing removed; --yes removes without asking")
         return
     for path in doomed:
-        path.unlink() if path.is_file() or path.is_symlink() else shutil.rmtree(path)
+        path.unlink() if path.is_file() else shutil.rmtree(path)
     while empty := _without_content(results):
         for folder in empty:
             folder.rmdir()
+
+
+def _is_below(path: Path, results: Path) -> bool:
+    """Whether no link stands between the results folder and an entry, the entry itself included."""
+    return path.resolve() == results.resolve() / path.relative_to(results)
 
 
 def _everything(results: Path) -> list[Path]:
@@ -58,7 +66,11 @@ def _everything(results: Path) -> list[Path]:
 def _without_content(results: Path) -> list[Path]:
     """Folders of ours that nothing is left in, the inner ones first."""
     ours = [path for name in ("store", "events", "logs", "plans", "cache") for path in (results / name).glob("**")]
-    return [path for path in sorted(ours, reverse=True) if path.is_dir() and not any(path.iterdir())]
+    return [
+        path
+        for path in sorted(ours, reverse=True)
+        if path.is_dir() and _is_below(path, results) and not any(path.iterdir())
+    ]
 
 
 def _unplanned(results: Path) -> list[Path]:

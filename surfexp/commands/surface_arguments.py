@@ -155,7 +155,8 @@ def finish(
     from surfexp.tasks.files import write
 
     write(target, result, surface)
-    certificate = write_certificate(target, method, options, files, facts, notes)
+    said = tuple(dict.fromkeys((*(surface.notes if surface is not None else ()), *notes)))
+    certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:
         click.echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)

@@ -65,6 +65,8 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
 @result_option()
 def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) -> None:
     """Geodesic distance from vertices, by fast marching."""
+    import numpy as np
+
     from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import geodesic as task
 
@@ -73,7 +75,10 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     started = time.perf_counter()
     values = task(surface, sources)
     facts = {"seconds": time.perf_counter() - started}
-    finish(target, {"distance": values}, surface, "fast marching", {"sources": list(sources)}, files, facts)
+    unreached = np.isinf(values)
+    notes = (f"{unreached.sum()} vertices are joined to no source: they are NaN.",) if unreached.any() else ()
+    distance = {"distance": np.where(unreached, np.nan, values)}
+    finish(target, distance, surface, "fast marching", {"sources": list(sources)}, files, facts, notes)
 
 
 @click.command(**shown("curvature", *EXAMPLES["curvature"]))
@@ -194,13 +199,15 @@ def convert(path: str, target: Path, **given: Any) -> None:
 
     The suffix of TARGET decides; maps are left out where the format has no room for them.
     """
-    from surfexp.io.writing import check_mesh_target
+    from surfexp.io.writing import check_mesh_target, format_of
     from surfexp.tasks.files import write
 
     surface, files = opened(path, **given)
     ready(target, files, check_mesh_target)
     write(target, surface)
     click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
+    if lost := surface.frame.lost_in(format_of(target)):
+        click.echo(lost)
 
 
 @click.command(**shown("plot", *EXAMPLES["plot"]))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -52,6 +55,26 @@ def read_geometry(path: Path) -> tuple[Floats, Integers]:
     return vertices.astype(np.float64), faces.astype(np.int64)
 
 
+def read_volume_geometry(path: Path) -> dict[str, Any]:
+    """Return the geometry of the volume behind the faces, as nibabel names it; empty where there is none that it reads."""
+    from nibabel.freesurfer import read_geometry as read
+
+    data = path.read_bytes()
+    if not data.startswith(TRIANGLES):
+        return {}
+    head = _end_of_stamp(data)
+    vertices, faces = np.frombuffer(data, ">i4", 2, head).tolist()
+    # nibabel knows the geometry of the volume alone among what may follow
+    if int.from_bytes(data[(end := head + 8 + 12 * (vertices + faces)) : end + 4], "big") not in (2, 20):
+        return {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return dict(read(path, read_metadata=True)[2])
+        except (OSError, ValueError, IndexError):
+            return {}
+
+
 def _check_length(data: bytes) -> None:
     """Hold the counts of a triangle file against its length, since a face that the header forgets would be lost.
 
@@ -81,11 +104,13 @@ def _end_of_stamp(data: bytes) -> int:
     return head
 
 
-def write_freesurfer_geometry(path: Path, mesh: TriangleMesh) -> None:
-    """Write geometry in single precision, as the format has it."""
+def write_freesurfer_geometry(path: Path, mesh: TriangleMesh, volume: Mapping[str, Any] | None = None) -> None:
+    """Write geometry in single precision, as the format has it, with the geometry of the volume as nibabel names it."""
     from nibabel.freesurfer import write_geometry
 
-    write_geometry(path, mesh.vertices, mesh.faces, create_stamp="created by surfexp", volume_info=None)
+    write_geometry(
+        path, mesh.vertices, mesh.faces, create_stamp="created by surfexp", volume_info=dict(volume) if volume else None
+    )
 
 
 def read_map(path: Path) -> Floats:

@@ -13,6 +13,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
 from surfexp.io.numbers import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.spatial_frame import CoordinateTransform, SpatialFrame
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 POINTS, TRIANGLES, LABELS = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE", "NIFTI_INTENT_LABEL"
@@ -63,6 +64,33 @@ def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any], str]:
         raise ValueError("GIFTI file holds no surface; if it is a map, give it as an image")
     said = str(points[0].metadata.get(STRUCTURE, image.meta.get(STRUCTURE, "")))
     return np.asarray(points[0].data), np.asarray(triangles[0].data), {v: k for k, v in CORTEX.items()}.get(said, "")
+
+
+def read_gifti_rest(path: Path) -> tuple[dict[str, Floats], SpatialFrame]:
+    """The maps that stand beside a surface in its file, and where its points lie.
+
+    Raises
+    ------
+    ValueError
+        If an array is no map, or the file holds no surface.
+    """
+    image = _load(path)
+    surface = {image_code(POINTS), image_code(TRIANGLES)}
+    beside = [array for array in image.darrays if array.intent not in surface and array.intent != image_code(LABELS)]
+    points = next(array for array in image.darrays if array.intent == image_code(POINTS))
+    system = points.coordsys
+    transforms = []
+    if system is not None:
+        matrix = np.asarray(system.xform, dtype=np.float64).reshape(4, 4)
+        transforms = [CoordinateTransform(_space(system.dataspace), _space(system.xformspace), matrix)]
+    metadata = {str(key): str(value) for key, value in points.metadata.items()}
+    return _maps(beside), SpatialFrame(transforms=tuple(transforms), metadata=metadata)
+
+
+def _space(code: int) -> str:
+    from nibabel.nifti1 import xform_codes
+
+    return str(xform_codes.niistring[code])
 
 
 def hemisphere_of_gifti(path: Path) -> str:
@@ -162,13 +190,20 @@ def image_code(intent: str) -> int:
     return int(intent_codes[intent])
 
 
-def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "") -> None:
-    """Write points (float32, as the format has them) and triangles, compressed inside the XML."""
+def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "", frame: SpatialFrame | None = None) -> None:
+    """Write points (float32, as the format has them) with their space, and triangles, compressed inside the XML."""
     import nibabel
 
     gifti = nibabel.gifti
-    meta = gifti.GiftiMetaData({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {})
-    points = gifti.GiftiDataArray(mesh.vertices.astype(np.float32), POINTS, meta=meta)
+    said = dict(frame.metadata) if frame is not None else {}
+    meta = gifti.GiftiMetaData(said | ({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {}))
+    # nibabel holds one transform of each array
+    transform = frame.transforms[0] if frame is not None and frame.transforms else None
+    system = None
+    if transform is not None:
+        codes = (nibabel.nifti1.xform_codes[name] for name in (transform.source, transform.target))
+        system = gifti.GiftiCoordSystem(*codes, transform.matrix)
+    points = gifti.GiftiDataArray(mesh.vertices.astype(np.float32), POINTS, coordsys=system, meta=meta)
     triangles = gifti.GiftiDataArray(mesh.faces.astype(np.int32), TRIANGLES)
     nibabel.save(gifti.GiftiImage(darrays=[points, triangles]), path)
 

@@ -13,7 +13,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io import freesurfer
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
-from surfexp.io.gifti import hemisphere_of_gifti, is_gifti, read_gifti_surface
+from surfexp.io.gifti import hemisphere_of_gifti, is_gifti, read_gifti_rest, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.mesh_file import Decoded, MeshFile
@@ -28,6 +28,7 @@ from surfexp.io.stl import read_stl
 from surfexp.io.tosca import read_vert_tri
 from surfexp.io.vtk import read_vtk
 from surfexp.io.vtp import read_vtp, read_vtu
+from surfexp.mesh.spatial_frame import SpatialFrame
 
 READERS: dict[str, Callable[[Path], Decoded]] = {".off": read_off, ".obj": read_obj, ".stl": read_stl, ".ply": read_ply}
 READERS |= {".vtk": read_vtk, ".vtp": read_vtp, ".vtu": read_vtu}
@@ -109,11 +110,13 @@ def _read(path: Path) -> Decoded:
     if is_gifti(path):
         check_declared_sizes(path)
         points, triangles, _ = read_gifti_surface(path)
-        return Decoded(points, triangles)
+        maps, frame = read_gifti_rest(path)
+        return Decoded(points, triangles, maps, frame=frame)
     if suffix in MESH_SUFFIXES:
         return Decoded(*read_with_open3d(path))
     if suffix in POINT_SUFFIXES:
         raise ValueError(f"{suffix} holds points without faces; reconstruct a surface from them first (point_cloud)")
     if freesurfer.is_geometry(path):
-        return Decoded(*freesurfer.read_geometry(path))
+        vertices, faces = freesurfer.read_geometry(path)
+        return Decoded(vertices, faces, frame=SpatialFrame(volume=freesurfer.read_volume_geometry(path)))
     raise ValueError(f"its format is unknown; known are {KNOWN}")

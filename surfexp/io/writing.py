@@ -18,6 +18,7 @@ from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.stl import write_stl
 from surfexp.io.vtk import write_vtk
 from surfexp.io.vtp import write_vtp
+from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Writer = Callable[[Path, TriangleMesh], None]
@@ -28,10 +29,13 @@ SINGLE_PRECISION = (".gii", ".stl")
 FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness")
 
 
-def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
+def write_mesh(
+    path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None, frame: SpatialFrame | None = None
+) -> None:
     """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
 
-    .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision.
+    .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision. GIFTI and
+    FreeSurfer's files carry their own part of `frame`, the space of the vertices.
 
     Raises
     ------
@@ -47,7 +51,7 @@ def write_mesh(path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] 
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
         maps[name] = values
-    writer = _writer(path, mesh, maps)
+    writer = _writer(path, mesh, maps, frame)
     with replacing(path) as temporary:
         writer(temporary)
 
@@ -73,7 +77,9 @@ def _is_freesurfer(path: Path) -> bool:
     return suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
 
 
-def _writer(path: Path, mesh: TriangleMesh, maps: dict[str, Floats]) -> Callable[[Path], None]:
+def _writer(
+    path: Path, mesh: TriangleMesh, maps: dict[str, Floats], frame: SpatialFrame | None
+) -> Callable[[Path], None]:
     """Return what writes the mesh, once the format is known to hold it."""
     check_mesh_target(path)
     suffix = path.suffix.lower()
@@ -84,5 +90,15 @@ def _writer(path: Path, mesh: TriangleMesh, maps: dict[str, Floats]) -> Callable
     freesurfer = _is_freesurfer(path)
     if freesurfer or suffix in SINGLE_PRECISION:
         check_single_precision_points(mesh.vertices, mesh.faces)
-    write = write_freesurfer_geometry if freesurfer else WITHOUT_MAPS[suffix]
-    return lambda place: write(place, mesh)
+        if freesurfer:
+            return lambda place: write_freesurfer_geometry(place, mesh, frame.volume if frame is not None else None)
+        if suffix == ".gii":
+            return lambda place: write_gifti(place, mesh, frame=frame)
+    return lambda place: WITHOUT_MAPS[suffix](place, mesh)
+
+
+def format_of(path: Path) -> str:
+    """Return "FreeSurfer", "GIFTI", or the suffix of the format in which a mesh is written."""
+    if _is_freesurfer(path):
+        return "FreeSurfer"
+    return "GIFTI" if path.suffix.lower() == ".gii" else path.suffix.lower()

@@ -45,7 +45,18 @@ class SpatialFrame:
     transforms: tuple[CoordinateTransform, ...] = ()
     metadata: Mapping[str, str] = field(default_factory=dict)
 
-    def __bool__(self) -> bool:
-        """Whether anything is said."""
-        moved = any(t.source != t.target or not np.array_equal(t.matrix, np.eye(4)) for t in self.transforms)
-        return bool(self.volume) or moved or bool(self.metadata)
+    def lost_in(self, format_name: str) -> str:
+        """Say in one line what a format cannot hold of it; nothing where all is held.
+
+        Parameters
+        ----------
+        format_name : {"FreeSurfer", "GIFTI"} or another
+
+        Returns
+        -------
+        str
+        """
+        moved = any(not np.array_equal(t.matrix, np.eye(4)) for t in self.transforms)
+        lost = ["FreeSurfer's volume geometry (cras)"] if self.volume and format_name != "FreeSurfer" else []
+        lost += ["coordinate transforms"] if moved and format_name != "GIFTI" else []
+        return f"{' and '.join(lost)} of the input cannot be held by this format and are left out." if lost else ""

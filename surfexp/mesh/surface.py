@@ -14,6 +14,7 @@ from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.given_arrays import frozen, mask_array, real_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
+from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -71,6 +72,8 @@ class Surface(Summarized):
         Parcellations by name.
     part : SurfacePart, optional
         What of a larger surface this mesh is, where a mask has cut it out.
+    frame : SpatialFrame
+        Where the vertices lie, as the file says it; written again where a format holds it.
 
     Raises
     ------
@@ -100,6 +103,7 @@ class Surface(Summarized):
     hemisphere: str = ""
     labels: dict[str, LabelMap] = field(default_factory=dict)
     part: SurfacePart | None = None
+    frame: SpatialFrame = field(default_factory=SpatialFrame)
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),

@@ -54,7 +54,13 @@ class Defect:
 
 @dataclass(frozen=True)
 class Report:
-    """All defects found, one entry a kind, in the order in which they were looked for."""
+    """All defects found.
+
+    Parameters
+    ----------
+    defects : tuple of Defect
+        One entry a kind, in the order in which they were looked for.
+    """
 
     defects: tuple[Defect, ...]
 
@@ -64,11 +70,28 @@ class Report:
         return all(defect.severity == "note" for defect in self.defects)
 
     def count(self, kind: str) -> int:
-        """Number of defects of a kind, 0 when there is none."""
+        """Count the defects of a kind.
+
+        Parameters
+        ----------
+        kind : str
+            As in `lines`: "duplicate faces".
+
+        Returns
+        -------
+        int
+            0 when there is none.
+        """
         return sum(defect.count for defect in self.defects if defect.kind == kind)
 
     def lines(self) -> list[str]:
-        """One line for each defect, with its severity."""
+        """Name the defects.
+
+        Returns
+        -------
+        list of str
+            One line for each kind, with its severity.
+        """
         return [f"{defect.severity}: {defect}" for defect in self.defects] or ["no defect"]
 
 

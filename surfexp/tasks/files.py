@@ -54,7 +54,8 @@ def read(
     hemisphere : {"", "left", "right"}
         Found from the file where it says so. Maps, labels and masks of the other one are refused.
     repair : bool
-        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices.
+        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices. Vertices
+        without faces or position are no defect: they are outside, and the numbering stays.
 
     Returns
     -------
@@ -73,7 +74,7 @@ def read(
     320
     """
     file_read = read_mesh_file(Path(path))
-    vertices, faces, scalars = file_read.vertices, file_read.faces, dict(file_read.scalars)
+    vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
     count = len(vertices)
     side = hemisphere or hemisphere_of_file(path)
     for name, file in (maps or {}).items():
@@ -91,15 +92,35 @@ def read(
         notes = (*notes, *mask_notes(mask, side))
         mask = read_mask(mask, count, side)
     inside = None if mask is None else mask_array(mask, count)
-    mesh = TriangleMesh(vertices, faces)
-    if repair:
-        mesh, changes, origin = repair_mesh(vertices, faces)
-        scalars = {name: values[origin] for name, values in scalars.items()}
-        tables = {name: replace(table, keys=table.keys[origin]) for name, table in tables.items()}
-        inside = None if inside is None else inside[origin]
-        notes = (*notes, *changes)
-    surface = Surface(mesh, Path(path).stem, unit, scalars, mask=inside, hemisphere=side, labels=tables, notes=notes)
-    return sound_part(surface, str(path), repair="")
+    surface = Surface(
+        TriangleMesh(vertices, faces),
+        Path(path).stem,
+        unit,
+        scalars,
+        mask=inside,
+        hemisphere=side,
+        labels=tables,
+        notes=notes,
+        frame=file_read.frame,
+    )
+    try:
+        return sound_part(surface, str(path), repair="")
+    except ValueError:
+        if not repair:
+            raise
+    return sound_part(_repaired(surface), str(path), repair="")
+
+
+def _repaired(surface: Surface) -> Surface:
+    mesh, changes, origin = repair_mesh(surface.mesh.vertices, surface.mesh.faces)
+    return replace(
+        surface,
+        mesh=mesh,
+        scalars={name: values[origin] for name, values in surface.scalars.items()},
+        labels={name: replace(table, keys=table.keys[origin]) for name, table in surface.labels.items()},
+        mask=None if surface.mask is None else surface.mask[origin],
+        notes=(*surface.notes, *changes),
+    )
 
 
 def _same_side(file: PathLike, side: str, what: str) -> None:
@@ -144,7 +165,7 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
     target = Path(path)
     if isinstance(what, Surface):
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
-        write_mesh(target, what.mesh, scalars)
+        write_mesh(target, what.mesh, scalars, what.frame)
         return
     table = getattr(what, "label_map", None)
     if target.name.endswith(LABEL_SUFFIXES) and table is not None:

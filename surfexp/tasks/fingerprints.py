@@ -17,13 +17,13 @@ from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
+from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.tasks.files import PathLike, read
 from surfexp.tasks.inputs import part_for
 
-PATTERNS = ("*.off", "*.obj", "*.ply", "*.stl", "*.surf.gii", "*.vtk", "*.vtp", "*.vert")
 CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
 # FreeSurfer's segmentation volume: in a subject's folder, and as fMRIPrep writes it among BIDS derivatives
 SEGMENTATION, DERIVATIVE = Path("mri/aseg.mgz"), "*_desc-aseg_dseg.nii.gz"
@@ -199,7 +199,7 @@ def structures(sources: Sequence[PathLike]) -> dict[str, Source]:
     if not found:
         given_names = ", ".join(map(str, sources))
         raise ValueError(
-            f"no surface in {given_names}: neither surf/lh.white and the like, nor {SEGMENTATION}, nor {', '.join(PATTERNS)}"
+            f"no surface in {given_names}: neither surf/lh.white and the like, nor {SEGMENTATION}, nor {', '.join(MESH_PATTERNS)}"
         )
     return found
 
@@ -213,7 +213,7 @@ def _structures_of(source: Path) -> dict[str, Source]:
         return _subject(source, "")
     if subjects := sorted(filter(_is_subject, source.iterdir())):
         return {name: found for one in subjects for name, found in _subject(one, f"{one.name} ").items()}
-    files = sorted({file for pattern in PATTERNS for file in source.rglob(pattern) if file.is_file()})
+    files = sorted({file for pattern in MESH_PATTERNS for file in source.rglob(pattern) if file.is_file()})
     short = [str(file.relative_to(source).with_name(_stem(file))) for file in files]
     whole = [str(file.relative_to(source)) for file in files]
     names = [long if short.count(name) > 1 else name for name, long in zip(short, whole, strict=True)]

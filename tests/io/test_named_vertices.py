@@ -14,6 +14,7 @@ from surfexp.io.map_files import mask_notes, read_maps, read_mask, read_named_la
 from surfexp.io.medial_wall import is_outside
 from surfexp.io.reading import read_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 MESH = icosphere(1).mesh
 N, M = len(MESH.vertices), len(MESH.faces)
@@ -148,3 +149,27 @@ def test_maps_in_volumes_of_one_row(tmp_path: Path, shape: tuple[int, int, int])
             read_maps(tmp_path / "a.mgz")
     else:
         assert read_maps(tmp_path / "a.mgz")["a"] == pytest.approx(HEIGHT, abs=1e-7)
+
+
+def test_distances_on_two_components_are_written_and_said(tmp_path: Path) -> None:
+    from click.testing import CliRunner
+
+    from surfexp.commands.surface_commands import geodesic
+
+    vertices = np.concatenate([MESH.vertices, MESH.vertices + 5.0])
+    sx.write(tmp_path / "two.off", sx.Surface(TriangleMesh(vertices, np.concatenate([MESH.faces, MESH.faces + N]))))
+    target = tmp_path / "x.shape.gii"
+    result = CliRunner().invoke(geodesic, [str(tmp_path / "two.off"), "0", "--to", str(target)], standalone_mode=False)
+    assert result.exception is None and "42 vertices are joined to no source" in result.output
+    distance = read_maps(target)["distance"]
+    assert np.isfinite(distance[:N]).all() and np.isnan(distance[N:]).all()
+
+
+def test_a_vertex_without_faces_keeps_the_numbering_under_repair(tmp_path: Path) -> None:
+    points = np.concatenate([[[9.0, 9, 9]], MESH.vertices])
+    sx.write(tmp_path / "a.off", sx.Surface(TriangleMesh(points, MESH.faces + 1), mask=np.arange(N + 1) > 0))
+    np.savetxt(tmp_path / "a.txt", points[:, 2])
+    surface = sx.read(tmp_path / "a.off", maps={"height": tmp_path / "a.txt"}, repair=True)
+    assert len(surface.mesh.vertices) == N + 1
+    smooth = np.asarray(sx.smooth(surface, "height", 0.3).values)
+    assert np.isnan(smooth[0]) and np.isfinite(smooth[1:]).all()

@@ -10,9 +10,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.lab.errors import UserError
 
-PATTERNS = ("*.off", "*.obj", "*.ply", "*.stl", "*.gii", "*.vert", "*.mat")
+# maps among GIFTI files are refused with the reason when they are read
+PATTERNS = (*MESH_PATTERNS, "*.gii", "*.mat")
 CLASS_OF_NAME = r"(?P<class>[^/\d]*[^/\d_. -])[^/]*$"
 TABLES = (".csv", ".tsv")
 AXIS = "shapes"
