@@ -46,6 +46,7 @@ SECTIONS = {
         "nodal_domains",
         "assembly",
     ),
+    "Sparse factorisation": ("factorisation",),
     "Null models": ("nulls",),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),

@@ -17,6 +17,7 @@ PACKAGES = (
     "scipy",
     "numba",
     "cholespy",
+    "qdldl",
     "libigl",
     "cvxpy",
     "clarabel",

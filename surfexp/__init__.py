@@ -11,6 +11,7 @@ from surfexp.face import FACE
 if TYPE_CHECKING:
     from surfexp.experiments import load as load
     from surfexp.experiments import run as run
+    from surfexp.linalg.ldlt import ldlt as ldlt
     from surfexp.mesh.surface import Surface as Surface
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth

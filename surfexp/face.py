@@ -14,6 +14,7 @@ FACE = {
     "eigsh": "surfexp.tasks.spectra",
     "fingerprint": "surfexp.tasks.fingerprints",
     "geodesic": "surfexp.tasks.skeletons",
+    "ldlt": "surfexp.linalg.ldlt",
     "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
     "null_maps": "surfexp.tasks.null_maps",

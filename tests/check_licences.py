@@ -19,11 +19,6 @@ STRONG = re.compile(r"\bA?GPL|GNU (Affero )?General Public", re.IGNORECASE)
 EXPLAINED = {"docutils": "public domain and BSD; GPL for an Emacs mode that its wheel does not hold"}
 # strong copyleft that a wheel holds and its metadata do not state: a file of it, what marks it there, what it is
 HELD = {
-    "cholespy": (
-        "cholespy/_cholespy_core*.so",
-        b"CHOLMOD/Include/../Supernodal/",
-        "CHOLMOD's supernodal part, GPL-2.0+",
-    ),
     "libigl": ("igl/copyleft/cgal/*.so", b"cgal", "igl.copyleft (CGAL, TetGen), GPL and AGPL, which is never imported"),
 }
 

@@ -14,7 +14,7 @@ from surfexp.anatomy import fsaverage5 as packaged
 from surfexp.embedding.analytic_spectra import spheroid_embedding
 from surfexp.extras import MissingExtra
 from surfexp.io.numbers import real_array
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -55,7 +55,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     "mass of elements": (lambda: surface_elements(MESH, mass="lump"), "mass 'lump' is unknown"),
     "boundary of elements": (lambda: surface_elements(MESH, boundary="dirichlet"), "closed and has no boundary"),
     "length of a right-hand side": (
-        lambda: factorise(csr_array(eye_array(5))).solve(np.ones(4)), "right-hand side has 4 rows, the matrix has 5",
+        lambda: ldlt(csr_array(eye_array(5))).solve(np.ones(4)), "right-hand side has 4 rows, the matrix has 5",
     ),
     "semiaxis": (lambda: spheroid_embedding(-1.0, 3), "semiaxis -1"),
     "semiaxis of nothing": (lambda: spheroid_embedding(float("nan"), 3), "semiaxis nan"),

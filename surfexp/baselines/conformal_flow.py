@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 from surfexp.baselines.moebius import centred
 from surfexp.baselines.spherical_map import check_sphere
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
@@ -61,7 +61,7 @@ def conformal_flow(
     defect = _defect(matrix, mesh, points)
     for step in range(1, step_limit + 1):
         mass = mass_matrix(fem(TriangleMesh(points, mesh.faces)))
-        points = _rescaled(mesh, factorise(mass + time_step * matrix).solve(mass @ points))
+        points = _rescaled(mesh, ldlt(mass + time_step * matrix).solve(mass @ points))
         before, defect = defect, _defect(matrix, mesh, points)
         if progress is not None:
             progress(step, defect)

@@ -7,7 +7,7 @@ from scipy.sparse import csr_array
 
 from surfexp.baselines.moebius import centred
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
@@ -81,7 +81,7 @@ def _plane_map(mesh: TriangleMesh) -> np.ndarray:
     source[corners] = [-1 / length + 1j * (1 - theta) / height, 1 / length + 1j * theta / height, -1j / height]
     matrix = csr_array(stiffness(fem(mesh)))
     free = np.arange(1, len(source))
-    solution = factorise(matrix[free][:, free]).solve(np.stack([source.real[1:], source.imag[1:]], axis=1))
+    solution = ldlt(matrix[free][:, free]).solve(np.stack([source.real[1:], source.imag[1:]], axis=1))
     plane = np.zeros_like(source)
     plane[1:] = solution[:, 0] + 1j * solution[:, 1]
     x, y, z = plane[mesh.faces.T]

@@ -104,6 +104,34 @@ def minus_product(typing: Any, lanes: Any, factor: Any, others: Any) -> Any:
 
 
 @intrinsic
+def plus_lanes(typing: Any, lanes: Any, factors: Any, others: Any) -> Any:
+    """Return lanes + factors others, number by number."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        product = builder.fmul(arguments[1], arguments[2], flags=CONTRACT)
+        return builder.fadd(arguments[0], product, flags=CONTRACT)
+
+    return LANES_TYPE(LANES_TYPE, LANES_TYPE, LANES_TYPE), generate
+
+
+@intrinsic
+def total(typing: Any, lanes: Any) -> Any:
+    """Return the sum of the eight numbers, by halves."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        lanes, undefined = arguments[0], ir.Constant(VECTOR, ir.Undefined)
+        half = LANES // 2
+        while half:
+            other = [lane + half if lane < half else 0 for lane in range(LANES)]
+            mask = ir.Constant(ir.VectorType(ir.IntType(32), LANES), other)
+            lanes = builder.fadd(lanes, builder.shuffle_vector(lanes, undefined, mask))
+            half //= 2
+        return builder.extract_element(lanes, ir.Constant(ir.IntType(32), 0))
+
+    return types.float64(LANES_TYPE), generate
+
+
+@intrinsic
 def quotient(typing: Any, lanes: Any, divisor: Any) -> Any:
     """Return lanes / divisor."""
 

@@ -1,25 +1,41 @@
-"""Sparse LDL^T of symmetric matrices, definite or not: many right-hand sides, cheap refactoring, inertia."""
+"""Sparse LDL^T of symmetric matrices, definite or not: many right-hand sides, cheap refactoring, inertia.
+
+Written by hand because no library under a free licence without copyleft has both the counts of negative pivots, which prove
+spectra complete, and solves with many right-hand sides: CHOLMOD's supernodal part is GPL and for definite matrices alone,
+SuperLU knows no symmetry and takes three to four times as long, qdldl works column by column.
+"""
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import csr_array, sparray
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array, issparse, sparray, spmatrix
 
 from surfexp.contract.arrays import Floats
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve import solve_lanes
-from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
+from surfexp.linalg.ldlt_solve_one import solve_one
+from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, both_triangles, permuted
 
 SMALLEST_PIVOT = 1e-14
+# largest |A - A^T| over the largest |A| that is taken for rounding
+SYMMETRY = 1e-12
+# backward error of a first solve above which solves are refined, and its residual above which the factors are refused
+REFINED, REFUSED = 1e-14, 1e-3
+REFINEMENTS = 3
+# fewer right-hand sides than that are solved with one by one
+FEW = 3
 
 
 class LDLT:
-    """Factors P A P^T = L D L^T with diagonal D, without pivoting; `ldlt` makes one.
+    """Factors P A P^T = L D L^T of a sparse symmetric matrix, with diagonal D and without pivoting; `sx.ldlt` makes one.
 
-    Without pivoting the factors of an indefinite matrix can lose digits; `residual` says how many before anybody relies
-    on them. The numbers of negative and positive pivots are those of the eigenvalues (Sylvester's law of inertia).
+    A factor can be called as a function: `factor(b)` is `factor.solve(b)`, so that it stands wherever a CHOLMOD factor or
+    the solve of `scipy.sparse.linalg.splu` is expected.
 
     Parameters
     ----------
@@ -33,9 +49,11 @@ class LDLT:
     matrix, symbolic
         As given.
     replaced_pivots : int
-        Pivots under 1e-14 of the least diagonal entry that is not 0 (in modulus), replaced by that bound.
+        How many pivots were under 1e-14 of the least diagonal entry that is not 0 (in modulus), replaced by that bound.
     residual : float
         |A x - b| / |b| of a first solve with fixed right-hand sides.
+    backward_error : float
+        Largest |A x - b| / (|A| |x| + |b|) of that solve, in the maximum norm. Solves are refined where it is above 1e-14.
     perturbation : float
         |A x - b| / |x| of that solve. As x is mostly made of the eigenvectors nearest to zero, this is about how far the
         eigenvalues nearest to zero have moved: the inertia is exact when all are farther from zero than that.
@@ -54,22 +72,59 @@ class LDLT:
         self.symbolic = symbolic
         self._factor = np.empty(symbolic.entries)
         self._pivots = np.empty(symbolic.size)
-        self.refactor(matrix)
+        self.refactor_in_order(matrix)
 
-    def refactor(self, matrix: csr_array) -> None:
-        """Replace the factors by those of another matrix of the same pattern, in elimination order."""
+    def refactor(self, matrix: ArrayLike | sparray | spmatrix) -> None:
+        """Replace the factors by those of another matrix of the same pattern.
+
+        Parameters
+        ----------
+        matrix : (n, n) sparse array
+            Symmetric; its entries that are not 0 must lie where those of the first matrix did.
+
+        Raises
+        ------
+        ValueError
+            If the matrix is not symmetric, has entries elsewhere, or is singular to rounding. The factors are then those of
+            no matrix.
+        """
+        given = _symmetric(matrix)
+        if given.shape[0] != self.symbolic.size:
+            raise ValueError(f"matrix has {given.shape[0]} rows, the factors are of one with {self.symbolic.size}")
+        ordered = permuted(given, self.symbolic.permutation)
+        outside = _entries_outside(ordered, self.matrix)
+        if outside:
+            raise ValueError(
+                f"matrix has {outside} entries where the factorised one has none: factorise it anew, with ldlt(matrix)"
+            )
+        self.refactor_in_order(ordered)
+        self._require_regular()
+
+    def refactor_in_order(self, matrix: csr_array) -> None:
+        """Replace the factors by those of a matrix in elimination order, of which only the finiteness is checked.
+
+        Parameters
+        ----------
+        matrix : (n, n) csr_array
+            As `permuted` returns it.
+
+        Raises
+        ------
+        ValueError
+            If it has entries that are not finite.
+        """
         if not np.isfinite(matrix.data).all():
             raise ValueError(f"matrix has {int((~np.isfinite(matrix.data)).sum())} entries that are not finite")
         self.matrix = matrix
         s = self.symbolic
         diagonal = np.abs(matrix.diagonal())
         scale = float(diagonal.min(initial=np.inf, where=diagonal > 0))
-        scale = scale if np.isfinite(scale) else 1.0
+        self._smallest = SMALLEST_PIVOT * (scale if np.isfinite(scale) else 1.0)
         self.replaced_pivots = int(
             eliminate(
                 *(matrix.indptr, matrix.indices, matrix.data),
                 *(s.columns, s.row_starts, s.rows, s.parents, s.panels),
-                *(SMALLEST_PIVOT * scale, self._factor, self._pivots),
+                *(self._smallest, self._factor, self._pivots),
             )
         )
         probe = np.cos(np.outer(np.arange(s.size), np.arange(1.0, LANES + 1)))
@@ -80,6 +135,13 @@ class LDLT:
         error = float(np.linalg.norm(self.row_errors))
         self.residual = error / float(np.linalg.norm(probe))
         self.perturbation = error / float(np.linalg.norm(self.row_sizes))
+        largest = float(abs(matrix).sum(axis=1).max())
+        self.backward_error = float(np.abs(defect).max() / (largest * np.abs(solution).max() + np.abs(probe).max()))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Shape of the matrix."""
+        return self.symbolic.size, self.symbolic.size
 
     @property
     def negative(self) -> NDArray[np.bool_]:
@@ -92,49 +154,200 @@ class LDLT:
         negative = int(self.negative.sum())
         return negative, self.symbolic.size - negative
 
+    @property
+    def memory(self) -> int:
+        """Bytes of the factors and their analysis."""
+        s = self.symbolic
+        analysis = (s.permutation, s.columns, s.row_starts, s.rows, s.parents, s.panels)
+        return int(self._factor.nbytes + self._pivots.nbytes + sum(part.nbytes for part in analysis))
+
+    def slogdet(self) -> tuple[float, float]:
+        """Return the determinant as `numpy.linalg.slogdet` does.
+
+        Returns
+        -------
+        sign : float
+            1 or -1.
+        logarithm : float
+            Of the modulus.
+        """
+        return (-1.0) ** self.inertia[0], math.fsum(np.log(np.abs(self._pivots)))
+
+    def logdet(self) -> float:
+        """Return the logarithm of the determinant.
+
+        Returns
+        -------
+        float
+            NaN where the determinant is negative.
+        """
+        sign, logarithm = self.slogdet()
+        return logarithm if sign > 0 else math.nan
+
     def solve_in_order(self, right_hand_sides: Floats) -> None:
-        """Overwrite an (n, 8) C-ordered block of right-hand sides, in elimination order, by its solutions."""
+        """Overwrite eight right-hand sides by their solutions.
+
+        Parameters
+        ----------
+        right_hand_sides : (n, 8) float64
+            C-ordered, rows in elimination order.
+        """
         s = self.symbolic
         solve_lanes(s.columns, s.row_starts, s.rows, s.panels, self._factor, self._pivots, right_hand_sides)
 
-    def solve(self, right_hand_side: Floats) -> Floats:
-        """Return x with A x = b for an (n,) or (n, c) right-hand side.
+    def solve(self, right_hand_side: ArrayLike) -> Floats:
+        """Return x with A x = b.
+
+        Parameters
+        ----------
+        right_hand_side : (n,) or (n, c) array
+            One or many; eight at once cost about as much as two.
+
+        Returns
+        -------
+        (n,) or (n, c) float64
 
         Raises
         ------
         ValueError
             If the lengths differ.
         """
-        if len(right_hand_side) != self.symbolic.size:
-            raise ValueError(f"right-hand side has {len(right_hand_side)} rows, the matrix has {self.symbolic.size}")
+        if np.iscomplexobj(right_hand_side):
+            raise ValueError("right-hand side is complex: solve with its real and its imaginary part")
+        given = np.asarray(right_hand_side, dtype=np.float64)
         order = self.symbolic.permutation
-        given = np.asarray(right_hand_side, dtype=np.float64).reshape(len(order), -1)
-        solution = np.empty_like(given)
-        for first in range(0, given.shape[1], LANES):
-            some = slice(first, min(first + LANES, given.shape[1]))
-            block = np.zeros((len(order), LANES))
-            block[:, : some.stop - some.start] = given[order, some]
+        if given.ndim not in (1, 2) or len(given) != len(order):
+            raise ValueError(f"right-hand side has {len(given) if given.ndim else 0} rows, the matrix has {len(order)}")
+        load = given.reshape(len(order), -1)[order]
+        solution = self._solve(load)
+        if self.backward_error > REFINED:
+            solution = self._refined(load, solution)
+        result = np.empty_like(solution)
+        result[order] = solution
+        return result.reshape(given.shape)
+
+    __call__ = solve
+
+    def _solve(self, load: Floats) -> Floats:
+        s, solution = self.symbolic, np.empty_like(load)
+        if load.shape[1] < FEW:
+            for column in range(load.shape[1]):
+                one = load[:, column].copy()
+                solve_one(s.columns, s.row_starts, s.rows, s.panels, self._factor, self._pivots, one)
+                solution[:, column] = one
+            return solution
+        for first in range(0, load.shape[1], LANES):
+            some = slice(first, min(first + LANES, load.shape[1]))
+            block = np.zeros((len(load), LANES))
+            block[:, : some.stop - some.start] = load[:, some]
             self.solve_in_order(block)
-            solution[order, some] = block[:, : some.stop - some.start]
-        return solution.reshape(np.shape(right_hand_side))
+            solution[:, some] = block[:, : some.stop - some.start]
+        return solution
+
+    def _refined(self, load: Floats, solution: Floats) -> Floats:
+        """Take the solution's defect off it while that makes the defect smaller."""
+        defect = load - self.matrix @ solution
+        for _ in range(REFINEMENTS):
+            better = solution + self._solve(defect)
+            left = load - self.matrix @ better
+            if not np.linalg.norm(left) < np.linalg.norm(defect):
+                break
+            solution, defect = better, left
+        return solution
+
+    def _require_regular(self) -> None:
+        if self.replaced_pivots:
+            row = int(self.symbolic.permutation[np.argmax(np.abs(self._pivots) <= self._smallest)])
+            raise ValueError(
+                f"matrix is singular to rounding, {self.replaced_pivots} of its {self.symbolic.size} pivots are below "
+                f"{self._smallest:.1e}, the first of row {row}: shift it, as in A - s M with s no eigenvalue, or fix a row"
+            )
+        if not self.residual <= REFUSED:
+            raise ValueError(
+                f"matrix is singular to rounding, a first solve leaves {self.residual:.1e} of its right-hand side, at most "
+                f"{REFUSED:.0e} is accepted: shift it, as in A - s M with s no eigenvalue, or fix a row"
+            )
 
 
-def ldlt(matrix: sparray, symbolic: SymbolicFactor | None = None) -> LDLT:
-    """Factorise a symmetric matrix in its own order of rows.
+def ldlt(matrix: ArrayLike | sparray | spmatrix, symbolic: SymbolicFactor | None = None) -> LDLT:
+    """Factorise a sparse symmetric matrix, definite or not, as P A P^T = L D L^T.
+
+    Multifrontal elimination of supernodes (Duff and Reid 1983) in an order by nested dissection, without pivoting. That is
+    stable for definite matrices; for others a first solve measures the digits that are left, later ones are refined, and
+    factors that solve badly are refused.
 
     Parameters
     ----------
-    matrix : (n, n) sparse array
-        Symmetric; both triangles present.
+    matrix : (n, n) sparse array or array_like
+        Real and symmetric; both triangles present.
     symbolic : SymbolicFactor, optional
-        The analysis of a matrix of the same pattern, which saves repeating it.
+        The analysis of a matrix of the same pattern (`factor.symbolic`), which saves repeating it.
+
+    Returns
+    -------
+    LDLT
+        `solve` (or a call) solves, `refactor` takes another matrix of the same pattern at a third of the price, `inertia` has
+        the numbers of negative and positive eigenvalues, `logdet` and `slogdet` the determinant, `memory` the bytes.
 
     Raises
     ------
     ValueError
-        If the matrix is not square, has entries that are not finite, or another size than the analysis.
+        If the matrix is not square, not symmetric or complex, has entries that are not finite, another size than the
+        analysis, or is singular to rounding.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import surfexp as sx
+    >>> from scipy.sparse import diags_array
+    >>> path = diags_array([np.full(99, -1.0), np.full(100, 2.0), np.full(99, -1.0)], offsets=[-1, 0, 1])
+    >>> factor = sx.ldlt(path)
+    >>> x = factor.solve(np.ones(100))
+    >>> bool(abs(path @ x - 1.0).max() < 1e-10)
+    True
+    >>> round(float(np.exp(factor.logdet())), 9)  # n + 1
+    101.0
+    >>> factor.refactor(path - 1.0 * diags_array(np.ones(100)))
+    >>> factor.inertia  # 33 eigenvalues 2 - 2 cos(k pi / 101) are below 1
+    (33, 67)
     """
-    symbolic = analyse(matrix) if symbolic is None else symbolic
-    if matrix.shape[0] != symbolic.size:
-        raise ValueError(f"matrix has {matrix.shape[0]} rows, the analysis is of one with {symbolic.size}")
-    return LDLT(permuted(csr_array(matrix, dtype=np.float64), symbolic.permutation), symbolic)
+    given = _symmetric(matrix)
+    symbolic = analyse(given) if symbolic is None else symbolic
+    if given.shape[0] != symbolic.size:
+        raise ValueError(f"matrix has {given.shape[0]} rows, the analysis is of one with {symbolic.size}")
+    factor = LDLT(permuted(given, symbolic.permutation), symbolic)
+    factor._require_regular()
+    return factor
+
+
+def _symmetric(matrix: ArrayLike | sparray | spmatrix) -> csr_array:
+    """The matrix as float64 rows, refused unless it is real, square and symmetric."""
+    given: Any = matrix if issparse(matrix) else np.asarray(matrix)
+    if np.iscomplexobj(given):
+        raise ValueError(
+            "matrix is complex, a real symmetric one is needed: factorise [[Re, -Im], [Im, Re]] in its place"
+        )
+    if given.ndim != 2 or given.shape[0] != given.shape[1] or not given.shape[0]:
+        shape = " x ".join(map(str, given.shape)) or "()"
+        raise ValueError(f"matrix has shape {shape}, a factorisation needs a square one of at least 1 x 1")
+    rows = csr_array(given, dtype=np.float64)
+    rows.sum_duplicates()
+    if not np.isfinite(rows.data).all():
+        raise ValueError(f"matrix has {int((~np.isfinite(rows.data)).sum())} entries that are not finite")
+    difference = abs(rows - rows.T)
+    largest, bound = difference.max() if difference.nnz else 0.0, SYMMETRY * abs(rows.data).max(initial=0.0)
+    if largest > bound:
+        raise ValueError(
+            f"matrix is not symmetric, |A - A^T| is up to {largest:.1e}, at most {bound:.1e} is taken for rounding: "
+            "give both triangles, or (A + A.T) / 2"
+        )
+    return rows
+
+
+def _entries_outside(matrix: csr_array, pattern: csr_array) -> int:
+    """How many entries that are not 0 lie outside of the pattern."""
+    if np.array_equal(matrix.indptr, pattern.indptr) and np.array_equal(matrix.indices, pattern.indices):
+        return 0
+    ones = both_triangles(pattern)
+    other = csr_array((np.asarray(matrix.data != 0.0, dtype=float), matrix.indices, matrix.indptr), shape=matrix.shape)
+    return int(other.sum() - other.multiply(ones > 0).sum())

@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_front import eliminate_front, padded
 
 
@@ -37,7 +38,7 @@ def eliminate(
     smallest : float
         A pivot of less modulus is replaced by this, with its sign.
     factor : float64 array
-        Panels of L, row by row; the diagonal of the diagonal blocks is not used.
+        Panels of L, as `SymbolicFactor` describes; the diagonal of the diagonal blocks is not used.
     pivots : (n,) float64
         The diagonal of D.
 
@@ -50,12 +51,13 @@ def eliminate(
     place = np.full(len(pivots), -1, np.int64)
     first_child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
     begins = np.zeros(count, np.int64)
+    front = np.empty(largest_front(columns, row_starts))
     stack, top, replaced = np.empty(1 << 16), 0, 0
     for s in range(count):
         start, end = columns[s], columns[s + 1]
         below = rows[row_starts[s] : row_starts[s + 1]]
         width, height = end - start, end - start + len(below)
-        panel = factor[panels[s] : panels[s + 1]].reshape(height, width)
+        panel = front[: height * width].reshape(height, width)
         for a in range(width):
             place[start + a] = a
         for a in range(len(below)):
@@ -72,6 +74,7 @@ def eliminate(
             child = sibling[child]
         top = bottom
         replaced += eliminate_front(panel, pivots[start:end], smallest, update)
+        keep(panel, factor[panels[s] : panels[s + 1]])
         if len(below):
             stack = with_room(stack, top, update.size)
             begins[s] = top
@@ -92,6 +95,31 @@ def gather(
         for p in range(indptr[j], indptr[j + 1]):
             if indices[p] >= j:
                 panel[place[indices[p]], j - start] = entries[p]
+
+
+@njit(cache=True, nogil=True)
+def largest_front(columns: Integers, row_starts: Integers) -> int:
+    """Return how many entries the columns of the largest front have."""
+    most = 0
+    for s in range(len(columns) - 1):
+        width = columns[s + 1] - columns[s]
+        most = max(most, width * (width + row_starts[s + 1] - row_starts[s]))
+    return most
+
+
+@njit(cache=True, nogil=True)
+def keep(panel: Floats, kept: Floats) -> None:
+    """Copy the eliminated columns of a front in the order in which solves read them."""
+    height, width = panel.shape
+    for i in range(width):
+        for j in range(width):
+            kept[i * width + j] = panel[i, j]
+    first = padded(width * width)
+    for i in range(width, height, LANES):
+        for j in range(width):
+            for lane in range(LANES):
+                kept[first + lane] = panel[i + lane, j] if i + lane < height else 0.0
+            first += LANES
 
 
 @njit(cache=True, nogil=True)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from numba import njit
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.linalg.lanes import load, minus_product, quotient, store
+from surfexp.linalg.lanes import LANES, load, minus_product, quotient, store
+from surfexp.linalg.ldlt_front import padded
 
 
 @njit(cache=True, nogil=True)
@@ -39,27 +40,30 @@ def forward(panel: Floats, start: int, width: int, below: Integers, x: Floats) -
         for j in range(i):
             row = minus_product(row, panel[i * width + j], load(x, start + j))
         store(x, start + i, row)
-    at = width * width
-    fours = len(below) - len(below) % 4
-    for t in range(0, fours, 4):
-        a, b, c, d = load(x, below[t]), load(x, below[t + 1]), load(x, below[t + 2]), load(x, below[t + 3])
-        for j in range(width):
-            solved = load(x, start + j)
-            a = minus_product(a, panel[at + j], solved)
-            b = minus_product(b, panel[at + width + j], solved)
-            c = minus_product(c, panel[at + 2 * width + j], solved)
-            d = minus_product(d, panel[at + 3 * width + j], solved)
-        store(x, below[t], a)
-        store(x, below[t + 1], b)
-        store(x, below[t + 2], c)
-        store(x, below[t + 3], d)
-        at += 4 * width
-    for t in range(fours, len(below)):
-        a = load(x, below[t])
-        for j in range(width):
-            a = minus_product(a, panel[at + j], load(x, start + j))
-        store(x, below[t], a)
-        at += width
+    at = padded(width * width)
+    for first in range(0, len(below), LANES):
+        last = min(first + LANES, len(below))
+        fours = first + (last - first) // 4 * 4
+        for t in range(first, fours, 4):
+            a, b, c, d = load(x, below[t]), load(x, below[t + 1]), load(x, below[t + 2]), load(x, below[t + 3])
+            entry = at + t - first
+            for j in range(width):
+                solved = load(x, start + j)
+                a = minus_product(a, panel[entry], solved)
+                b = minus_product(b, panel[entry + 1], solved)
+                c = minus_product(c, panel[entry + 2], solved)
+                d = minus_product(d, panel[entry + 3], solved)
+                entry += LANES
+            store(x, below[t], a)
+            store(x, below[t + 1], b)
+            store(x, below[t + 2], c)
+            store(x, below[t + 3], d)
+        for t in range(fours, last):
+            a = load(x, below[t])
+            for j in range(width):
+                a = minus_product(a, panel[at + j * LANES + t - first], load(x, start + j))
+            store(x, below[t], a)
+        at += width * LANES
 
 
 @njit(cache=True, nogil=True)
@@ -68,24 +72,26 @@ def backward(panel: Floats, start: int, width: int, below: Integers, x: Floats) 
     fours = width - width % 4
     for j in range(0, fours, 4):
         a, b, c, d = load(x, start + j), load(x, start + j + 1), load(x, start + j + 2), load(x, start + j + 3)
-        at = width * width + j
-        for t in range(len(below)):
-            solved = load(x, below[t])
-            a = minus_product(a, panel[at], solved)
-            b = minus_product(b, panel[at + 1], solved)
-            c = minus_product(c, panel[at + 2], solved)
-            d = minus_product(d, panel[at + 3], solved)
-            at += width
+        at = padded(width * width) + j * LANES
+        for first in range(0, len(below), LANES):
+            for t in range(first, min(first + LANES, len(below))):
+                solved, entry = load(x, below[t]), at + t - first
+                a = minus_product(a, panel[entry], solved)
+                b = minus_product(b, panel[entry + LANES], solved)
+                c = minus_product(c, panel[entry + 2 * LANES], solved)
+                d = minus_product(d, panel[entry + 3 * LANES], solved)
+            at += width * LANES
         store(x, start + j, a)
         store(x, start + j + 1, b)
         store(x, start + j + 2, c)
         store(x, start + j + 3, d)
     for j in range(fours, width):
         a = load(x, start + j)
-        at = width * width + j
-        for t in range(len(below)):
-            a = minus_product(a, panel[at], load(x, below[t]))
-            at += width
+        at = padded(width * width) + j * LANES
+        for first in range(0, len(below), LANES):
+            for t in range(first, min(first + LANES, len(below))):
+                a = minus_product(a, panel[at + t - first], load(x, below[t]))
+            at += width * LANES
         store(x, start + j, a)
     for j in range(width - 2, -1, -1):
         a = load(x, start + j)

@@ -9,6 +9,7 @@ from numba import njit
 from scipy.sparse import csr_array, sparray
 
 from surfexp.contract.arrays import Integers
+from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_ordering import nested_dissection
 
 
@@ -16,7 +17,8 @@ from surfexp.linalg.ldlt_ordering import nested_dissection
 class SymbolicFactor:
     """What the factors of all matrices of one pattern have in common.
 
-    A supernode is a run of columns with (nearly) the same rows; its part of L is stored as a dense panel.
+    A supernode is a run of columns with (nearly) the same rows; its part of L is stored as a dense panel: the square
+    diagonal block row by row, then the rows below it in groups of eight, each group column by column.
 
     Parameters
     ----------
@@ -58,7 +60,7 @@ def analyse(matrix: sparray) -> SymbolicFactor:
     Parameters
     ----------
     matrix : (n, n) sparse array
-        Only its pattern is used, which has to be symmetric; explicit zeros belong to it.
+        Only its pattern is used, and counts as symmetric: entry (i, j) brings (j, i). Explicit zeros belong to it.
 
     Raises
     ------
@@ -67,7 +69,7 @@ def analyse(matrix: sparray) -> SymbolicFactor:
     """
     if matrix.shape[0] != matrix.shape[1] or not matrix.shape[0]:
         raise ValueError(f"matrix has shape {matrix.shape}, a factorisation needs a square one of at least 1 x 1")
-    pattern = csr_array(matrix)
+    pattern = both_triangles(csr_array(matrix))
     order = nested_dissection(pattern.indptr, pattern.indices)
     order = order[_postorder(_elimination_tree(*_permuted_pattern(pattern, order)))]
     indptr, indices = _permuted_pattern(pattern, order)
@@ -76,8 +78,13 @@ def analyse(matrix: sparray) -> SymbolicFactor:
     columns = _supernodes(tree, counts)
     row_starts, rows, parents = _supernode_rows(indptr, indices, columns, int(counts.sum()))
     widths = np.diff(columns)
-    panels = np.concatenate([[0], np.cumsum((widths + np.diff(row_starts)) * widths)])
+    panels = np.concatenate([[0], np.cumsum(in_lanes(widths**2) + widths * in_lanes(np.diff(row_starts)))])
     return SymbolicFactor(order, columns, row_starts, rows, parents, panels)
+
+
+def in_lanes(count: Integers) -> Integers:
+    """Round up to whole groups of eight."""
+    return (count + LANES - 1) // LANES * LANES
 
 
 def permuted(matrix: csr_array, order: Integers) -> csr_array:
@@ -86,6 +93,12 @@ def permuted(matrix: csr_array, order: Integers) -> csr_array:
     result.sort_indices()
     result.indptr, result.indices = result.indptr.astype(np.int32), result.indices.astype(np.int32)
     return result
+
+
+def both_triangles(matrix: csr_array) -> csr_array:
+    """Return a matrix of the pattern of A and A^T: sums drop entries that cancel, on one side alone where rounding differs."""
+    ones = csr_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=matrix.shape)
+    return csr_array(ones + ones.T)
 
 
 def _permuted_pattern(pattern: csr_array, order: Integers) -> tuple[Integers, Integers]:

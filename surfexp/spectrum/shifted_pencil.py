@@ -133,7 +133,7 @@ class ShiftedPencil:
         if self._factors is None:
             self._factors = LDLT(matrix, self.symbolic)
         else:
-            self._factors.refactor(matrix)
+            self._factors.refactor_in_order(matrix)
         return self._factors
 
     def _at(self, shift: float) -> LDLT:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import block_array, csr_array, diags_array
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import Factorisation, factorise
+from surfexp.linalg.ldlt import LDLT, ldlt
 from surfexp.operators.calculus import gradient_matrix
 from surfexp.operators.crouzeix_raviart import TangentFields, tangent_fields
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -70,5 +70,5 @@ class GeneralisedForms:
         return csr_array(self.forms[:, self.operator.vertex_count :])
 
     @cached_property
-    def _balance(self) -> Factorisation:
-        return factorise(self._slope_loads[0] @ self._slope_forms)
+    def _balance(self) -> LDLT:
+        return ldlt(self._slope_loads[0] @ self._slope_forms)

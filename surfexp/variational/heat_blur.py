@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import Factorisation, factorise
+from surfexp.linalg.ldlt import LDLT, ldlt
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive
@@ -108,14 +108,14 @@ class HeatBlur:
         return csr_array(self._matrix @ diags_array(1.0 / self.operator.mass) @ self._matrix)
 
     @cached_property
-    def _heat(self) -> Factorisation:
-        return factorise(self._matrix)
+    def _heat(self) -> LDLT:
+        return ldlt(self._matrix)
 
     @cached_property
-    def _systems(self) -> dict[float, Factorisation]:
+    def _systems(self) -> dict[float, LDLT]:
         return {}
 
-    def _system(self, weight: float) -> Factorisation:
+    def _system(self, weight: float) -> LDLT:
         if weight not in self._systems:
-            self._systems[weight] = factorise(self._normal + weight * diags_array(self.operator.mass))
+            self._systems[weight] = ldlt(self._normal + weight * diags_array(self.operator.mass))
         return self._systems[weight]

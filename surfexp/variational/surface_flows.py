@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import diags_array
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.operators.assembly import assemble, stiffness
 from surfexp.operators.calculus import gradient
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -30,7 +30,7 @@ def heat_flow(operator: SurfaceOperator, values: Floats, time: float, steps: int
         With the same mean, and no new extremes on Delaunay triangulations.
     """
     check_positive("time", time)
-    system = factorise(diags_array(operator.mass) + time / steps * stiffness(operator))
+    system = ldlt(diags_array(operator.mass) + time / steps * stiffness(operator))
     mass = operator.mass.reshape(-1, *[1] * (values.ndim - 1))
     for _ in range(steps):
         values = system.solve(mass * values)
@@ -70,5 +70,5 @@ def geodesic_curvature_flow(
         corner_share = np.repeat(operator.areas * slowness / 3.0, 3)
         mass = np.bincount(operator.faces.ravel(), corner_share, operator.vertex_count)
         matrix = assemble(operator.faces, slowness[:, None, None] * local, operator.vertex_count)
-        values = factorise(diags_array(mass) + time / steps * matrix).solve(mass * values)
+        values = ldlt(diags_array(mass) + time / steps * matrix).solve(mass * values)
     return values

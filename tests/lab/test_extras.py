@@ -17,7 +17,6 @@ from surfexp import extras
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 MODULES = {
-    "cholespy": "cholespy",
     "libigl": "igl",
     "scikit-learn": "sklearn",
     "resvg-py": "resvg_py",

@@ -10,8 +10,8 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import cg
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
 from surfexp.linalg.gauss_seidel import gauss_seidel
+from surfexp.linalg.ldlt import ldlt
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.calculus import adjoint_gradient
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -123,9 +123,9 @@ def _linear_solve(matrix: csr_array, weights: Floats, inner: Inner, sweeps: int)
     diagonal = matrix.diagonal().mean()
     singular = np.abs(matrix.sum(axis=0)).max() <= 1e-9 * diagonal
     if not singular:
-        system = factorise(matrix)
+        system = ldlt(matrix)
         return lambda load, start: system.solve(load)
-    regularised = factorise(matrix + diags_array(np.full(len(weights), 1e-9 * diagonal)))
+    regularised = ldlt(matrix + diags_array(np.full(len(weights), 1e-9 * diagonal)))
 
     def solve(load: Floats, start: Floats) -> Floats:
         solution = regularised.solve(load - load.sum() * weights / weights.sum())

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import diags_array
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.operators.calculus import gradient
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_solution import (
@@ -83,7 +83,7 @@ def _iterates(
     weight, pull = np.zeros(forms.shape[1]), np.zeros(forms.shape[1])
     problem.values(weight)[:] = operator.mass * fidelity.weight
     problem.values(pull)[:] = operator.mass * (fidelity.weight * fidelity.target - fidelity.slope)
-    system = factorise(diags_array(weight) + adjoint @ forms)
+    system = ldlt(diags_array(weight) + adjoint @ forms)
 
     def shorter(dual: Floats) -> Floats:
         """Cut a balanced field to length 1 and balance it again, with nearly the load that it had on u."""

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import diags_array
 
 from surfexp.contract.arrays import Floats
-from surfexp.linalg.factorisation import factorise
+from surfexp.linalg.ldlt import ldlt
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.duality_gap import Iterate, run_to_gap
@@ -118,7 +118,7 @@ def _quadratic_iterates(
     values, dual = starting_fields(fidelity, operator, start)
     mass = operator.mass.reshape(-1, *[1] * (values.ndim - 1))
     weight = operator.mass * fidelity.weight.reshape(len(values), -1)[:, 0]
-    system = factorise(diags_array(weight) + penalty * stiffness(operator))
+    system = ldlt(diags_array(weight) + penalty * stiffness(operator))
     constant = mass * (fidelity.weight * fidelity.target - fidelity.slope)
     gradients = _Gradients(operator, values, dual, penalty, relaxation)
     for iteration in range(1, limit + 1):
@@ -138,7 +138,7 @@ def _split_iterates(
     values, dual = starting_fields(fidelity, operator, start)
     mass = operator.mass.reshape(-1, *[1] * (values.ndim - 1))
     coupling = penalty / operator.edge_length**2
-    system = factorise(diags_array(coupling * operator.mass) + penalty * stiffness(operator))
+    system = ldlt(diags_array(coupling * operator.mass) + penalty * stiffness(operator))
     gradients = _Gradients(operator, values, dual, penalty, relaxation)
     offset = -gradients.load / (coupling * mass)
     for iteration in range(1, limit + 1):
