@@ -81,7 +81,7 @@ def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str
     lines += [_line(HEADER), "|" + "---|" * len(HEADER)]
     for item in verdicts:
         moved = f" (before the result: {item.claim.moved})" if item.claim.moved else ""
-        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because)
+        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because or "–")
         lines.append(_line((*cells, str(item.count), item.number, f"**{item.verdict}**", item.why or "–")))
     return "\n".join([*lines, ""])
 
