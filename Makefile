@@ -58,19 +58,18 @@ reproduction: .venv/ready
 	results=results/reproduction/$$($(BIN)/python -m surfexp.reproduction.stamp state) && failed="" && \
 	names="$(EXPERIMENTS)" && beside="$(BESIDE)" && \
 	if [ -n "$(filter %_measured,$(EXPERIMENTS))" ] && ! $(BIN)/surfexp fetch brainspace; then \
-		names="$(filter-out %_measured,$(EXPERIMENTS))"; beside="--beside docs/reproduction.md"; fi && \
+		names="$(filter-out %_measured,$(EXPERIMENTS))"; beside="--beside docs"; fi && \
 	for name in $$names; do \
 		echo "== $$name"; $(BIN)/surfexp run experiment=$$name results=$$results || \
 			case $$? in 3) ;; 1) failed="$$failed $$name" ;; *) exit 2 ;; esac; \
 	done && \
-	$(BIN)/surfexp report --claims $$beside --preface docs/_static/new_in_the_field.md --results $$results $$names > $$results/reproduction.md && \
-	mv $$results/reproduction.md docs/reproduction.md && \
+	$(BIN)/surfexp report --claims $$beside --preface docs/_static/new_in_the_field.md --pages docs --results $$results $$names && \
 	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
 
 # Only experiments of which a stage's key or a claim has changed; the other sections of the page are still true.
 reproduction-changed: .venv/ready
 	names=$$($(BIN)/python -m surfexp.reproduction.stamp stale) && \
-	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs/reproduction.md"; \
+	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs"; \
 	else $(BIN)/python -m surfexp.reproduction.stamp renew; fi
 
 # Pages, API and examples with their pictures, read from disk: build/site/index.html.

@@ -21,7 +21,8 @@ import yaml
 
 from mutation import ROOT
 from surfexp.reproduction.page import sections_of, verdicts_of_section
-from surfexp.reproduction.stamp import PAGE, is_stale
+from surfexp.reproduction.pages import read_pages
+from surfexp.reproduction.stamp import PAGES, is_stale
 
 LIST = ROOT / "mutation" / "claims.yaml"
 RESULTS = ROOT / "results" / "mutation" / "claims"
@@ -117,7 +118,7 @@ def recorded_trials() -> list[Trial]:
 
 def reproduced_verdicts(wanted: Sequence[ClaimFault]) -> dict[str, Verdicts]:
     """The verdicts without a fault that the page of published claims holds of the present stages, by experiment."""
-    page = (ROOT / PAGE).read_text(encoding="utf-8")
+    page = read_pages(ROOT / PAGES)
     sections = sections_of(page)
     names = sorted({fault.experiment for fault in wanted})
     return {name: verdicts_of_section(sections[name]) for name in names if not is_stale(name, page)}

@@ -14,13 +14,14 @@ PAGE = ROOT / "docs" / "claim_faults.md"
 NOT_RUN = "not run"
 HEAD = """# Claims that faults turn
 
-Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing. Each fault is planted in
-a copy of the code, its experiment is run again, and all its claims are judged again. *Turned*: the verdict is another
-one, by a number. *Stopped*: a certificate, a check or an error left the claim not computed. *Untouched*: no fault that
-was run changed the verdict. Of several faults the table shows the one that names the claim in `mutation/claims.yaml`,
-or else the first that turned it. *Not run*: readings of a collection that has to be brought (TOSCA), and faults that have
-not been run yet. A row stays until a later run says more; `python -m mutation claims --open` runs only faults that name a
-claim which is not turned yet.
+Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing; what is not comparable
+(docs/verdicts.md) has no verdict to turn and is not listed. Each fault is planted in a copy of the code, its experiment
+is run again, and all its claims are judged again. Lines of code are quoted as they were on the day of that run.
+*Turned*: the verdict is another one, by a number. *Stopped*: a certificate, a check or an error left the claim not
+computed. *Untouched*: no fault that was run changed the verdict. Of several faults the table shows the one that names
+the claim in `mutation/claims.yaml`, or else the first that turned it. *Not run*: readings of a collection that has to be
+brought (TOSCA), and faults that have not been run yet. A row stays until a later run says more; `python -m mutation
+claims --open` runs only faults that name a claim which is not turned yet.
 
 **{summary}**
 
@@ -67,9 +68,11 @@ def _rank(found: tuple[str, str]) -> int:
 
 
 def _stated() -> list[tuple[str, str]]:
-    """Return (experiment, claim) of every claim."""
+    """Return (experiment, claim) of every claim with a verdict to turn; what is not comparable has none."""
     files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
-    return [(file.stem, entry["claim"]) for file in files for entry in claims_of(file)]
+    return [
+        (file.stem, entry["claim"]) for file in files for entry in claims_of(file) if not entry.get("not_comparable")
+    ]
 
 
 def _row(name: str, claim: str, trials: list[Trial]) -> tuple[str, str]:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from surfexp.commands import choices
-from surfexp.commands.cited_places import Place, asked_place, experiments_at
+from surfexp.commands.cited_places import Place, asked_place, experiments_at, stated_at
 from surfexp.commands.click_command import results_option, shown
 from surfexp.lab.errors import UserError, check_known, unknown
+from surfexp.reproduction.statements import CHAPTERS
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -19,14 +20,7 @@ if TYPE_CHECKING:
     from surfexp.lab.registry.catalogue import Catalogue
 
 START = "Where to start"
-CHAPTERS = {
-    1: "Operators (chapter 1)",
-    2: "Images on surfaces (chapter 2)",
-    3: "Laplace-Beltrami spectra (chapter 3)",
-    4: "Nodal counts and signatures (chapter 4)",
-    5: "Reeb graphs and skeletons (chapter 5)",
-    6: "Embeddings and their distance (chapter 6)",
-}
+HEADINGS = {chapter: f"{title} (chapter {chapter})" for chapter, title in CHAPTERS.items()}
 OTHERS = "Others"
 
 
@@ -79,7 +73,13 @@ def info(what: tuple[str, ...], results: Path) -> None:
 
 
 def _experiments_at(place: Place, console: Console) -> None:
-    documents = _documents()
+    documents, stated = _documents(), stated_at(place)
+    for item in stated:
+        console.print(f"{item.id}: {item.states}", soft_wrap=True)
+        if item.none:
+            console.print(f"  No verdict: {item.none}.", soft_wrap=True)
+    if stated and not any(item.verdicts or item.ours for item in stated):
+        return
     rows = experiments_at(place, documents).items()
     _rows(console, [(name, str(documents[name].get("title", "")), ", ".join(places)) for name, places in rows])
     console.print("\nsurfexp run experiment=NAME computes one, surfexp info NAME tells what it is.", soft_wrap=True)
@@ -116,10 +116,10 @@ def _known() -> Catalogue:
 
 def _menu(console: Console) -> None:
     """Experiments by chapter: where to start, those of the dissertation, the rest, each once."""
-    rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *CHAPTERS.values(), OTHERS)}
+    rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *HEADINGS.values(), OTHERS)}
     for name, known in _documents().items():
         chapter, place = known.get("chapter") or (0, 0)
-        heading = START if "start" in known else CHAPTERS.get(chapter, OTHERS)
+        heading = START if "start" in known else HEADINGS.get(chapter, OTHERS)
         rows[heading].append((known.get("start", place), name, str(known.get("title", ""))))
     width = max(len(name) for found in rows.values() for _, name, _ in found)
     for heading, found in rows.items():

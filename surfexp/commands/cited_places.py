@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from surfexp.lab.errors import UserError
+from surfexp.reproduction.statements import Statement, statements
 
 KINDS = ("table", "figure", "section", "equation", "theorem", "lemma", "remark", "part", "chapter", "model")
 NUMBER = r"\(?(\d+(?:\.\d+)*)\)?"
@@ -41,6 +42,12 @@ def places_of(document: Any) -> Iterator[Place]:
             yield from places_of(item)
 
 
+def stated_at(place: Place) -> list[Statement]:
+    """Return what the dissertation states at a place; of a number without a kind, at every place of that number."""
+    kind, number = place
+    return [item for item in statements() if item.place[1] == number and kind in ("", item.place[0])]
+
+
 def experiments_at(place: Place, documents: dict[str, Any]) -> dict[str, list[str]]:
     """Return the experiments that name a place, each with the places as it names them.
 
@@ -59,7 +66,11 @@ def experiments_at(place: Place, documents: dict[str, Any]) -> dict[str, list[st
     kind, number = place
     if not kind and "." not in number:
         kind = "chapter"
-    named = {name: list(dict.fromkeys(places_of(document))) for name, document in documents.items()}
+    named = {name: dict.fromkeys(places_of(document)) for name, document in documents.items()}
+    for item in statements():
+        for name in (*item.verdicts, *item.ours):
+            if name in named:
+                named[name][item.place] = None
     fitting = {
         name: [f"{of} {at}" for of, at in places if at == number and kind in ("", of)] for name, places in named.items()
     }

@@ -14,12 +14,24 @@ from surfexp.commands.click_command import results_option, shown
 @click.argument("experiments", metavar="[EXPERIMENT]...", nargs=-1, shell_complete=choices.finished)
 @click.option("--claims", is_flag=True, help="print the verdicts on published claims as Markdown")
 @click.option(
-    "--beside", type=click.Path(path_type=Path), help="with --claims: a page whose other experiments are taken over"
+    "--beside",
+    type=click.Path(path_type=Path),
+    help="with --claims: a page, or a folder of pages, whose other experiments are taken over",
+)
+@click.option(
+    "--pages",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="with --claims: write an index and a page for each chapter into a folder, and print nothing",
 )
 @click.option("--preface", type=click.Path(path_type=Path), help="with --claims: text for the head of the page")
 @results_option
 def report(
-    experiments: tuple[str, ...], claims: bool, beside: Path | None, preface: Path | None, results: Path
+    experiments: tuple[str, ...],
+    claims: bool,
+    beside: Path | None,
+    pages: Path | None,
+    preface: Path | None,
+    results: Path,
 ) -> None:
     """Write the report page of experiments again.
 
@@ -29,10 +41,16 @@ def report(
 
     plans = {experiment: latest_plan(results, experiment) for experiment in experiments or ["quickstart"]}
     if claims:
+        from surfexp.reproduction.index import pages_of
         from surfexp.reproduction.page import reproduction
+        from surfexp.reproduction.pages import read_pages, write_pages
 
-        earlier, head = (path.read_text(encoding="utf-8") if path else "" for path in (beside, preface))
-        click.echo(reproduction(plans, results.resolve(), earlier, head))
+        earlier, head = (read_pages(path) if path else "" for path in (beside, preface))
+        document = reproduction(plans, results.resolve(), earlier, head)
+        if pages is None:
+            click.echo(document)
+        else:
+            write_pages(pages_of(document), pages)
         return
     from surfexp.report.page import write_report
 

@@ -15,6 +15,7 @@ from surfexp.report.verdict import Verdict, judge
 STYLES = {
     "reproduced": "green",
     "holds": "green",
+    "not comparable": "cyan",
     "corrected": "yellow",
     "not reproduced": "red",
     "does not hold": "red",
@@ -34,5 +35,12 @@ def print_verdicts(plan: Plan, rows: Sequence[Row], console: Console) -> None:
 
 
 def _statement(item: Verdict) -> str:
-    asked = f"{item.quantity} {item.number}, asked {item.interval}"
+    asked = f"{item.quantity} {item.number}, {_compared_with(item)}"
     return f"{item.claim.claim}: {item.obstacle or asked}"
+
+
+def _compared_with(item: Verdict) -> str:
+    """The interval, or the published value beside which the number stands without a verdict."""
+    if item.claim.between is None and item.claim.published:
+        return f"published {item.claim.published.value} ({item.why})"
+    return f"asked {item.interval}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import os
 from collections.abc import Mapping, Sequence
@@ -44,10 +45,11 @@ class Recording:
 
     def attach(self, views: Path) -> None:
         """Keep the pages of the experiment as artifacts of its parent run, and end that; nothing if it has them."""
-        state = digest([*self.state, (views / "metrics.csv").read_text()])
+        verdicts = _verdicts(views / "summary.json")
+        state = digest([*self.state, verdicts, (views / "metrics.csv").read_text()])
         if self.parent_tags.get("state") == state:
             return
-        for tag, value in {**self.own_tags, "state": state}.items():
+        for tag, value in {**self.own_tags, "verdicts": verdicts, "state": state}.items():
             self.client.set_tag(self.parent, tag, value)
         self.client.log_artifacts(self.parent, str(views))
         self.client.set_terminated(self.parent, "FAILED" if self.failed else "FINISHED")
@@ -98,6 +100,12 @@ def record(plan: Plan, results: Path) -> Recording:
     own_tags = {"plan": plan.identity, **versions}
     known = parent.tags if parent else {}
     return Recording(client, parent_id, known, own_tags, state, failed, tuple(line for line in said if line))
+
+
+def _verdicts(summary: Path) -> str:
+    """How often each verdict was given on an experiment's claims, for a column of the dashboard."""
+    found = json.loads(summary.read_text(encoding="utf-8"))["verdicts"] if summary.exists() else {}
+    return ", ".join(f"{count} {word}" for word, count in sorted(found.items()))
 
 
 def _way_to_write(client: Any, results: Path, location: str) -> tuple[Any, Any]:

@@ -1,4 +1,4 @@
-"""Claims held against the rows of an experiment: reproduced, corrected, holds, or not computed with the rows that stop it."""
+"""Claims held against the rows of an experiment: a verdict on each, or the rows that leave it not computed."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from typing import Any
 from surfexp.lab.experiment.claim import Claim
 from surfexp.lab.plan.outcome import NOT_COMPUTED
 from surfexp.records.table import Comparison, Row, format_number
+
+# of what the dissertation states; it counts neither for nor against it
+NOT_COMPARABLE = "not comparable"
 
 
 @dataclass(frozen=True)
@@ -33,6 +36,8 @@ class Verdict:
     @property
     def interval(self) -> str:
         """The numbers between which the quantity is asked to lie, for a table."""
+        if self.claim.between is None:
+            return "–"
         low, high = (None if end is None else f"{end:g}" for end in self.claim.between)
         if low is None or high is None:
             return f"≥ {low}" if low is not None else f"≤ {high}"
@@ -55,8 +60,8 @@ class Verdict:
 
     @property
     def why(self) -> str:
-        """What stands beside the verdict: its cause, or the rows that leave it not computed."""
-        return self.obstacle or self.claim.cause
+        """What stands beside the verdict: the rows that leave it not computed, why it cannot be compared, or its cause."""
+        return self.obstacle or " ".join(text for text in (self.claim.not_comparable, self.claim.cause) if text)
 
 
 class _Obstacle(Exception):
@@ -94,14 +99,16 @@ def _judge(claim: Claim, rows: Sequence[Row]) -> Verdict:
         value, low, high = _quantity(claim, values, divisors)
     except _Obstacle as obstacle:
         return Verdict(claim, NOT_COMPUTED, len(chosen), obstacle=str(obstacle))
-    inside = [_lies_inside(claim, number) for number in (values if value is None else [value])]
+    if claim.between is None:
+        return Verdict(claim, NOT_COMPARABLE, len(chosen), value, low, high)
+    inside = [_lies_inside(claim.between, number) for number in (values if value is None else [value])]
     holds = any(inside) if claim.quantity == "any" else all(inside)
     words = ("reproduced", claim.otherwise or "not reproduced") if claim.foreign else ("holds", "does not hold")
     return Verdict(claim, words[0] if holds else words[1], len(chosen), value, low, high)
 
 
-def _lies_inside(claim: Claim, number: float) -> bool:
-    low, high = claim.between
+def _lies_inside(between: tuple[float | None, float | None], number: float) -> bool:
+    low, high = between
     return (low is None or number >= low) and (high is None or number <= high)
 
 

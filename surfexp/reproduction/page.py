@@ -11,16 +11,17 @@ from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from surfexp.lab.experiment.claim import read_claims
+from surfexp.lab.experiment.claim import PLACES, read_claims
 from surfexp.lab.plan.plan import Plan
 from surfexp.records.table import rows_of
 from surfexp.report.verdict import Verdict, judge
+from surfexp.reproduction.pages import HEADING
 from surfexp.reproduction.stamp import commit_of_page, cost, state_line, state_of_plan
 
 HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found (least to largest)", "verdict", "cause")
-HEADING = "\n## "
+FOUND = HEADER.index("found (least to largest)")
+PLACE = re.compile(rf"((?:{'|'.join(PLACES)}) [^:]+): (.*)")
 NAME = re.compile(r"`surfexp run experiment=([\w.-]+)`")
-VERDICT = re.compile(r"^\| .* \| \*\*([\w ]+)\*\* \| [^\n]*\|$", re.MULTILINE)
 RUNS = re.compile(r"^(?:Run|Then): .*$", re.MULTILINE)
 
 
@@ -43,15 +44,29 @@ def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "", pr
         sections.pop(name, None)
         if plan.settings.claims:
             verdicts = judge(read_claims(plan.settings.claims), rows_of(plan, results))
-            sections[name] = section(name, plan.settings.title, verdicts, state_of_plan(plan))
+            chapter = plan.settings.chapter[0] if plan.settings.chapter else 0
+            sections[name] = section(name, plan.settings.title, verdicts, state_of_plan(plan), chapter)
     ran = cost(plans, results)
     runs = [*RUNS.findall(earlier), f"Then: {', '.join(sorted(plans))}. {ran}"] if taken_over else [f"Run: {ran}"]
     text = "".join(sections[name] for name in sorted(sections))
-    counts = Counter(VERDICT.findall(text))
-    told = ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
-    head = ["# Published claims, checked", *([preface.strip()] if preface else [])]
-    head += [f"{counts.total()} claims: {told}.", state_line(), *runs]
+    head = ["# The dissertation, checked", *([preface.strip()] if preface else [])]
+    head += [counts_of(sections), state_line(), *runs]
     return ("\n\n".join(head) + "\n" + text).rstrip()
+
+
+def counts_of(sections: Mapping[str, str]) -> str:
+    """How many verdicts of each word there are, on the dissertation, on others, and on what is ours."""
+    counts: dict[str, Counter[str]] = {"The dissertation": Counter(), "Others": Counter(), "Ours": Counter()}
+    for text in sections.values():
+        for row in rows_of_section(text):
+            source = row[HEADER.index("source")]
+            group = "Ours" if source == "ours" else "The dissertation" if PLACE.match(source) else "Others"
+            counts[group][row[FOUND + 1].strip("*")] += 1
+    return "\n".join(
+        f"- {group}: {found.total()} claims, {', '.join(f'{number} {word}' for word, number in sorted(found.items()))}"
+        for group, found in counts.items()
+        if found
+    )
 
 
 def sections_of(page: str) -> dict[str, str]:
@@ -62,9 +77,12 @@ def sections_of(page: str) -> dict[str, str]:
 
 def verdicts_of_section(section: str) -> dict[str, list[str]]:
     """Verdict, number and reason of each claim of a section, as `section` wrote them."""
-    rows = [cells_of_line(line) for line in section.splitlines() if line.startswith("| ")]
-    place = HEADER.index("found (least to largest)")
-    return {row[0]: [row[place + 1].strip("*"), row[place], row[-1]] for row in rows[1:]}
+    return {row[0]: [row[FOUND + 1].strip("*"), row[FOUND], row[-1]] for row in rows_of_section(section)}
+
+
+def rows_of_section(section: str) -> list[list[str]]:
+    """The cells of the rows of a section's table, without its header."""
+    return [cells_of_line(line) for line in section.splitlines() if line.startswith("| ")][1:]
 
 
 def cells_of_line(line: str) -> list[str]:
@@ -72,19 +90,21 @@ def cells_of_line(line: str) -> list[str]:
     return [cell.replace("\\|", "|") for cell in re.split(r"(?<!\\) \| ", line[2:-2])]
 
 
-def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str) -> str:
-    """The verdicts of one experiment."""
+def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str, chapter: int = 0) -> str:
+    """The verdicts of one experiment, below a heading that is its name."""
     made = (
         f"`surfexp run experiment={experiment}`; state {state}, {datetime.now(UTC):%Y-%m-%d}, commit {commit_of_page()}"
     )
-    lines = [f"{HEADING}{title or experiment}", "", made, ""]
-    lines += [_line(HEADER), "|" + "---|" * len(HEADER)]
+    made += f", chapter {chapter}" if chapter else ""
+    lines = [f"{HEADING}{experiment}", "", *([f"**{title}**", ""] if title else []), made, ""]
+    lines += [line_of_cells(HEADER), "|" + "---|" * len(HEADER)]
     for item in verdicts:
         moved = f" (before the result: {item.claim.moved})" if item.claim.moved else ""
-        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because)
-        lines.append(_line((*cells, str(item.count), item.number, f"**{item.verdict}**", item.why or "–")))
+        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because or "–")
+        lines.append(line_of_cells((*cells, str(item.count), item.number, f"**{item.verdict}**", item.why or "–")))
     return "\n".join([*lines, ""])
 
 
-def _line(cells: Sequence[str]) -> str:
+def line_of_cells(cells: Sequence[str]) -> str:
+    """A line of a table; `cells_of_line` reads it."""
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -21,11 +21,12 @@ from surfexp.lab.plan.source_facts import source_facts
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.registry.loading import load_all
+from surfexp.reproduction.pages import CHAPTERS_FOLDER, INDEX, read_pages
 
 STATE = re.compile(r"^State: .*$", re.MULTILINE)
 STAMP = re.compile(r"numerics ([0-9a-f]{20}), experiments ([0-9a-f]{20})")
 SECTION = re.compile(r"`surfexp run experiment=([\w.-]+)`; state ([0-9a-f]{20})")
-PAGE = Path("docs/reproduction.md")
+PAGES = Path("docs")
 
 
 def state_of_code() -> tuple[str, str]:
@@ -101,23 +102,24 @@ def staleness(page: str) -> str:
     )
 
 
-def renew(page: str) -> str:
-    """The page with the present state in its head, where every section is still true.
+def renew(folder: Path) -> None:
+    """Write the present state into the index of a folder, where every section of its pages is still true.
 
     Raises
     ------
     ValueError
         If a section is stale.
     """
-    if stale := stale_experiments(page):
+    if stale := stale_experiments(read_pages(folder)):
         raise ValueError(
             f"{len(stale)} experiments have changed ({', '.join(stale)}); make reproduction-changed runs them"
         )
-    return STATE.sub(state_line(), page)
+    index = folder / INDEX
+    index.write_text(STATE.sub(state_line(), _read(index)), encoding="utf-8")
 
 
 def commit_of_page() -> str:
-    """The commit, and how many files differ from it; the page itself, which the run writes, aside."""
+    """The commit, and how many files differ from it; the pages themselves, which the run writes, aside."""
 
     def git(*arguments: str) -> str:
         command = ["git", *arguments]
@@ -125,9 +127,9 @@ def commit_of_page() -> str:
             command, capture_output=True, text=True, check=False
         ).stdout.strip()
 
-    changed = [
-        line for line in git("status", "--porcelain", "--untracked-files=no").splitlines() if str(PAGE) not in line
-    ]
+    own = (str(PAGES / INDEX), f"{PAGES / CHAPTERS_FOLDER}/")
+    status = git("status", "--porcelain", "--untracked-files=no").splitlines()
+    changed = [line for line in status if not any(name in line for name in own)]
     commit = git("rev-parse", "--short=12", "HEAD") or "unknown (not a checkout)"
     return f"{commit} with {len(changed)} changed files" if changed else commit
 
@@ -155,16 +157,16 @@ def main(arguments: list[str]) -> int:
     if arguments == ["state"]:
         print(digest(state_of_code())[:12])
     elif arguments == ["stale"]:
-        print(*stale_experiments(_read(PAGE)))
+        print(*stale_experiments(read_pages(PAGES)))
     elif arguments == ["renew"]:
         try:
-            PAGE.write_text(renew(_read(PAGE)), encoding="utf-8")
+            renew(PAGES)
         except ValueError as error:
             print(error, file=sys.stderr)
             return 1
-    elif reason := staleness(_read(PAGE)):
+    elif reason := staleness(read_pages(PAGES)):
         way = "python -m surfexp.reproduction.stamp renew" if "no stage" in reason else "make reproduction-changed"
-        print(f"warning: {PAGE} is stale: {reason}; {way} renews it")
+        print(f"warning: {PAGES / INDEX} is stale: {reason}; {way} renews it")
     return 0
 
 

@@ -75,3 +75,23 @@ def test_every_figure_that_a_file_refers_to_leads_back_to_it(
         assert "ccv_cup" in capsys.readouterr().out
     assert main(["info", "figure", "99.1"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("place", "experiment", "said"),
+    [
+        ("table 2.2", "method_comparison", "Seconds for convex Chan-Vese"),
+        ("figure 4.6", "caudate_putamen", "N = 300"),
+        ("theorem 2.2.1", "total_variation", "length of the boundary"),
+        ("theorem 6.2.1", "distance_convergence", "No verdict: a theorem on infinitely many eigenfunctions"),
+        ("section 5.3", "boundary_noise", "No verdict: follows for bends that keep lengths"),
+        ("figure 1.1", "", "No verdict: a drawing of a definition"),
+    ],
+)
+def test_a_place_is_answered_with_what_it_says_and_who_measures_it(
+    place: str, experiment: str, said: str, working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["info", place]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(f"{place}: ") and said in out and experiment in out
+    assert bool(experiment) == ("surfexp run experiment=NAME" in out)

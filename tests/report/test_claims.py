@@ -22,6 +22,7 @@ from surfexp.reproduction.page import section
 
 EXPERIMENTS = Path(__file__).resolve().parents[2] / "conf" / "experiment"
 PUBLISHED = {"published": {"table": "2.2", "value": "2"}}
+NOT_COMPARED: dict[str, Any] = {"not_comparable": "Seconds of another machine.", "between": None, "because": ""}
 CLAIM: dict[str, Any] = {
     "claim": "twice",
     "quantity": "all",
@@ -49,12 +50,24 @@ def judged(claim: dict[str, Any], *rows: Row) -> Verdict:
         (PUBLISHED | {"otherwise": "corrected"}, 3.0, "corrected"),
         ({"reference": "Pleijel 1956"}, 2.0, "reproduced"),
         ({"reference": "Pleijel 1956"}, 3.0, "not reproduced"),
+        (PUBLISHED | NOT_COMPARED, 2.0, "not comparable"),
+        (PUBLISHED | NOT_COMPARED, 3.0, "not comparable"),
         ({}, 2.0, "holds"),
         ({}, 3.0, "does not hold"),
     ],
 )
 def test_words_tell_published_claims_from_our_own(more: dict[str, Any], energy: float, word: str) -> None:
     assert judged(CLAIM | more, row("a", energy=energy)).verdict == word
+
+
+def test_what_is_not_comparable_shows_both_numbers_and_why_and_asks_nothing() -> None:
+    verdict = judged(CLAIM | PUBLISHED | NOT_COMPARED | {"cause": "A factorisation today."}, row("a", energy=7.0))
+    assert (verdict.number, verdict.interval, verdict.claim.source) == ("7", "–", "table 2.2: 2")
+    assert verdict.why == "Seconds of another machine. A factorisation today."
+    line = next(line for line in section("x", "", [verdict], "a" * 20).splitlines() if "**not comparable**" in line)
+    assert line.startswith("| twice | table 2.2: 2 | all energy | – | – | 1 | 7 | **not comparable** | Seconds of")
+    missing = judged(CLAIM | PUBLISHED | NOT_COMPARED)
+    assert (missing.verdict, missing.why) == ("not computed", "no row is selected")
 
 
 @pytest.mark.parametrize(
@@ -173,10 +186,14 @@ def test_the_interval_its_reason_and_where_it_was_before_are_shown(between: list
         ({"metrc": "x"}, "unknown key 'metrc'; did you mean 'metric'?"),
         ({"quantity": None}, "claim.quantity = None"),
         ({"quantity": "median"}, "claim.quantity = 'median'"),
-        ({"because": ""}, "claim.because = ''"),
+        ({"because": ""}, "'because' is missing"),
         ({"between": [None, None]}, "both ends are open"),
         ({"between": [2, 1]}, "the lower end 2 is above the upper end 1"),
         ({"between": [1, float("inf")]}, "null is an open end"),
+        (NOT_COMPARED, "published is missing"),
+        (PUBLISHED | NOT_COMPARED | {"between": [1, 2]}, "not_comparable stands in place of between"),
+        (PUBLISHED | NOT_COMPARED | {"because": "so"}, "not_comparable stands in place of because"),
+        (PUBLISHED | NOT_COMPARED | {"otherwise": "corrected"}, "not_comparable stands in place of otherwise"),
         ({"quantity": "ratio"}, "over is for a ratio and needed there"),
         ({"over": {}}, "over is for a ratio"),
         ({"otherwise": "corrected"}, "ours does not hold"),
@@ -205,8 +222,7 @@ def test_the_claims_of_every_experiment_are_well_formed(file: Path) -> None:
 
 
 def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
-    claims = claims_of(EXPERIMENTS / "operator_convergence.yaml")
-    claim = next(claim for claim in claims if claim["claim"].startswith("The face-based divergence"))
+    claim = CLAIM | {"metric": "adjointness_defect", "rows": {"operator.name": "fem"}, "between": [None, 1e-12]}
     assert judged(claim, measured()).verdict == "holds"
     right = diagnostics.divergence
     monkeypatch.setattr(diagnostics, "divergence", lambda operator, field: -right(operator, field))

@@ -65,6 +65,18 @@ def runs(results: Path, name: str) -> dict[str, Any]:
     return {run.data.tags["leaf"]: run for run in client.search_runs([experiment.experiment_id])}
 
 
+def test_the_verdicts_on_claims_are_a_tag_of_the_parent_run(results: Path) -> None:
+    plan = finished(1, results)
+    assert recorded(plan, results)["plan"].data.tags.get("verdicts", "") == ""
+    summary = results / "views" / "summary.json"
+    for verdicts, told in (
+        ({"reproduced": 2, "not comparable": 1}, "1 not comparable, 2 reproduced"),
+        ({"not comparable": 3}, "3 not comparable"),
+    ):
+        summary.write_text(json.dumps({"verdicts": verdicts}))
+        assert recorded(plan, results)["plan"].data.tags["verdicts"] == told
+
+
 def shown(results: Path, run: Any) -> tuple[Any, ...]:
     """All that the dashboard shows of a run."""
     from mlflow.tracking import MlflowClient

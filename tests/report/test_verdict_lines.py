@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from importlib.resources import files
 from io import StringIO
 from types import SimpleNamespace
 from typing import Any, cast
@@ -44,4 +46,18 @@ def test_a_row_without_a_number_is_named() -> None:
 
 def test_without_claims_nothing_is_printed_and_every_verdict_has_a_style() -> None:
     assert printed([], 2.0) == []
-    assert {"holds", "does not hold", "reproduced", "corrected", "not reproduced", "not computed"} == set(STYLES)
+    words = {"holds", "does not hold", "reproduced", "corrected", "not reproduced", "not comparable", "not computed"}
+    assert words == set(STYLES)
+
+
+def test_only_what_fails_is_red() -> None:
+    assert {word for word, style in STYLES.items() if style == "red"} == {"not reproduced", "does not hold"}
+    rules = files("surfexp.report").joinpath("templates/style.css").read_text(encoding="utf-8")
+    red = re.findall(r"\.([\w-]+)[^{}\n]*\{ color: var\(--(?:bad|accent)\); font-weight: 600", rules)
+    assert red == ["not-reproduced"]  # its rule is that of does-not-hold too
+
+
+def test_what_is_not_comparable_stands_beside_the_published_value() -> None:
+    claim = CLAIM | {"claim": "seconds", "not_comparable": "another machine", "because": ""}
+    (line, _) = printed([claim | {"published": {"table": "2.2", "value": "18.61s"}}], 2.0)
+    assert line == "not comparable  seconds: all energy 2, published 18.61s (another machine)"

@@ -12,7 +12,7 @@ MADE = {"reproduction.md", "claim_faults.md", "mutation.md"}  # of statements in
 PAGES = [
     page
     for page in [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.md")]
-    if page.name not in MADE and "generated" not in page.parts
+    if page.name not in MADE and not {"generated", "reproduction"} & set(page.parts)
 ]
 # a word of our own, and the field's
 TERMS = {

@@ -59,8 +59,15 @@ class Claim(BaseModel):
     metric: str = Field(min_length=1, description="a metric that the rows' plugin declares, or seconds")
     rows: dict[str, Any] = Field({}, description="parameters that select rows; a list of values means any of them")
     over: dict[str, Any] | None = Field(None, description="for a ratio: parameters of the rows to divide by")
-    between: tuple[float | None, float | None] = Field(description="interval, ends included; null is an open end")
-    because: str = Field(min_length=1, description="why that interval")
+    between: tuple[float | None, float | None] | None = Field(
+        None, description="interval, ends included; null is an open end"
+    )
+    because: str = Field("", description="why that interval")
+    not_comparable: str = Field(
+        "",
+        description="in place of an interval: why the published value and the one found here cannot be held against "
+        "each other; both are shown, and there is no verdict either way",
+    )
     unconverged: str = Field("", description="why rows count that stopped at their iteration limit; else they do not")
     moved: str = Field("", description="the interval before the result was seen, when it was another one")
     otherwise: Literal["corrected", "not reproduced"] | None = Field(
@@ -70,6 +77,12 @@ class Claim(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
+        if self.not_comparable:
+            self._check_not_comparable()
+            return self
+        if self.between is None or not self.because:
+            missing = "because" if self.between else "between"
+            raise ValueError(f"{missing!r} is missing: an interval with its reason, or not_comparable, is needed")
         low, high = self.between
         if low is None and high is None:
             raise ValueError("between: both ends are open, so that every value lies in it")
@@ -77,6 +90,17 @@ class Claim(BaseModel):
             raise ValueError("between: an end is not finite; null is an open end")
         if low is not None and high is not None and low > high:
             raise ValueError(f"between: the lower end {low:g} is above the upper end {high:g}")
+        return self
+
+    def _check_not_comparable(self) -> None:
+        for name in ("between", "because", "otherwise"):
+            if getattr(self, name):
+                raise ValueError(f"not_comparable stands in place of {name}: without a comparison there is no interval")
+        if self.published is None:
+            raise ValueError("not_comparable is said of what the dissertation states; published is missing")
+
+    @model_validator(mode="after")
+    def _from_one_source(self) -> Self:
         if (self.quantity == "ratio") != (self.over is not None):
             raise ValueError(f"over is for a ratio and needed there; the quantity is {self.quantity!r}")
         if self.published and self.reference:

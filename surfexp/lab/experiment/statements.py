@@ -11,7 +11,7 @@ import yaml
 from surfexp.lab.errors import UserError, check_known
 
 QUANTITIES = ("all", "any", "mean", "min", "max", "ratio")
-BELOW = ("between", "because", "published", "reference", "unconverged", "moved", "otherwise", "cause")
+BELOW = ("between", "because", "not_comparable", "published", "reference", "unconverged", "moved", "otherwise", "cause")
 PARTS = {"metric": "metric", "of": "rows", "to": "over"}
 UNEXPLAINED = "No reason is given."
 
