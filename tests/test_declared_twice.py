@@ -20,7 +20,7 @@ DIFFERENT = {
     "solver/chambolle_dual: published_chambolle(iteration_limit)",
     "solver/conformal: primal_dual(tolerance)",
     "solver/conformal: sphere_grid_domain(columns)",
-    "measurement/energy_excess: primal_dual(tolerance)",
+    "statistic/energy_excess: primal_dual(tolerance)",
     "solver/geodesic_curvature_flow: geodesic_curvature_flow(steps)",
     "solver/patchwise: primal_dual(tolerance)",
     "solver/split_bregman: published_split_bregman(iteration_limit)",

@@ -10,7 +10,7 @@ from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.solution import Solution
 
 
@@ -25,13 +25,13 @@ class Geometry(Options):
 
 @register("figure", "geometry")
 def geometry_figure(
-    options: Geometry, *, clean: Surface, noisy: Surface, solver: Solution, measurement: Measurement
+    options: Geometry, *, clean: Surface, noisy: Surface, solver: Solution, statistic: Statistic
 ) -> Figure:
     """Clean, noisy and denoised surface side by side, lit alike (figure 2.7)."""
     view = (options.azimuth, options.elevation)
     meshes = {"clean": clean.mesh, "noisy": noisy.mesh, "denoised": TriangleMesh(solver.values, noisy.mesh.faces)}
     views = [SurfaceView(mesh, None, view, title=name) for name, mesh in meshes.items()]
-    numbers, model = measurement.metrics, solver.model.replace("_", " ")
+    numbers, model = statistic.metrics, solver.model.replace("_", " ")
     if any("one by one" in note for note in solver.notes):
         model = f"{model}, coordinate by coordinate"
     caption = (

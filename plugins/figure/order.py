@@ -7,7 +7,7 @@ from surfexp.contract.metric import Metric, MetricName
 from surfexp.figures.figure import Figure
 from surfexp.figures.order_plot import order_plot
 from surfexp.lab.registry.registry import Options, register
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 
 
 class Order(Options):
@@ -24,10 +24,10 @@ METRICS = {
 
 
 @register("figure", "order", metrics=METRICS)
-def order_figure(options: Order, *, measurements: dict[str, Measurement]) -> Figure:
+def order_figure(options: Order, *, statistics: dict[str, Statistic]) -> Figure:
     """Errors over the edge length along an axis of refinement, with the measured orders."""
-    results = list(measurements.values())
+    results = list(statistics.values())
     sizes = np.array([result.metrics["edge_length"] for result in results])
     lines = {label: np.array([result.metrics[name] for result in results]) for label, name in options.errors.items()}
-    title = " · ".join(part for part in (options.title, results[0].subject.replace("_", " ")) if part)
+    title = " · ".join(part for part in (options.title, results[0].name.replace("_", " ")) if part)
     return order_plot(sizes, lines, y_label="relative error", title=title, caption=options.caption)

@@ -6,7 +6,7 @@ from pydantic import Field
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import Options, register
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
@@ -25,10 +25,10 @@ METRICS = {
 }
 
 
-@register("measurement", "partition_energy", metrics=METRICS)
+@register("statistic", "partition_energy", metrics=METRICS)
 def partition_energy(
     options: PartitionEnergy, *, solver: Solution, image: Image, operator: SurfaceOperator
-) -> Measurement:
+) -> Statistic:
     """Boundary length between the vertices of any method's regions + mu times the squared misfit."""
     if solver.segmentation is None or not np.isin(solver.segmentation, (0.0, 1.0)).all():
         raise ValueError(f"{solver.model} has not two regions; take a two-phase segmentation")
@@ -42,4 +42,4 @@ def partition_energy(
     energy = perimeter + options.mu * misfit
     share = float(operator.mass @ inside / np.sum(operator.mass))
     metrics = {"partition_energy": energy, "inside_share": share, "perimeter": perimeter}
-    return Measurement(solver.solver, solver.metrics | metrics, solver.notes)
+    return Statistic(solver.solver, metrics=solver.metrics | metrics, notes=solver.notes)
