@@ -22,7 +22,7 @@ from surfexp.mesh.surface import Surface
 DIFFERENT = {
     "eigensolver/lobpcg: surface_spectrum(tolerance)",
     "feature/flux: flux_weights(alpha)",
-    "measurement/energy_excess: primal_dual(tolerance)",
+    "statistic/energy_excess: primal_dual(tolerance)",
     "solver/conformal: primal_dual(tolerance)",
     "solver/conformal: sphere_grid_domain(columns)",
     "solver/patchwise: primal_dual(tolerance)",

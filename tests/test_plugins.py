@@ -81,8 +81,8 @@ SMALL = {
     ("image", "blurred"): {"inputs": {"original": {"image": "picture"}}},
     ("image", "inpainting_domain"): {"inputs": {"original": {"image": "picture"}}},
     ("solver", "conformal"): {"inputs": {"spherical": {"surface": SPHERE}}},
-    ("measurement", "geometry_error"): {"inputs": GEOMETRY},
-    ("measurement", "partition_energy"): {
+    ("statistic", "geometry_error"): {"inputs": GEOMETRY},
+    ("statistic", "partition_energy"): {
         "inputs": {"solver": {"model": "convex_chan_vese", "solver": {"name": "primal_dual", "tolerance": 1e-3}}}
     },
     ("solver", "explicit_diffusion"): {"steps": 5},
@@ -92,12 +92,12 @@ SMALL = {
     ("figure", "segmentation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "parcellation"): {"inputs": {"solver": {"model": "convex_chan_vese"}}},
     ("figure", "geometry"): {
-        "inputs": {**GEOMETRY, "measurement": {"measurement": {"name": "geometry_error", "inputs": GEOMETRY}}}
+        "inputs": {**GEOMETRY, "statistic": {"statistic": {"name": "geometry_error", "inputs": GEOMETRY}}}
     },
     ("figure", "convergence"): {"inputs": {"solvers": {"over": "levels"}}},
     ("figure", "order"): {
         "errors": {"gradient": "gradient_error"},
-        "inputs": {"measurements": {"over": "levels", "measurement": "operator_errors"}},
+        "inputs": {"statistics": {"over": "levels", "statistic": "operator_errors"}},
     },
     ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"over": "levels"}}},
     ("surface", "subcortical"): {"vertices": 800},

@@ -11,7 +11,7 @@ from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.solution import Solution
 
 
@@ -20,7 +20,7 @@ def geometry_figure(
     clean: Surface,
     noisy: Surface,
     solver: Solution,
-    measurement: Measurement,
+    statistic: Statistic,
     *,
     azimuth: Annotated[
         float, Field(ge=-360, le=360, description="direction of view about the vertical, degrees from x")
@@ -33,7 +33,7 @@ def geometry_figure(
     view = (azimuth, elevation)
     meshes = {"clean": clean.mesh, "noisy": noisy.mesh, "denoised": TriangleMesh(solver.values, noisy.mesh.faces)}
     views = [SurfaceView(mesh, None, view, title=name) for name, mesh in meshes.items()]
-    numbers, model = measurement.metrics, solver.model.replace("_", " ")
+    numbers, model = statistic.metrics, solver.model.replace("_", " ")
     if any("one by one" in note for note in solver.notes):
         model = f"{model}, coordinate by coordinate"
     caption = (

@@ -22,8 +22,9 @@ DATA = ("surface", "image")
 BEST_BEYOND = 50
 # what depends on the model and on where a solver stops: a best among rows of different models means nothing
 OF_ONE_PROBLEM = ("gap", "relative_gap", "lower_bound", "error_bound", "iterations", "evaluations", "updates")
-# the kinds whose rows are answers to one question where their data agree; a statistic may ask another in each row
-ANSWERS = ("solver", "measurement", "distance", "distance_matrix", "embedding", "classifier")
+# the kinds whose rows are answers to one question where their data agree; a statistic may ask another in each row, unless
+# it measures a solver's result
+ANSWERS = ("solver", "distance", "distance_matrix", "embedding", "classifier")
 
 
 @dataclass
@@ -31,7 +32,7 @@ class Row:
     """One leaf: its parameters, metrics, notes and whether its certificate was reached.
 
     `seconds` is measured, not a part of the result: None where the event of the stage was lost. `data` are the keys of
-    the surfaces and images that it starts from.
+    the surfaces and images that it starts from. `measured` says that the leaf is a measure of one solver's result.
     """
 
     leaf: Leaf
@@ -41,6 +42,12 @@ class Row:
     notes: list[str] = field(default_factory=list)
     failure: str = ""
     data: frozenset[str] = frozenset()
+    measured: bool = False
+
+    @property
+    def answers(self) -> bool:
+        """Whether it answers the same question as other rows on its data."""
+        return self.measured or self.leaf.settings["target"] in ANSWERS
 
     @property
     def limited(self) -> bool:
@@ -131,7 +138,7 @@ class Comparison:
         return any("converged" in row.metrics for row in self.rows)
 
     def _may_be_best(self, row: Row) -> bool:
-        answers = row.leaf.settings["target"] in ANSWERS and not row.limited
+        answers = row.answers and not row.limited
         certified = row.metrics.get("converged") == 1.0 and row.metrics.get("relative_gap", 0.0) <= 1.0
         return answers and (certified if self.some_converged else not row.failure)
 
@@ -155,7 +162,10 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
         found = outcome(results, plan.nodes[leaf.key])
         parameters = {key: value for key, value in plan.parameters(leaf).items() if value is not None}
         data = _data(plan, leaf.key, known)
-        rows.append(Row(leaf, parameters, found.metrics, found.seconds, list(found.notes), found.failure, data))
+        node = plan.nodes[leaf.key]
+        measured = node.kind == "statistic" and "solver" in node.inputs
+        notes = list(found.notes)
+        rows.append(Row(leaf, parameters, found.metrics, found.seconds, notes, found.failure, data, measured))
     return rows
 
 

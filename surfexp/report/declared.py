@@ -25,13 +25,14 @@ def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
     """The metrics that a stage declares: those of its kind, its plugin, and of inputs whose metrics it hands on.
 
     Handed on are those of inputs of its own kind (a surface made from a surface), of inputs that live inside its job (the
-    model of a solver), and of those that its class names (what was measured).
+    model of a solver), and of the inputs that its class names (the solver that was measured).
     """
     node = nodes[key]
     metrics = {**getattr(KINDS[node.kind].result, "METRICS", {}), **plugin(node.kind, node.plugin).metrics}
-    handed_on = (node.kind, *getattr(KINDS[node.kind].result, "HANDED_ON", ()))
+    handed_on = [node.inputs.get(role) for role in getattr(KINDS[node.kind].result, "HANDED_ON", ())]
     for child in node.children:
-        if nodes[child].kind in handed_on or not KINDS[nodes[child].kind].stored:
+        kind = nodes[child].kind
+        if kind == node.kind or child in handed_on or not KINDS[kind].stored:
             metrics |= declared(nodes, child)
     return metrics
 

@@ -1,8 +1,9 @@
-"""A small table of numbers with what follows from it."""
+"""Numbers about results of other stages: a small table, and the numbers that sum it up."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from surfexp.contract.arrays import Floats
 
@@ -14,12 +15,15 @@ class Statistic:
     Parameters
     ----------
     name : str
-        What was examined, for captions.
+        What was examined or measured, for captions.
     columns : dict of str to (r,) or (r, 3) float64
         The table, a column each, or a value with the ends of its interval; NaN where there is no value.
+        Without columns there are metrics alone.
     rows : tuple of str, optional
         Names of the r rows.
-    metrics, notes
+    metrics : dict of str to float
+        What was found. A statistic that measures one solver's result hands on the solver's own.
+    notes
         As in `Surface`.
 
     Raises
@@ -33,6 +37,8 @@ class Statistic:
     rows: tuple[str, ...] = ()
     metrics: dict[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    HANDED_ON: ClassVar[tuple[str, ...]] = ("solver",)
+    """Inputs whose metrics stand among those of the statistic."""
 
     def __post_init__(self) -> None:
         lengths = {name: len(values) for name, values in self.columns.items()}

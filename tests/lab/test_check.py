@@ -34,6 +34,8 @@ MISTAKES = [
     ("levels: 3", "level: 3", 2, "did you mean 'levels'"),
     ("levels: 3", "levels: -3", 2, "greater than or equal to"),
     ("solver:", "solvr:", 5, "did you mean 'solver'"),
+    ("solver: primal_dual", "measurement: energy_excess", 5, "is called 'statistic' now"),
+    ("repeat:", "target: measurement\nrepeat:", 7, "is called 'statistic' now"),
     ("libigl", "libigll", 6, "did you mean 'libigl'"),
     ("image.seed: 3", "image.seed: 0", 7, "number of repetitions"),
     ("against: image.noise", "against: image.nois", 8, "did you mean 'image.noise'"),

@@ -232,6 +232,6 @@ def test_a_wrong_sign_in_the_divergence_overturns_the_verdict(monkeypatch: pytes
 def measured() -> Row:
     surface = icosphere(2)
     load_all(Path("/nonexistent"))
-    method = registry.plugin("measurement", "operator_errors")
+    method = registry.plugin("statistic", "operator_errors")
     metrics = method({}, surface=surface, operator=fem(surface.mesh)).metrics
     return Row(Leaf("key", "fem", {}), {"operator.name": "fem"}, metrics, 0.0)

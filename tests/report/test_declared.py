@@ -14,6 +14,7 @@ from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry.loading import load_all
+from surfexp.records.table import rows_of
 from surfexp.report.declared import check_names, declared
 
 load_all(Path("/nonexistent"))
@@ -58,6 +59,23 @@ def test_a_solver_declares_its_own_metrics_and_those_of_its_model() -> None:
     metrics = declared(plan.nodes, plan.leaves[0].key)
     assert metrics["relative_gap"].better == metrics["rmse"].better == "lower" and metrics["psnr"].unit == "dB"
     assert "c1" not in metrics and "area" not in metrics
+
+
+def test_a_statistic_of_one_solver_hands_its_metrics_on() -> None:
+    plan = plan_of(target="statistic", statistic="energy_excess", grid={"solver": ["split_bregman"]})
+    (leaf,) = plan.leaves
+    metrics = declared(plan.nodes, leaf.key)
+    assert {"energy_excess", "relative_gap", "rmse"} <= set(metrics)
+    (found,) = rows_of(plan, Path("/nonexistent"))
+    assert found.answers
+
+
+def test_a_statistic_of_data_alone_is_no_answer_and_hands_nothing_on() -> None:
+    plan = plan_of(target="statistic", statistic="operator_errors", grid={})
+    (leaf,) = plan.leaves
+    assert "gradient_error" in (metrics := declared(plan.nodes, leaf.key)) and "relative_gap" not in metrics
+    (found,) = rows_of(plan, Path("/nonexistent"))
+    assert not found.answers
 
 
 @pytest.mark.parametrize(

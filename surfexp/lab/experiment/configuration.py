@@ -14,6 +14,8 @@ from surfexp.lab.registry.registry import plugin
 from surfexp.lab.store.kinds import KINDS
 
 Context = dict[str, Any]
+# kinds that have another name now
+RENAMED = {"measurement": "statistic"}
 NAME = r"^[A-Za-z0-9][\w.-]*$"
 Facts = TypedDict("Facts", {"class": str, "group": str, "level": float}, total=False)
 Facts.__pydantic_config__ = ConfigDict(extra="allow", coerce_numbers_to_str=True)  # type: ignore[attr-defined]
@@ -48,6 +50,11 @@ class Settings(BaseModel):
 
 def settings_of(configuration: Mapping[str, Any]) -> Settings:
     """Check the top level of a configuration; UserError naming the nearest valid key."""
+    for key in (*configuration, configuration.get("target")):
+        if key in RENAMED and key not in KINDS:
+            raise UserError(
+                f"{key!r} is called {RENAMED[key]!r} now: write {RENAMED[key]}: PLUGIN, target: {RENAMED[key]}"
+            )
     check_known("configuration key", configuration, [*Settings.model_fields, *KINDS])
     try:
         return Settings(**{key: value for key, value in configuration.items() if key in Settings.model_fields})

@@ -14,7 +14,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.records.table import ANSWERS, OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
+from surfexp.records.table import OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
 # of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %
@@ -61,7 +61,7 @@ def trials_of(group: Comparison) -> list[Trials]:
     models. Solvers that are certified to minimise the same energy are ranked by seconds alone: what else differs between
     their minimisers is where they stopped.
     """
-    rows = [row for row in group.rows if row.leaf.settings["target"] in ANSWERS]
+    rows = [row for row in group.rows if row.answers]
     if not rows:
         return []
     of_problem = [name for name in group.varying if _belongs_to_problem(name, rows)]

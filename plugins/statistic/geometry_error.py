@@ -5,7 +5,7 @@ from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.image import Image
 from surfexp.variational.normal_filtering import normal_deviation
 from surfexp.variational.solution import Solution
@@ -22,8 +22,8 @@ METRICS = {
 }
 
 
-@register("measurement", "geometry_error", metrics=METRICS)
-def geometry_error(solver: Solution, noisy: Surface, clean: Surface) -> Measurement:
+@register("statistic", "geometry_error", metrics=METRICS)
+def geometry_error(solver: Solution, noisy: Surface, clean: Surface) -> Statistic:
     """Distance and normals of the vertices that a solver found, measured against the clean surface."""
     truth = clean.mesh
     moved, before = TriangleMesh(solver.values, truth.faces), TriangleMesh(noisy.mesh.vertices, truth.faces)
@@ -36,4 +36,4 @@ def geometry_error(solver: Solution, noisy: Surface, clean: Surface) -> Measurem
         "normal_error": normal_deviation(moved, truth),
     }
     metrics["normal_error_share"] = metrics["normal_error"] / max(metrics["normal_error_before"], 1e-12)
-    return Measurement(solver.solver, solver.metrics | metrics, solver.notes)
+    return Statistic(solver.solver, metrics=solver.metrics | metrics, notes=solver.notes)

@@ -8,7 +8,7 @@ from pydantic import Field
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
@@ -20,7 +20,7 @@ METRICS = {
 }
 
 
-@register("measurement", "partition_energy", metrics=METRICS)
+@register("statistic", "partition_energy", metrics=METRICS)
 def partition_energy(
     solver: Solution,
     image: Image,
@@ -29,7 +29,7 @@ def partition_energy(
     mu: Annotated[
         float, Field(gt=0, description="the published weight of the data term, as in the solver compared")
     ] = 0.001,
-) -> Measurement:
+) -> Statistic:
     """Boundary length between the vertices of any method's regions + mu times the squared misfit."""
     if solver.segmentation is None or not np.isin(solver.segmentation, (0.0, 1.0)).all():
         raise ValueError(f"{solver.model} has not two regions; take a two-phase segmentation")
@@ -43,4 +43,4 @@ def partition_energy(
     energy = perimeter + mu * misfit
     share = float(operator.mass @ inside / np.sum(operator.mass))
     metrics = {"partition_energy": energy, "inside_share": share, "perimeter": perimeter}
-    return Measurement(solver.solver, solver.metrics | metrics, solver.notes)
+    return Statistic(solver.solver, metrics=solver.metrics | metrics, notes=solver.notes)

@@ -6,7 +6,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.operators.diagnostics import adjointness_defect, null_modes
 from surfexp.operators.manufactured import manufactured, operator_errors
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 
 METRICS = {
     "edge_length": Metric("mean length of the edges", "unit of length"),
@@ -20,11 +20,11 @@ METRICS = {
 }
 
 
-@register("measurement", "operator_errors", metrics=METRICS, accepts={"surface": ("icosphere", "torus")})
-def operator_errors_measurement(surface: Surface, operator: SurfaceOperator) -> Measurement:
+@register("statistic", "operator_errors", metrics=METRICS, accepts={"surface": ("icosphere", "torus")})
+def operator_errors_statistic(surface: Surface, operator: SurfaceOperator) -> Statistic:
     """Relative errors of gradient, divergence and Laplacian on a sphere or torus, adjointness defect and null modes."""
     metrics = {"edge_length": operator.edge_length, "adjointness_defect": adjointness_defect(operator)}
     metrics |= operator_errors(operator, manufactured(surface))
     if operator.vertex_count <= 3000:
         metrics["null_modes"] = float(null_modes(operator))
-    return Measurement(operator.name, metrics)
+    return Statistic(operator.name, metrics=metrics)

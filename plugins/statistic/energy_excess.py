@@ -10,7 +10,7 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.statistics.measurement import Measurement
+from surfexp.statistics.statistic import Statistic
 from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -23,8 +23,8 @@ METRICS = {
 }
 
 
-@register("measurement", "energy_excess", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
-def energy_excess_measurement(
+@register("statistic", "energy_excess", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
+def energy_excess_statistic(
     solver: Solution,
     image: Image,
     operator: SurfaceOperator,
@@ -33,7 +33,7 @@ def energy_excess_measurement(
     tolerance: Annotated[
         float, Field(gt=0, lt=1, description="relative gap of the intrinsic solve that gives the bound")
     ] = 1e-06,
-) -> Measurement:
+) -> Statistic:
     """The energy of any method's result on the surface, held against a proved lower bound."""
     if isinstance(model, ConvexChanVese):
         fidelity, _ = model.fidelity(image, operator, (solver.metrics["c1"], solver.metrics["c2"]))
@@ -44,4 +44,4 @@ def energy_excess_measurement(
     bound = partial(primal_dual, tolerance=tolerance, progress=report_progress)(fidelity, operator).lower_bound
     assert bound is not None  # noqa: S101, narrows a type
     excess = energy_excess(fidelity, operator, solver.values, bound)
-    return Measurement(solver.solver, solver.metrics | {"energy_excess": excess}, solver.notes)
+    return Statistic(solver.solver, metrics=solver.metrics | {"energy_excess": excess}, notes=solver.notes)
