@@ -21,7 +21,7 @@ from surfexp.commands.click_command import results_option, shown
 def report(
     experiments: tuple[str, ...], claims: bool, beside: Path | None, preface: Path | None, results: Path
 ) -> None:
-    """Write the report page of experiments again.
+    """Rewrite the report page of experiments.
 
     Its place is printed. Without EXPERIMENT it is that of quickstart.
     """

@@ -28,7 +28,7 @@ from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
 from surfexp.lab.store.kinds import KINDS  # noqa: E402
 
-# where clocks matter: so many calls at most, until all but the first have taken so many seconds
+# in benchmark mode: so many calls at most, until all but the first have taken so many seconds
 CALLS, ENOUGH = 10, 1.0
 _progress: dict[str, Any] = {}
 
