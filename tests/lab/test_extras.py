@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from surfexp import extras
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -206,3 +208,20 @@ def test_python_names_say_in_one_line_what_to_install(tmp_path: Path) -> None:
     done = without_extras(code, tmp_path)
     lines = done.stdout.splitlines()
     assert [re.findall(r"surfexp\[(\w+)\]", line) for line in lines] == [["figures"], ["lab"], ["anatomy"]], done.stderr
+
+
+def test_a_package_that_runs_on_no_new_python_is_named_with_the_python_to_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "version_info", (3, 14, 0, "final", 0))
+    line = extras.missing_line("surfexp run", ["pandas", "hydra"])
+    assert "hydra-core, which runs on no Python from 3.14 on: take Python 3.13" in line and "pip install" not in line
+    assert "pip install 'surfexp[lab]'" in extras.missing_line("surfexp run", ["pandas"])
+    monkeypatch.setattr(sys, "version_info", (3, 13, 9, "final", 0))
+    assert "pip install 'surfexp[lab]'" in extras.missing_line("surfexp run", ["hydra"])
+
+
+def test_what_runs_on_no_new_python_is_not_installed_there() -> None:
+    lines = [line for extra in PROJECT["optional-dependencies"].values() for line in extra]
+    for module, (major, minor) in extras.TOO_NEW.items():
+        package = extras.EXTRAS[module][0]
+        marked = [line for line in lines if name_of(line) == package]
+        assert marked and all(f"python_version < '{major}.{minor}'" in line for line in marked)
