@@ -82,11 +82,11 @@ def imports(file: Path) -> set[tuple[str, bool]]:
 
 
 def allowed_at_once(file: Path) -> frozenset[str]:
-    """Packages that a file may import as soon as it is imported, by the room where it stands."""
-    room = file.relative_to(ROOT).parts[1] if file.is_relative_to(ROOT / "surfexp") else "plugins"
-    if room in ("lab", "records", "report", "reproduction", "commands", "plugins"):
+    """Packages that a file may import as soon as it is imported, by the package where it stands."""
+    folder = file.relative_to(ROOT).parts[1] if file.is_relative_to(ROOT / "surfexp") else "plugins"
+    if folder in ("lab", "records", "report", "reproduction", "commands", "plugins"):
         return declared("") | declared("lab")
-    return declared("") | (declared("figures") if room in ("figures", "drawings") else frozenset())
+    return declared("") | (declared("figures") if folder in ("figures", "drawings") else frozenset())
 
 
 SOURCES = [*(ROOT / "surfexp").rglob("*.py"), *(ROOT / "plugins").rglob("*.py")]
@@ -102,7 +102,7 @@ def test_every_import_is_declared_where_it_is_needed() -> None:
         for module, eager in imports(file):
             package = packages.get(module, module)
             assert package in everywhere, f"{here} imports {module}, which pyproject.toml does not declare"
-            assert not eager or package in at_once, f"{here} imports {module} at once, which is no part of its room"
+            assert not eager or package in at_once, f"{here} imports {module} at once, which is no part of its package"
 
 
 def test_every_declared_package_is_imported() -> None:

@@ -12,6 +12,8 @@ from surfexp.lab.plan import fingerprint, source_code
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.registry.loading import load_all
 
+SHOWING = {"lab", "records", "report", "reproduction", "commands"}
+
 
 @pytest.fixture
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
@@ -66,10 +68,10 @@ def test_the_framework_is_not_part_of_a_key() -> None:
     files, packages = fingerprint.code_closure(plugins / "operator" / "fem.py")
     names = {file.parent.name + "/" + file.name for file in files}
     assert "operators/fem.py" in names and "mesh/triangle_mesh.py" in names
-    rooms = {
+    folders = {
         file.relative_to(fingerprint.PACKAGE).parts[0] for file in files if file.is_relative_to(fingerprint.PACKAGE)
     }
-    assert not rooms & {"workflow", "report", "commands", "tasks", "catalogue", "workers"}
+    assert not folders & (SHOWING | {"tasks"})
     assert {"numpy", "scipy"} <= packages
 
 
@@ -77,11 +79,12 @@ def test_nothing_that_shows_results_is_part_of_any_key() -> None:
     from surfexp.lab.registry import registry
 
     load_all(Path("/nonexistent"))
-    shown = {fingerprint.PACKAGE / room for room in ("report", "commands", "catalogue", "workers")}
+    shown = {fingerprint.PACKAGE / folder for folder in SHOWING}
+    assert all(folder.is_dir() for folder in shown)
     for plugin in registry.PLUGINS.values():
         if plugin.file.is_relative_to(package_folder("surfexp.plugins")):
             files, _ = fingerprint.code_closure(plugin.file)
-            assert not {file for file in files for room in shown if file.is_relative_to(room)}, plugin.name
+            assert not {file for file in files for folder in shown if file.is_relative_to(folder)}, plugin.name
             assert not {fingerprint.PACKAGE / "__init__.py", fingerprint.PACKAGE / "face.py"} & files, plugin.name
 
 

@@ -1,7 +1,8 @@
-"""Pages, help texts and public docstrings use the field's words, by the list in docs/contributing.md."""
+"""Pages, help texts, errors and public docstrings use the field's words, by the list in docs/contributing.md."""
 
 from __future__ import annotations
 
+import ast
 import importlib
 import inspect
 import re
@@ -32,8 +33,8 @@ def terms(page: str) -> dict[str, str]:
 
 
 def refused(text: str, words: dict[str, str]) -> dict[str, str]:
-    """The words of the list that a text has; code, links and pictures aside."""
-    prose = re.sub(r"```.*?```|`[^`]*`|\]\([^)]*\)", " ", text, flags=re.DOTALL)
+    """The words of the list that a text has; code, quoted names, links and pictures aside."""
+    prose = re.sub(r"```.*?```|`[^`]*`|'\w+'|\]\([^)]*\)", " ", text, flags=re.DOTALL)
     prose = " ".join(prose.split())
     return {
         word: instead for word, instead in words.items() if re.search(rf"\b{word}(s|d|ed)?\b", prose, re.IGNORECASE)
@@ -83,6 +84,22 @@ def test_a_public_docstring_uses_the_words_of_the_field(name: str) -> None:
         [value for key, value in vars(public).items() if not key.startswith("_")] if inspect.isclass(public) else []
     )
     assert not refused("\n".join(inspect.getdoc(value) or "" for value in [public, *members]), TERMS)
+
+
+@pytest.mark.parametrize("folder", ["surfexp", "plugins", "snakemake_executor_plugin_surfexp"])
+def test_an_error_uses_the_words_of_the_field(folder: str) -> None:
+    found = {}
+    for file in (ROOT / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(file.read_bytes())):
+            parts = (
+                [part for part in ast.walk(node) if isinstance(part, ast.Constant)]
+                if isinstance(node, ast.Raise)
+                else []
+            )
+            text = "".join(part.value for part in parts if isinstance(part.value, str))
+            if wrong := refused(text, TERMS):
+                found[f"{file.relative_to(ROOT)}:{node.lineno}"] = wrong
+    assert not found
 
 
 def test_a_word_of_the_list_is_seen_and_code_is_not() -> None:
