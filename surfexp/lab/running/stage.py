@@ -20,7 +20,7 @@ from surfexp.contract.member import Member  # noqa: E402
 from surfexp.contract.result_contract import check_result  # noqa: E402
 from surfexp.lab.digests import file_digest  # noqa: E402
 from surfexp.lab.errors import DamagedResult  # noqa: E402
-from surfexp.lab.plan.fingerprint import code_digest, edited_since  # noqa: E402
+from surfexp.lab.plan.code_digests import code_digest, edited_since  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
 from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
