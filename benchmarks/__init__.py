@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from surfexp.lab.plan.fingerprint import compiled_state
+from surfexp.lab.plan.code_digests import compiled_state
 from surfexp.lab.running import compiled_code
 
 # before numpy and numba are imported, which read these once; a line about two threads sets it for its own processes

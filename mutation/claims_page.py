@@ -12,16 +12,20 @@ from surfexp.reproduction.page import cells_of_line
 
 PAGE = ROOT / "docs" / "claim_faults.md"
 NOT_RUN = "not run"
-HEAD = """# Claims that faults turn
+HEAD = """# Mutants that flip claims
 
-Made by `python -m mutation claims`. A claim that no fault in the code can turn says nothing; what is not comparable
-(docs/verdicts.md) has no verdict to turn and is not listed. Each fault is planted in a copy of the code, its experiment
-is run again, and all its claims are judged again. Lines of code are quoted as they were on the day of that run.
-*Turned*: the verdict is another one, by a number. *Stopped*: a certificate, a check or an error left the claim not
-computed. *Untouched*: no fault that was run changed the verdict. Of several faults the table shows the one that names
-the claim in `mutation/claims.yaml`, or else the first that turned it. *Not run*: readings of a collection that has to be
-brought (TOSCA), and faults that have not been run yet. A row stays until a later run says more; `python -m mutation
-claims --open` runs only faults that name a claim which is not turned yet.
+Made by `python -m mutation claims`. A claim that no mutant of the code can flip says nothing. What is
+not comparable (docs/verdicts.md) has no verdict to flip and is not listed. Each mutant changes a copy
+of the code; its experiment is run again, and all claims of the experiment are judged again.
+
+- *Turned*: the verdict flipped, by a number. Lines of code are quoted as they were on the day of that run.
+- *Stopped*: a certificate, a check or an error left the claim not computed.
+- *Untouched*: no mutant that was run changed the verdict.
+- *Not run*: the data have to be brought (TOSCA), or the mutants have not been run yet.
+
+If several mutants flip a claim, the table shows the one that names the claim in `mutation/claims.yaml`, or else the
+first. A row stays until a later run says more. `python -m mutation claims --open` runs only mutants that name a claim
+which is not flipped yet.
 
 **{summary}**
 

@@ -18,17 +18,18 @@ from mutation.trial import Outcome
 RESULTS = ROOT / "results" / "mutation" / "random.jsonl"
 EXPLAINED = ROOT / "mutation" / "explained.yaml"
 PAGE = ROOT / "docs" / "mutation.md"
-HEAD = """# Random faults
+HEAD = """# Random mutants
 
-Made by `python -m mutation random --count {count} --seed {seed}`: {total} faults over the {files} modules of the
-numerics. The lines that can carry a fault are picked at equal steps, so that every file gets its share by size; on a
-line the kind of fault is drawn first, then the fault. Operators, comparisons, constants, indices, signs, the order of
-arguments, functions (min for max) are changed and statements dropped; docstrings, annotations, decorators, texts and
-the messages of errors are left alone. A fault is tried on the tests that are near by import and quick, until one
-fails or {budget:g} s of tests have passed, so what survives here may still fall to the rest of the suite. Tests that
-start programs or run whole plugins take no part. Killed is a fault that a test fails on, that takes a test five times
-as long and more, or that ends the process. A survivor that is explained changes nothing that could be wrong; why
-stands below, and it is not counted in the rate.
+Made by `python -m mutation random --count {count} --seed {seed}`: {total} mutants of the {files} modules of the numerics.
+
+- **Sampling.** Lines that can be mutated are picked at equal steps, so every file gets its share by size. On a line the
+  kind of mutation is drawn first, then the mutation.
+- **Mutations** change operators, comparisons, constants, indices, signs, the order of arguments and functions (min for
+  max), and drop statements. Docstrings, annotations, decorators, texts and error messages are left alone.
+- **Tests.** A mutant is tried on quick tests that are near by import, until one fails or {budget:g} s of tests have passed.
+  A survivor here may still fail in the rest of the suite. Tests that start programs or run whole plugins take no part.
+- **Killed** means that a test fails, takes five times as long or more, or that the process ends.
+- **Explained** survivors change nothing that could be wrong. The reasons stand below; they are not counted in the rate.
 
 The rate is that of a sample which the tests have seen: 246 of 271 fell on the first whole run, and tests were written for
 survivors after it. *Not shown*: faults of several lines, of a wrong idea, and those of code that was written since; lines
@@ -102,7 +103,7 @@ def page(changes: Sequence[Change], found: dict[str, dict[str, Any]], seed: int,
     summary = (
         f"**{_rate(len(tried) - len(alive), len(tried) - len(explained))}; {len(alive) - len(explained)} survive, "
         f"{len(explained)} more are explained.** {len(changes) - len(tried)} were not run; {seconds:.1f} processor "
-        "seconds a fault."
+        "seconds a mutant."
     )
     files = len({change.path for change in changes})
     head = HEAD.format(count=len(changes), seed=seed, total=len(changes), files=files, budget=budget, summary=summary)
@@ -126,7 +127,7 @@ def _table(
     excused = set(explained)
     for group, (change, result) in zip(groups, tried, strict=True):
         counts[group]["explained" if change in excused else result["verdict"]] += 1
-    rows = [f"| {heading} | faults | killed by a test | timed out | crashed | survived | explained | kill rate |"]
+    rows = [f"| {heading} | mutants | killed by a test | timed out | crashed | survived | explained | kill rate |"]
     rows.append("|---|---|---|---|---|---|---|---|")
     for group, count in counts.items():
         total, counted = count.total(), count.total() - count["explained"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 
 # the package that brings a module, and the smallest extra that brings the package
@@ -37,6 +38,8 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "pyamg": ("pyamg", "peers"),
     "umap": ("umap-learn", "peers"),
 }
+# the first Python on which no release of a package runs
+TOO_NEW = {"hydra": (3, 14)}
 
 
 class MissingExtra(ImportError):
@@ -65,6 +68,13 @@ def missing_line(what: str, missing: list[str]) -> str:
     missing : list of str
         Modules of `EXTRAS`.
     """
+    for module in missing:
+        if module in TOO_NEW and sys.version_info[:2] >= TOO_NEW[module]:
+            major, minor = TOO_NEW[module]
+            return (
+                f"{what} needs {EXTRAS[module][0]}, which runs on no Python from {major}.{minor} on: "
+                f"take Python {major}.{minor - 1}; surfexp's functions and its commands on files run on both"
+            )
     packages = ", ".join(EXTRAS[module][0] for module in missing)
     extras = ",".join(sorted({EXTRAS[module][1] for module in missing}))
     verb = "is" if len(missing) == 1 else "are"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from surfexp.lab.plan.fingerprint import compiled_state
+from surfexp.lab.plan.code_digests import compiled_state
 from surfexp.lab.running import compiled_code
 
 settings.register_profile("unhurried", deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True)

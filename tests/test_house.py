@@ -1,4 +1,4 @@
-"""How the house is built: no circle of files, no import upward, no room that nobody listed."""
+"""How the house is built: no circle of files, no import upward, no package that nobody listed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import networkx as nx
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-ROOMS_OF_THE_LABORATORY = sorted(file.parent.name for file in (ROOT / "surfexp/lab").glob("*/__init__.py"))
+PACKAGES_OF_THE_LABORATORY = sorted(file.parent.name for file in (ROOT / "surfexp/lab").glob("*/__init__.py"))
 
 
 def module_of(file: Path) -> str:
@@ -67,14 +67,14 @@ def test_a_planted_circle_is_seen() -> None:
 
 @pytest.fixture(scope="module")
 def linted_with_planted_imports(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """What the import contracts say where a file of `mesh` imports each room of the laboratory, beside an unlisted room."""
+    """What the import contracts say where a file of `mesh` imports each package of the laboratory, beside an unlisted package."""
     folder = tmp_path_factory.mktemp("house")
     shutil.copytree(ROOT / "surfexp", folder / "surfexp", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", folder)
     with (folder / "surfexp/mesh/noise.py").open("a") as noise:
-        noise.writelines(f"import surfexp.lab.{room}\n" for room in ROOMS_OF_THE_LABORATORY)
+        noise.writelines(f"import surfexp.lab.{package}\n" for package in PACKAGES_OF_THE_LABORATORY)
     (folder / "surfexp/attic").mkdir()
-    (folder / "surfexp/attic/__init__.py").write_text('"""A room that nobody listed."""\n')
+    (folder / "surfexp/attic/__init__.py").write_text('"""A package that nobody listed."""\n')
     command = [
         sys.executable,
         "-c",
@@ -91,10 +91,10 @@ def linted_with_planted_imports(tmp_path_factory: pytest.TempPathFactory) -> str
     return done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("room", ROOMS_OF_THE_LABORATORY)
-def test_the_numerics_may_import_no_room_of_the_laboratory(room: str, linted_with_planted_imports: str) -> None:
-    assert f"surfexp.mesh.noise -> surfexp.lab.{room}" in linted_with_planted_imports
+@pytest.mark.parametrize("package", PACKAGES_OF_THE_LABORATORY)
+def test_the_numerics_may_import_no_package_of_the_laboratory(package: str, linted_with_planted_imports: str) -> None:
+    assert f"surfexp.mesh.noise -> surfexp.lab.{package}" in linted_with_planted_imports
 
 
-def test_a_room_that_is_not_listed_is_refused(linted_with_planted_imports: str) -> None:
+def test_a_package_that_is_not_listed_is_refused(linted_with_planted_imports: str) -> None:
     assert "attic" in linted_with_planted_imports

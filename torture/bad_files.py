@@ -20,7 +20,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.map_files import read_mask, read_named_labels, read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from torture.case import MENDED, REFUSED, RIGHT, UNKNOWABLE, WRONG, Ended, clear, in_a_child
+from torture.case import REFUSED, REPAIRED, RIGHT, UNKNOWABLE, WRONG, Ended, clear, in_a_child
 from torture.sound_files import LABELS, MAPS, UNCOUNTED, truth, write_sound_files
 
 CUTS = 16
@@ -156,7 +156,7 @@ def _surface(file: Path, repair: bool) -> tuple[str, str]:
     modes = sx.eigenpairs(surface, 4)
     if not modes.complete or not np.isfinite(modes.values).all():
         return WRONG, f"modes {modes.values} of it are not certified"
-    return (MENDED, "; ".join(surface.notes)) if surface.notes else (RIGHT, "")
+    return (REPAIRED, "; ".join(surface.notes)) if surface.notes else (RIGHT, "")
 
 
 def _read(file: Path, kind: str) -> tuple[str, str]:

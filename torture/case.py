@@ -15,9 +15,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-REFUSED, MENDED, RIGHT, UNKNOWABLE = "refused clearly", "mended", "right", "nobody can tell"
+REFUSED, REPAIRED, RIGHT, UNKNOWABLE = "refused clearly", "repaired", "right", "nobody can tell"
 WRONG, HUNG = "wrong", "hung"
-OUTCOMES = (REFUSED, MENDED, RIGHT, UNKNOWABLE, WRONG, HUNG)
+OUTCOMES = (REFUSED, REPAIRED, RIGHT, UNKNOWABLE, WRONG, HUNG)
 SECONDS, BYTES = 10.0, 2**30
 LONGEST_LINE = 300
 # the line of an exception that nobody foresaw

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from surfexp.lab.store.store import faults
-from torture.case import HUNG, MENDED, REFUSED, RIGHT, WRONG, Ended, clear
+from torture.case import HUNG, REFUSED, REPAIRED, RIGHT, WRONG, Ended, clear
 from torture.laboratory import fresh, run, store_bytes, working_folder
 
 COUNT, WHOLE_RUNS = 500, 16
 
 
 def damages(seed: int = 0, count: int = COUNT, whole_runs: int = WHOLE_RUNS) -> Iterator[Ended]:
-    """Damage results one at a time: all are looked for, some are mended by a whole run."""
+    """Damage results one at a time: all are looked for, some are repaired by a whole run."""
     rng = random.Random(seed)
     with working_folder() as folder:
         first = run(folder, "run", "experiment=small")
@@ -36,7 +36,7 @@ def damages(seed: int = 0, count: int = COUNT, whole_runs: int = WHOLE_RUNS) -> 
             elif lines:
                 yield Ended("damage", name, WRONG, f"the line {clear(lines[0])}")
             elif number < whole_runs:
-                yield _mended(folder, intact, name)
+                yield _repaired(folder, intact, name)
             else:
                 yield Ended("damage", name, REFUSED, next(iter(found.values())))
             _restore(sound, results, touched)
@@ -78,7 +78,7 @@ def _restore(sound: Path, results: Path, touched: Path) -> None:
     shutil.copytree(sound / touched.relative_to(results), touched)
 
 
-def _mended(folder: Path, intact: dict[str, str], name: str) -> Ended:
+def _repaired(folder: Path, intact: dict[str, str], name: str) -> Ended:
     done = run(folder, "run", "experiment=small")
     if done.code is None:
         return Ended("damage", name, HUNG, "the run did not end")
@@ -87,7 +87,7 @@ def _mended(folder: Path, intact: dict[str, str], name: str) -> Ended:
     if store_bytes(folder / "results") != intact:
         return Ended("damage", name, WRONG, "the store is another one after the next run")
     said = [line for line in done.error.splitlines() if "damaged" in line or "no record.json" in line]
-    return Ended("damage", name, MENDED, said[0] if said else "computed again")
+    return Ended("damage", name, REPAIRED, said[0] if said else "computed again")
 
 
 def _around_the_store(folder: Path, sound: Path, intact: dict[str, str]) -> Iterator[Ended]:

@@ -35,7 +35,7 @@ that of the first run by more than the larger of both certified gaps, which no t
 With another Python every stored file has another name (a key holds the digest of the code as that Python parses it), so
 that only numbers can be compared. Seconds depend on what else the machine did.
 
-The experiment has no surface that is deformed at random and meshed anew. Where edges are split and turned by their
+The experiment has no surface that is deformed at random and remeshed. Where edges are split and turned by their
 lengths, a difference in the last digit makes another mesh: two subjects of `sulci_statistics` have other meshes with
 kernels for Haswell or Prescott than with those of this machine, lengths that differ by up to .5 mm where the ends are
 known, and by up to 43 % where regions are found anew. Such populations are another draw with other kernels, and a verdict

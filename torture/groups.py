@@ -53,9 +53,9 @@ FOLDER = ROOT / "results" / "torture"
 HEAD = """# Reliability
 
 Made by `make torture`: everything here went wrong on purpose. *Refused clearly*: one line of at most 300 characters
-with the reason, exit code 1 or 2. *Mended*: repaired or computed again, and said. *Right*: the result is what it is
-without the fault. *Nobody can tell*: a changed number is a number, and a format without counts may end anywhere.
-Files, requests and experiments have limits of time and memory.
+with the reason, exit code 1 or 2. *Repaired*: repaired or computed again, with a line that says so. *Right*: the result
+equals that without the fault. *Nobody can tell*: a changed number is a number, and a format without counts may end
+anywhere. Files, requests and experiments have limits of time and memory.
 
 """
 

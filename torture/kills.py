@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from torture.case import HUNG, MENDED, RIGHT, WRONG, Ended
+from torture.case import HUNG, REPAIRED, RIGHT, WRONG, Ended
 from torture.laboratory import end, run, start, store_bytes, working_folder
 
 COUNT, ROUNDS, DRIVERS = 200, 20, 8
@@ -75,7 +75,7 @@ def _judged(name: str, first: int | None, left: list[str], code: int | None, err
         return Ended(
             "kill", name, WRONG, f"the next run: exit {code}, {'' if same else 'another store, '}{error[-200:]}"
         )
-    return Ended("kill", name, MENDED, "")
+    return Ended("kill", name, REPAIRED, "")
 
 
 def _kill(process: subprocess.Popen[str], rng: random.Random) -> str:

@@ -1,4 +1,4 @@
-"""The caudate of a person as a closed surface, and the proof that its spectrum is complete."""
+"""The caudate of a subject as a closed surface, and the proof that its spectrum is complete."""
 
 import surfexp as sx
 from surfexp.anatomy.subcortical import subcortical_surface

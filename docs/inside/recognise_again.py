@@ -1,4 +1,4 @@
-"""Twelve ellipsoids seen again with noise: who is recognised, how reliable shape DNA is, and what its certificate covers."""
+"""Twelve ellipsoids with noisy retests: which are re-identified, how reliable shape DNA is, and what its certificate covers."""
 
 import numpy as np
 

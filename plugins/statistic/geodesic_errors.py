@@ -33,7 +33,7 @@ def geodesic_errors_statistic(
     truth = target_surface.truth
     if truth.origin is None or truth.template != source_surface.mesh.identity:
         raise ValueError(
-            f"the true vertices of {target_surface.name!r} on {source_surface.name!r} are not known: take surface disguised"
+            f"the true vertices of {target_surface.name!r} on {source_surface.name!r} are not known: take surface 'disguised'"
         )
     errors = geodesic_errors(
         source_surface.mesh,

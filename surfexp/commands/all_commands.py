@@ -21,46 +21,52 @@ class Entry(NamedTuple):
 
 SECTIONS: dict[str, dict[str, Entry]] = {
     "Surfaces and maps": {
-        "modes": Entry("surface_commands", "Laplace-Beltrami eigenpairs of a surface, proved to be the lowest."),
+        "modes": Entry(
+            "surface_commands", "Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."
+        ),
         "denoise": Entry("map_commands", "Remove the noise of a map by total variation, which keeps its edges."),
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
-        "segment": Entry("segment", "Two regions of a surface with a short boundary and a proved lower bound."),
-        "skeleton": Entry("surface_commands", "Reeb graph of a map on a surface."),
-        "distance": Entry("surface_commands", "Spectral distance of two surfaces, with a proved lower bound."),
-        "align": Entry("surface_commands", "Modes of one surface in correspondence with those of another."),
-        "fingerprint": Entry("fingerprint", "Area, volume and lowest eigenvalues of many surfaces as a table."),
-        "geodesic": Entry("surface_commands", "Geodesic distance from vertices, by fast marching."),
-        "curvature": Entry("surface_commands", "Mean curvature, positive where the surface bulges outward."),
+        "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
+        "skeleton": Entry("surface_commands", "Find the Reeb graph of a map on a surface."),
+        "distance": Entry(
+            "surface_commands", "Measure the spectral distance of two surfaces, with a proved lower bound."
+        ),
+        "align": Entry("surface_commands", "Align the modes of one surface with those of another."),
+        "fingerprint": Entry("fingerprint", "Write area, volume and lowest eigenvalues of many surfaces as a table."),
+        "geodesic": Entry("surface_commands", "Measure the geodesic distance from vertices, by fast marching."),
+        "curvature": Entry(
+            "surface_commands", "Compute the mean curvature, positive where the surface bulges outward."
+        ),
         "convert": Entry("surface_commands", "Write a surface in another format, with its maps."),
         "plot": Entry("surface_commands", "Draw a surface, coloured by a map."),
-        "view": Entry("view", "Turn a surface in a window (needs open3d)."),
-        "check": Entry("mesh_quality", "Name the defects of mesh files, or the first mistake of experiments."),
-        "repair": Entry("mesh_quality", "Repair the defects of a mesh and say each change."),
+        "view": Entry("view", "Rotate a surface in a window (needs open3d)."),
+        "check": Entry("mesh_quality", "Name the defects of mesh files, or the first mistake of experiment files."),
+        "repair": Entry("mesh_quality", "Repair the defects of a mesh and name each change."),
     },
     "Experiments": {
         "run": Entry("run", "Run an experiment or a sweep."),
-        "plan": Entry("run", "Show what a run would do: stages, what is shared, what is done."),
+        "plan": Entry("run", "Show what a run would compute, and what is already done."),
         "list": Entry("catalogue", "List the plugins of a kind, or the experiments."),
-        "info": Entry("catalogue", "Show the options of a plugin, or what an experiment asks and cost."),
-        "new": Entry("new", "Write a plugin with its test, or an experiment, to start from."),
+        "info": Entry("catalogue", "Show the options of a plugin, or the question and cost of an experiment."),
+        "new": Entry("new", "Write a first plugin with its test, or a first experiment."),
         "collect": Entry("collect", "Read your own surfaces as a collection for experiments."),
         "fetch": Entry("fetch", "Get a public collection of surfaces."),
         "cite": Entry("cite", "Print what to cite for experiments, as BibTeX."),
     },
     "Results": {
-        "table": Entry("table", "Print the tables of experiments again."),
-        "report": Entry("report", "Write the report page of experiments again."),
+        "table": Entry("table", "Print the tables of experiments."),
+        "report": Entry("report", "Rewrite the report page of experiments."),
         "open": Entry("open", "Open the page of an experiment, or the overview of all, in the browser."),
-        "diff": Entry("diff", "Show the options in which two rows differ, and their numbers side by side."),
+        "diff": Entry("diff", "Compare two rows: the options that differ, and the metrics."),
         "export": Entry("export", "Write finished results as files for other programs."),
         "ui": Entry("ui", "Start the MLflow dashboard on this machine."),
         "clean": Entry("clean", "Remove stored results that no plan names."),
-        "verify": Entry("verify", "Hash every stored result again and name what is damaged."),
+        "verify": Entry("verify", "Check the hash of every stored result and name what is damaged."),
     },
     "Set-up": {
         "doctor": Entry("doctor", "Show versions, extras and free disk, and what to install."),
-        "schema": Entry("schema", "Write the JSON schema by which an editor completes experiments."),
-        "completion": Entry("completion", "Print what a shell reads once to complete commands, options and names."),
+        "schema": Entry("schema", "Write the JSON schema with which an editor completes experiments."),
+        "completion": Entry("completion", "Print the shell code that completes commands, options and names."),
     },
 }
 COMMANDS = {name: entry for section in SECTIONS.values() for name, entry in section.items()}
@@ -121,6 +127,6 @@ class Commands(click.Group):
 @click.version_option(__version__, "-V", "--version", message="surfexp %(version)s")
 @click.pass_context
 def surfexp(ctx: click.Context, debug: bool) -> None:
-    """Experiments in intrinsic surface processing, planned once, computed once, compared fairly."""
+    """Denoise, segment and compare maps and shapes on triangle meshes, and run experiments that compare methods."""
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

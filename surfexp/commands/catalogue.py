@@ -56,7 +56,7 @@ def list_choices(kind: str | None) -> None:
 )
 @results_option
 def info(what: tuple[str, ...], results: Path) -> None:
-    """Show the options of a plugin, or what an experiment asks and cost.
+    """Show the options of a plugin, or the question and cost of an experiment.
 
     A number such as 2.8, table 3.1 or figure 5.9 is that of the dissertation: the experiments about it are listed.
     """

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 EXAMPLES = (
     "tosca --surface tosca --to tosca   # then: surfexp run experiment=tosca_classification axes=tosca",
-    "people.csv                         # columns path, class, group",
-    "subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to people",
+    "subjects.csv                          # columns path, class, group",
+    "subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to cohort",
 )
 
 

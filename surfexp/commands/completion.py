@@ -26,7 +26,7 @@ def answer(instruction: str) -> int:
 @click.command(**shown("completion", 'bash   # in ~/.bashrc: eval "$(surfexp completion bash)"', "fish | source"))
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def completion(shell: str) -> None:
-    """Print what a shell reads once to complete commands, options and names.
+    """Print the shell code that completes commands, options and names.
 
     In ~/.zshrc: eval "$(surfexp completion zsh)", after compinit. Fish keeps it in
     ~/.config/fish/completions/surfexp.fish.

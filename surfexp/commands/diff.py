@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 @click.argument("second", metavar="RUN")
 @results_option
 def diff(first: str, second: str, results: Path) -> int:
-    """Show the options in which two rows differ, and their numbers side by side.
+    """Compare two rows: the options that differ, and the metrics.
 
     RUN is the key of a row (the column leaf of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or
     the id of an MLflow run.

@@ -70,7 +70,7 @@ def _warn(lines: Iterable[str]) -> None:
 def unfinished(plan: Plan, results: Path) -> dict[str, str]:
     """Stages of a plan without a sound result, by key: "" where there is none, else what is wrong with it.
 
-    Where clocks matter, a leaf that was not measured alone is among them.
+    In benchmark mode, a leaf that was not measured alone is among them.
     """
     leaves = [plan.nodes[leaf.key] for leaf in plan.leaves] if plan.settings.timing else []
     untimed = {node.key: "" for node in leaves if not read_event(results, node.kind, node.key).get("alone")}

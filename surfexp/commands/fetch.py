@@ -25,9 +25,9 @@ COLLECTIONS = {"tosca": "http://tosca.cs.technion.ac.il/data/toscahires-asci.zip
 def fetch(collection: str, folder: Path | None, url: str | None, sha256: str | None) -> None:
     """Get a public collection of surfaces.
 
-    An archive is downloaded once and pinned; a package that you install is checked. Of an archive the publishers name no
-    checksum: the first download is trusted unless --sha256 is given. Of a package each file that experiments read is held
-    against its SHA-256; nothing is copied.
+    An archive is downloaded once, and its checksum is kept. Publishers name no checksum, so the first download is trusted
+    unless --sha256 is given. A package is installed by you; each of its files that experiments read is checked by SHA-256,
+    and nothing is copied.
     """
     if collection in PACKAGES:
         _check(PACKAGES[collection])
@@ -50,7 +50,7 @@ def _check(package: DataPackage) -> None:
 
 
 def _download(collection: str, given_url: str | None, to: Path | None, sha256: str | None) -> None:
-    """Download an archive once and unpack it; its SHA-256 is written down, and held against at every later time."""
+    """Download an archive once and unpack it; its SHA-256 is written down and checked at every later time."""
     url, folder = given_url or COLLECTIONS[collection], to or Path(collection)
     archive, pin = folder / url.rpartition("/")[2], folder / "SHA256"
     known = sha256 or (pin.read_text().split()[0] if pin.is_file() else None)

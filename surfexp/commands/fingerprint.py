@@ -22,7 +22,7 @@ SPOKEN_EVERY = 30.0
 @click.option("--strict", is_flag=True, help="leave defective meshes out instead of repairing them")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="the table, .csv")
 def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> int:
-    """Area, volume and lowest eigenvalues of many surfaces as a table.
+    """Write area, volume and lowest eigenvalues of many surfaces as a table.
 
     SOURCES are files, a folder, a SUBJECTS_DIR or BIDS derivatives.
 

@@ -33,10 +33,11 @@ EXAMPLES = {
     "--method",
     type=click.Choice(["rof", "tgv", "auto"]),
     default="rof",
-    help="total variation; total generalised variation, which makes no stairs of slopes; or what promises least error",
+    help="rof: total variation; tgv: total generalised variation, which avoids staircasing; "
+    "auto: the method with the smallest estimated error",
 )
-@click.option("--weight", default=0.9, help="without unit; smaller is smoother")
-@click.option("--ratio", default=2.0, help="of tgv: over how many edge lengths a slope may turn")
+@click.option("--weight", default=0.9, help="dimensionless; smaller is smoother")
+@click.option("--ratio", default=2.0, help="of tgv: over how many edge lengths a slope may change")
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
 @click.option("--tolerance", default=1e-4, help="largest relative duality gap")
 @surface_options

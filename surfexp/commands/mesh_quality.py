@@ -17,7 +17,7 @@ EXPERIMENTS = (".yaml", ".yml")
 @click.command(**shown("check", "scan.ply", "conf/experiment/mine.yaml"))
 @click.argument("files", nargs=-1, required=True, type=click.Path())
 def check(files: tuple[str, ...]) -> int:
-    """Name the defects of mesh files, or the first mistake of experiments.
+    """Name the defects of mesh files, or the first mistake of experiment files.
 
     An experiment is a file .yaml. The exit code is 2 where something is wrong.
     """
@@ -56,7 +56,7 @@ def check(files: tuple[str, ...]) -> int:
 @click.option("--largest-component", is_flag=True, help="keep the component of largest area only")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="result; the suffix decides")
 def repair(file: str, largest_component: bool, target: Path) -> None:
-    """Repair the defects of a mesh and say each change.
+    """Repair the defects of a mesh and name each change.
 
     Maps are taken along where the format of the result holds some.
     """

@@ -22,7 +22,7 @@ ROLES = {"solver": "solution"}
 @click.argument("kind", shell_complete=choices.new_kind)
 @click.argument("name")
 def new(kind: str, name: str) -> None:
-    """Write a plugin with its test, or an experiment, to start from.
+    """Write a first plugin with its test, or a first experiment.
 
     KIND is a stage kind (surfexp list), for a plugin of that kind; the word kind, for a stage kind with its first method;
     or the word experiment. NAME is the field's word for the method, such as split_bregman. The files are
@@ -89,10 +89,11 @@ def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
     if kind == "solver":
         return _filled("solver", values), _filled("solver_test", values)
     roles = INPUTS.get(kind, ("surface",))
-    classes = sorted({KINDS[one].result for one in (*roles, kind)}, key=lambda item: item.__module__)
+    imports = {(KINDS[one].result.__module__, KINDS[one].result.__name__) for one in (*roles, kind)}
+    imports.add(("surfexp.lab.registry.registry", "register"))
     signature = [f"    {ROLES.get(one, one)}: {KINDS[one].result.__name__},\n" for one in roles]
     values |= {
-        "imports": "\n".join(f"from {item.__module__} import {item.__name__}" for item in classes),
+        "imports": "\n".join(f"from {module} import {item}" for module, item in sorted(imports)),
         "parameters": "".join(signature),
         "result": KINDS[kind].result.__name__,
     }

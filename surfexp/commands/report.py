@@ -33,7 +33,7 @@ def report(
     preface: Path | None,
     results: Path,
 ) -> None:
-    """Write the report page of experiments again.
+    """Rewrite the report page of experiments.
 
     Its place is printed. Without EXPERIMENT it is that of quickstart.
     """

@@ -63,7 +63,7 @@ def run(arguments: tuple[str, ...]) -> int:
 @click.command(**_of_hydra("plan", "", "experiment=NAME", "experiment=NAME surface.levels=3,4,5"))
 @words
 def plan(arguments: tuple[str, ...]) -> int:
-    """Show what a run would do: stages, what is shared, what is done.
+    """Show what a run would compute, and what is already done.
 
     The arguments are those of surfexp run.
     """

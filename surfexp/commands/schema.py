@@ -13,7 +13,7 @@ from surfexp.commands.click_command import shown
 @click.command(**shown("schema", "", "--to conf/experiment.json", cls=click.Command))
 @click.option("--to", "target", type=click.Path(path_type=Path), help="file; printed if not given")
 def schema(target: Path | None) -> None:
-    """Write the JSON schema by which an editor completes experiments.
+    """Write the JSON schema with which an editor completes experiments.
 
     It holds the plugins of the folder you work in.
     """

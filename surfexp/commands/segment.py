@@ -24,12 +24,12 @@ from surfexp.commands.surface_arguments import (
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
-@click.option("--smoothness", default=0.3, help="without unit; larger is smoother")
+@click.option("--smoothness", default=0.3, help="dimensionless; larger is smoother")
 @click.option("--tolerance", default=1e-3, help="largest relative duality gap of the relaxed problem")
 @surface_options
 @result_option()
 def segment(path: str, map_name: str | None, smoothness: float, tolerance: float, target: Path, **given: Any) -> int:
-    """Two regions of a surface with a short boundary and a proved lower bound.
+    """Divide a surface into two regions, with a proved lower bound.
 
     They are where MAP is larger and where it is smaller. Without MAP it is the mean curvature, clipped at the median of
     its size: gyri and sulci of a cortex.

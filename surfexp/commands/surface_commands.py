@@ -39,7 +39,7 @@ EXAMPLES = {
 @surface_options
 @result_option()
 def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> int:
-    """Laplace-Beltrami eigenpairs of a surface, proved to be the lowest."""
+    """Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."""
     from surfexp.tasks.files import check_target
     from surfexp.tasks.spectra import eigenpairs
 
@@ -64,7 +64,7 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
 @surface_options
 @result_option()
 def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) -> None:
-    """Geodesic distance from vertices, by fast marching."""
+    """Measure the geodesic distance from vertices, by fast marching."""
     import numpy as np
 
     from surfexp.tasks.files import check_target
@@ -86,7 +86,7 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
 @surface_options
 @result_option()
 def curvature(path: str, target: Path, **given: Any) -> None:
-    """Mean curvature, positive where the surface bulges outward."""
+    """Compute the mean curvature, positive where the surface bulges outward."""
     from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import mean_curvature
 
@@ -102,7 +102,7 @@ def curvature(path: str, target: Path, **given: Any) -> None:
 @surface_options
 @result_option()
 def skeleton(path: str, map_name: str | None, count: int, target: Path, **given: Any) -> None:
-    """Reeb graph of a map on a surface.
+    """Find the Reeb graph of a map on a surface.
 
     Without MAP it is that of the first eigenfunction. The result is .vtk, .ply or .graphml.
     """
@@ -131,7 +131,7 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
 @result_option(required=False)
 def distance(first: str, second: str, count: int, limit: int | None, target: Path | None) -> None:
-    """Spectral distance of two surfaces, with a proved lower bound.
+    """Measure the spectral distance of two surfaces, with a proved lower bound.
 
     The signs of the eigenfunctions are printed too; --to writes the correspondence.
     """
@@ -167,7 +167,7 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
 @click.option("-k", "count", default=50, help="number of modes after the constant")
 @result_option()
 def align(first: str, second: str, count: int, target: Path) -> None:
-    """Modes of one surface in correspondence with those of another.
+    """Align the modes of one surface with those of another.
 
     Signs, order and rotations of the modes of SECOND become those of FIRST.
     """

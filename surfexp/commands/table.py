@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 )
 @results_option
 def table(experiments: tuple[str, ...], form: str, results: Path) -> None:
-    """Print the tables of experiments again.
+    """Print the tables of experiments.
 
     Without EXPERIMENT they are those of quickstart.
     """

@@ -13,7 +13,7 @@ from surfexp.lab.errors import StageFailure, UserError
 @click.command(**shown("verify", "", "--results other/results", cls=click.Command))
 @results_option
 def verify(results: Path) -> None:
-    """Hash every stored result again and name what is damaged.
+    """Check the hash of every stored result and name what is damaged.
 
     The whole store is read, whatever was verified before. The exit code is 1 if a result is not what was written.
     """

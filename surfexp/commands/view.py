@@ -13,7 +13,7 @@ from surfexp.lab.errors import UserError
 @click.command(**shown("view", "lh.white", "scan.ply"))
 @click.argument("file", type=click.Path(path_type=Path))
 def view(file: Path) -> None:
-    """Turn a surface in a window (needs open3d)."""
+    """Rotate a surface in a window (needs open3d)."""
     from surfexp.io.reading import read_mesh
 
     vertices, faces, _ = read_mesh(file)

@@ -14,7 +14,7 @@ from pathlib import Path
 import yaml
 
 from surfexp.lab.digests import digest
-from surfexp.lab.plan.fingerprint import code_closure
+from surfexp.lab.plan.code_digests import code_closure
 from surfexp.lab.plan.outcome import event_path, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.source_facts import source_facts

@@ -67,7 +67,7 @@ def group_power(
         raise ValueError(f"the collection has the classes {', '.join(names)}: a comparison of groups needs exactly 2")
     for name in (unit, permuted or unit):
         if name not in ("member", "person"):
-            raise ValueError(f"unit {name!r} is unknown, choose member or person")
+            raise ValueError(f"unit {name!r} is unknown, choose 'member' or 'person'")
     first, second = (np.flatnonzero(np.array(matrix.classes) == name) for name in names)
     owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
     units = owners if (permuted or unit) == "person" else np.arange(len(owners))
@@ -111,7 +111,7 @@ def _drawn(
         left, right = first[np.isin(owners[first], mine)], second[~np.isin(owners[second], mine)]
         if min(len(left), len(right)) < size:
             raise ValueError(
-                f"groups of {size} cannot be drawn: half of the people have {min(len(left), len(right))} members"
+                f"groups of {size} cannot be drawn: half of the subjects have {min(len(left), len(right))} members"
             )
         pairs.append((rng.choice(left, size, replace=False), rng.choice(right, size, replace=False)))
     return pairs
@@ -120,7 +120,9 @@ def _drawn(
 def _people(people: Integers, size: int, draws: int, rng: np.random.Generator) -> list[tuple[Integers, Integers]]:
     """Two groups of people without a common one: all such pairs where they are no more than the draws, else random ones."""
     if 2 * size > len(people):
-        raise ValueError(f"groups of {size} people cannot be drawn: there are {len(people)}, take at most half of them")
+        raise ValueError(
+            f"groups of {size} subjects cannot be drawn: there are {len(people)}, take at most half of them"
+        )
     if comb(len(people), size) * comb(len(people) - size, size) > draws:
         orders = (rng.permutation(people) for _ in range(draws))
         return [(order[:size], order[size : 2 * size]) for order in orders]

@@ -36,7 +36,7 @@ def intraclass_correlation(ratings: Floats) -> Floats:
     """
     table = np.asarray(ratings, dtype=np.float64)
     if table.ndim not in (2, 3) or min(table.shape[:2]) < 2:
-        raise ValueError(f"ratings have shape {table.shape}, at least 2 people times 2 measurements are needed")
+        raise ValueError(f"ratings have shape {table.shape}, at least 2 subjects times 2 measurements are needed")
     if not np.isfinite(table).all():
         raise ValueError(f"{int((~np.isfinite(table)).sum())} ratings are not finite, all must be")
     people, measurements = table.shape[:2]

@@ -48,7 +48,7 @@ def principal_components(matrix: DistanceMatrix, dimensions: int = 2) -> PointEm
     """
     _check(matrix, dimensions)
     if matrix.coordinates is None:
-        raise ValueError(f"the distances {matrix.name!r} come without coordinates, take classical scaling")
+        raise ValueError(f"the distances {matrix.name!r} come without coordinates, take classical MDS")
     centred = matrix.coordinates - matrix.coordinates.mean(axis=0)
     left, sizes, _ = np.linalg.svd(centred, full_matrices=False)
     kept = min(dimensions, len(sizes))

@@ -51,28 +51,29 @@ def denoise(
     """Remove noise from a map by total variation (Rudin, Osher and Fatemi), which keeps its edges.
 
     Minimises ``TV(u) + mu/2 |u - f|^2`` with ``mu = weight / (noise * h)``, h the side of the equilateral triangle of
-    mean area, and proves how near the result is to the minimiser. Values outside the mask neither enter nor leave:
-    the condition at its boundary is natural. Where a map has slopes as well as edges, "tgv" takes the total
-    generalised variation of second order in its place, which makes no stairs. "auto" takes what promises the least
-    error by Stein's estimate for independent noise: the heat kernel, TV, or TV that is cheap at edges. It replaces outliers
-    before, which the others follow.
+    mean area, and proves how near the result is to the minimiser. Values outside the mask have no influence: the
+    condition at its boundary is natural.
+
+    "tgv" penalises the total generalised variation of second order instead. It avoids staircasing where a map has slopes
+    as well as edges. "auto" chooses the heat kernel, TV, or TV that costs less at edges: the one with the smallest error by
+    Stein's estimate for independent noise. It first replaces outliers, which the other methods would keep.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Its mask, or else the finite values of the map, is where the map is denoised.
+        The map is denoised inside the mask, or where it is finite if there is no mask.
     values : str or (n,) or (n, c) float64
         Name of a map of the surface, or the map; NaN where nothing is known.
     method : {"rof", "tgv", "auto"}
         "tgv" and "auto" take one channel.
     weight : float
-        Of "rof" and "tgv", without unit; smaller is smoother. The error is least near 1.
+        Of "rof" and "tgv", dimensionless; smaller is smoother. The error is smallest near 1.
     ratio : float
-        Of "tgv": the length over which a slope may turn, in edge lengths h; large ones do as "rof".
+        Of "tgv": the length over which a slope may change, in edge lengths h; a large ratio acts like "rof".
     noise : float, optional
         Standard deviation of the noise, in the unit of the map; estimated from the map if not given.
     tolerance : float
-        Largest relative duality gap; that of "auto" is 1e-3.
+        Largest relative duality gap; "auto" uses 1e-3.
     progress : callable, optional
         Receives the iteration and the gap.
 
@@ -129,7 +130,7 @@ def _noise(operator: SurfaceOperator, image: Floats, given: float | None) -> tup
 
 
 def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
-    """The distance to the map, by its weight without unit."""
+    """The distance to the map, by its dimensionless weight."""
     if not (noise > 0 and weight > 0):
         raise ValueError(f"noise is {noise:g} and weight {weight:g}, both must be positive: give the noise of the map")
     return rof(operator.mass, image, weight / (noise * operator.edge_length))

@@ -16,10 +16,9 @@ from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_e
 
 
 class SpectralDistance(SurfaceTransformer):
-    """The spectral distances of surfaces to those that it was fitted to, each least over the signs of eigenfunctions.
+    """The spectral distances of surfaces to the surfaces of `fit`, each minimised over the signs of eigenfunctions.
 
-    What `fit_transform` returns is symmetric with zeros on its diagonal: the input of whatever takes
-    `metric="precomputed"`.
+    `fit_transform` returns a symmetric matrix with zeros on its diagonal, for estimators with `metric="precomputed"`.
 
     Parameters
     ----------
@@ -27,10 +26,10 @@ class SpectralDistance(SurfaceTransformer):
         Number of eigenfunctions.
     weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
     limit : int, optional
-        Most evaluations of the search over signs on all points, for each pair. By default the signs are those that
-        are best on samples, which takes a hundredth of the time and proves nothing; the value is on all points.
+        Most evaluations of the search over signs on all points, for each pair. By default the best signs on samples are
+        taken. That takes a hundredth of the time and proves nothing; the value is still computed on all points.
     samples : int
-        Points of each surface on which signs are looked for. With 150 values of unlike bodies were within .3 % of
+        Points of each surface in the search for signs. For dissimilar bodies, values with 150 samples were within .3 % of
         those with 1,500.
 
     Attributes

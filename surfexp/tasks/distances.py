@@ -37,7 +37,7 @@ def distance(
     limit: int | None = None,
     progress: Progress | None = None,
 ) -> Distance:
-    """Return the spectral distance of two surfaces, least over the signs of their eigenfunctions, with the proof.
+    """Return the spectral distance of two surfaces, minimised over the signs of their eigenfunctions, with the proof.
 
     Both surfaces are scaled to area 1, so that size and pose do not matter.
 
@@ -50,8 +50,8 @@ def distance(
     weighting : "biharmonic", "global_point", "heat_kernel" or "diffusion"
         Biharmonic weights converge with n, those of the global point signature do not.
     limit : int, optional
-        Most evaluations of the search; where the proof needs more, `lower_bound` says what is left open. By default as
-        many as compare 2e10 pairs of points, between 100 and 2,000: 400 for two surfaces of 7,000 vertices.
+        Most evaluations of the search. Where the proof needs more, `lower_bound` is below `value`. The default compares 2e10
+        pairs of points, in 100 to 2,000 evaluations: 400 for two surfaces of 7,000 vertices.
     progress : callable, optional
         Called with the number of evaluations and the relative gap that is left.
 
@@ -60,7 +60,7 @@ def distance(
     Distance
         `value`, `lower_bound`, `optimal`, the signs on the diagonal of `basis`, and `correspondence`: for each vertex of the
         target one of the source, -1 outside the mask. A note says where other signs give the same distance, as on a body with
-        a mirror symmetry: which of the maps is right is then nothing that lengths on the surface can tell.
+        a mirror symmetry. Lengths on the surface then cannot tell which map is right.
 
     Raises
     ------
@@ -101,14 +101,14 @@ def _mirror_images(first: SpectralEmbedding, second: SpectralEmbedding, found: D
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ModeAlignment(Summarized):
-    """Which combination of the target's modes plays the part of each mode of the source.
+    """The combination of the target's modes that corresponds to each mode of the source.
 
     Parameters
     ----------
     basis : (n, n) float64
         Target modes times it correspond to source modes; orthogonal, zero between blocks.
     blocks : tuple of (int, int)
-        Ranges of modes that are nearly equal in eigenvalue on either surface, from 1; inside them only the span has a meaning.
+        Ranges of modes with nearly equal eigenvalues on either surface, counted from 1. Inside a block only the span is defined.
     value, lower_bound : float
         Spectral distance in this basis, and what no choice of signs can go below.
     optimal : bool
@@ -149,8 +149,8 @@ def align(
 ) -> ModeAlignment:
     """Bring the modes of one surface into correspondence with those of another: signs, order and rotations in clusters.
 
-    Modes whose eigenvalues differ by less than `relative_gap` on either surface may change places between the two: such a
-    block is rotated as a whole. Where all blocks are single the best signs are searched for with proof.
+    Modes whose eigenvalues differ by less than `relative_gap` on either surface may change places between the two. Such a
+    block is rotated as a whole. Where no block has several modes, the best signs are found with a proof.
 
     Parameters
     ----------

@@ -50,12 +50,12 @@ def read(
     mask : path or (n,) array, optional
         A FreeSurfer .label, named labels (all but unknown and medial wall, or `FILE:NAME,NAME`), or a map that is 0 outside.
     unit : str
-        Of length.
+        Unit of length.
     hemisphere : {"", "left", "right"}
-        Found from the file where it says so. Maps, labels and masks of the other one are refused.
+        Taken from the file where it says so. Files of the other hemisphere are refused.
     repair : bool
-        Repair a defective mesh, with a note for each change, in place of refusing it. Maps follow their vertices. Vertices
-        without faces or position are no defect: they are outside, and the numbering stays.
+        Repair a defective mesh instead of refusing it, with a note for each change. Maps follow their vertices. Vertices
+        without faces or position are no defect: they count as outside, and the numbering stays.
 
     Returns
     -------
@@ -141,7 +141,7 @@ def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> di
 
 
 def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
-    """Write a surface, a map, or a result of a task; the suffix decides about the format.
+    """Write a surface, a map, or a result; the suffix decides the format.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
     Raises
     ------
     ValueError
-        If the format is unknown or cannot hold it.
+        If the format is unknown or cannot hold the data.
 
     Examples
     --------

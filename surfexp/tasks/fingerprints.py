@@ -44,7 +44,7 @@ class Fingerprints(Summarized):
         Largest relative residual.
     complete : dict of str to bool
     repairs : dict of str to tuple of str
-        What had to be repaired, one sentence each.
+        What was repaired, one sentence each.
     refused : dict of str to str
         What was left out, and why.
     """

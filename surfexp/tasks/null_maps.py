@@ -30,12 +30,12 @@ TOLERANCE = 1e-10
 
 @dataclass(frozen=True, eq=False, repr=False)
 class NullMaps(Summarized):
-    """Random maps that share with a map what their model keeps.
+    """Surrogate maps, which keep some properties of a map and are random otherwise.
 
     Parameters
     ----------
     values : (n, r) float64
-        A column a null map; NaN outside the mask.
+        One column for each null map; NaN outside the mask.
     method : str
         "eigenstrapping" or "variogram".
     certificate : dict
@@ -62,16 +62,16 @@ def null_maps(
     modes: int = 400,
     seed: int = 0,
 ) -> NullMaps:
-    """Make random maps as smooth as a map, against which its correlation with another map can be held.
+    """Make surrogate maps with the same spatial autocorrelation as a map, to test its correlation with another map.
 
-    "eigenstrapping" turns the coefficients of the map in groups of 3, 5, 7, ... modes of its surface, and adds what
-    the modes leave out with its values in a random order. "variogram" smooths permuted values until their variogram
-    is that of the map. Both take for granted that the map is equally smooth everywhere.
+    "eigenstrapping" rotates the coefficients of the map at random, within groups of 3, 5, 7, ... modes of its surface. It
+    adds the residual that the modes do not hold, with permuted values. "variogram" smooths permuted values until their
+    variogram is that of the map. Both assume that the map is equally smooth everywhere.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Its mask, or else the finite values of the map, is the part that takes part.
+        Null maps are made inside the mask, or where the map is finite if there is no mask.
     values : str or (n,) float64
         Name of a map of the surface, or the map; NaN where nothing is known.
     count : int

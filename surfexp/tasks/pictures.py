@@ -84,15 +84,15 @@ def plot(
     unit: str = "",
     width: int = 1600,
 ) -> Picture:
-    """Draw a surface from some sides, coloured by a map; what is NaN or outside the mask is grey.
+    """Draw a surface, coloured by a map; vertices with NaN or outside the mask are grey.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
     values : str, (n,) array, or a result with `values`, optional
-        Clay without.
+        Without it the surface is drawn in one colour.
     views : sequence of names or (azimuth, elevation) in degrees
-        Two sides of a hemisphere, else one oblique view.
+        By default lateral and medial for a hemisphere, otherwise one oblique view.
     colormap : str, optional
         A name of matplotlib's; a diverging one for maps of both signs if not given.
     limits : (float, float), optional

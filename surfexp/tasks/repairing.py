@@ -13,22 +13,22 @@ from surfexp.tasks.inputs import SurfaceLike, arrays_of
 
 
 def check(surface: SurfaceLike) -> Report:
-    """Look for every defect of a surface.
+    """Find every defect of a surface.
 
     Parameters
     ----------
     surface : Surface, TriangleMesh, (vertices, faces), or a path
-        It may have any defect.
+        Defects are allowed.
 
     Returns
     -------
     Report
-        `ok` says whether every method can use the surface, `lines()` names each defect, `count(kind)` counts one.
+        `ok` says whether every method can use the surface; `lines()` names each defect; `count(kind)` counts one kind.
 
     Raises
     ------
     ValueError
-        If it is no surface at all, or a file cannot be read.
+        If the input is not a surface, or a file cannot be read.
 
     Examples
     --------
@@ -41,13 +41,13 @@ def check(surface: SurfaceLike) -> Report:
 
 
 def repair(surface: SurfaceLike, *, largest_component: bool = False) -> Surface:
-    """Repair every defect of a surface that can be repaired, and take its maps, labels and mask along.
+    """Repair the defects of a surface; its maps, labels and mask follow.
 
     Parameters
     ----------
     surface : Surface, TriangleMesh, (vertices, faces), or a path
     largest_component : bool
-        Keep the component of largest area alone.
+        Keep only the component of largest area.
 
     Returns
     -------

@@ -97,18 +97,18 @@ def segment(
 ) -> Segmentation:
     """Divide a surface into two regions in which a map is nearly constant, with a short boundary (Chan and Vese).
 
-    For given means the convex relaxation proves how near the regions are to the best ones; the means follow the regions
-    until both rest, which may be a local minimum.
+    For given means the convex relaxation proves how near the regions are to the best ones. Regions and means are updated
+    in turn until neither changes. This may be a local minimum over the means.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Its mask, or else the finite values of the map, is what is divided.
+        The part inside the mask is divided, or the part where the map is finite if there is no mask.
     values : str or (n,) float64, optional
         Name of a map of the surface, or the map. Without one it is the mean curvature, positive where the surface bulges
-        outward, clipped at the median of its size: the brighter region of a cortex are its gyri.
+        outward, clipped at the median of its modulus. On a cortex the brighter region is then the gyri.
     smoothness : float
-        Weight of the boundary's length, without unit; larger is smoother.
+        Weight of the boundary's length, dimensionless; larger is smoother.
     tolerance : float
         Largest relative duality gap of the relaxed problem.
     progress : callable, optional

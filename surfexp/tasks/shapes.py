@@ -21,13 +21,13 @@ SHAPES = {
 
 
 def shape(name: str, **parameters: Any) -> Surface:
-    """Return a generated surface, or the average cortex that nilearn carries.
+    """Return a generated surface, or the average cortex that comes with nilearn.
 
     Parameters
     ----------
     name : "icosphere", "torus", "disk", "rectangle", "ellipsoid", "cup", "cortex" or "fsaverage5"
     **parameters
-        Those of the generator.
+        Parameters of the generator.
 
     Returns
     -------

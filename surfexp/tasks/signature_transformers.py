@@ -18,17 +18,18 @@ from surfexp.tasks.surface_transformer import SurfaceTransformer
 class ShapeDNA(SurfaceTransformer):
     """The first eigenvalues above 0 of each surface (Reuter, Wolter and Peinecke 2006).
 
-    The defaults are those of the best retrieval on two collections, bodies in poses and structures of brains: mean average
-    precision .904 with weights 1/i, the same to .001 from 20 to 100 values; .757 for 50 values and .715 for 100 without.
+    The defaults gave the best retrieval on two collections, bodies in poses and structures of brains. Mean average
+    precision is .904 with weights 1/i, within .001 from 20 to 100 values. Without weights it is .757 for 50 values and
+    .715 for 100.
 
     Parameters
     ----------
     n : int
-        How many.
+        How many eigenvalues.
     normalisation : "area", "raw", "volume", "first" or "slope"
-        How size is taken out; "raw" leaves it in.
+        How size is removed; "raw" keeps it.
     reweighted : bool
-        Divide the i-th value by i, so that all weigh about the same; false: as published.
+        Divide the i-th value by i, so that all have about the same weight. False is as published.
 
     Examples
     --------
@@ -56,7 +57,7 @@ class NodalCounts(SurfaceTransformer):
     n : int
         How many modes.
     counting : "filtered", "raw", "soft" or "averaged"
-        "filtered" leaves out domains that the mesh cannot resolve.
+        "filtered" does not count domains that the mesh cannot resolve.
 
     Examples
     --------

@@ -30,12 +30,12 @@ def reeb_graph(
     levels: Choice = "arc_length",
     persistence: float = 0.0,
 ) -> Skeleton:
-    """Return the Reeb graph of a map: the contours at some levels, and what joins them, as a graph in space.
+    """Return the Reeb graph of a map: its contours at some levels and their connections, as a graph in space.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        The part inside its mask, or where the map is finite, is taken.
+        The part inside its mask counts, or the part where the map is finite.
     values : str or (n,) float64
         Name of a map of the surface, or the map.
     count : int
@@ -43,7 +43,7 @@ def reeb_graph(
     levels : "arc_length", "uniform", "area_quantile" or "critical"
         Where they lie.
     persistence : float
-        Branches below this share of the range are cut off.
+        Branches shorter than this share of the range are removed.
 
     Returns
     -------
@@ -78,14 +78,14 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Ways lie inside its mask.
+        Paths stay inside its mask.
     sources : (s,) int, or one, or (n,) bool
-        Vertex numbers of the whole surface, or a mask of them.
+        Vertex numbers of the whole surface, or a Boolean mask of its vertices.
 
     Returns
     -------
     (n,) float64
-        In the unit of the surface; infinite where nothing leads, NaN outside the mask.
+        In the unit of the surface; infinite where no path leads, NaN outside the mask.
 
     Raises
     ------

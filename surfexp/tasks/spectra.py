@@ -36,7 +36,7 @@ def eigenpairs(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        The part inside its mask is what vibrates; the condition at the mask's boundary is natural (Neumann's).
+        Only the part inside its mask counts; the condition at the mask's boundary is natural (Neumann's).
     count : int
         How many, the zero mode of a closed surface among them.
     tolerance : float
@@ -98,8 +98,8 @@ def eigsh(
 ) -> Floats | tuple[Floats, Floats | NDArray[np.complex128]]:
     """Find the k lowest eigenpairs of A x = lambda M x, called as `scipy.sparse.linalg.eigsh` is, complete by inertia.
 
-    For a positive semidefinite A, "nearest to a sigma at or below 0" and "smallest" are one and the same request: the lowest k.
-    That is the one answered here; it takes the place of scipy's call in code that asks for it.
+    For a positive semidefinite A, the values "nearest to a sigma at or below 0" are the smallest ones. This function finds
+    those k values, and replaces scipy's call wherever they are requested.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def eigsh(
     Raises
     ------
     ValueError
-        If another part of the spectrum is asked for, or a matrix is unfit, or the proof of completeness fails.
+        If another part of the spectrum is requested, a matrix is unfit, or the proof of completeness fails.
 
     Examples
     --------

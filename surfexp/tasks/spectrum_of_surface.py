@@ -17,15 +17,15 @@ from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 
 class Spectrum:
-    """Laplace-Beltrami eigenpairs of a surface; what was expensive is kept between questions.
+    """Laplace-Beltrami eigenpairs of a surface, cached between calls.
 
-    The matrices, the order of elimination, the counts of eigenvalues below every shift so far and the pairs that were found
-    stay; asking for fewer pairs than before costs nothing.
+    The matrices, the elimination order, the counts of eigenvalues below every shift so far and the pairs found so far are
+    cached. A call for fewer pairs than before costs nothing.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        The part inside its mask is what vibrates.
+        Only the part inside its mask counts.
     tolerance : float
         Largest relative residual.
     mass : "consistent" or "lumped"
@@ -81,7 +81,7 @@ class Spectrum:
         Raises
         ------
         ValueError
-            If there are not so many.
+            If the surface has fewer.
         """
         if self._found is None or count > len(self._found.values) or count < 1:
             system = surface_spectrum(
@@ -97,7 +97,7 @@ class Spectrum:
     def between(self, low: float, high: float) -> EigenSystem:
         """Return every pair with low <= lambda <= high, proved complete by the inertia just outside of both bounds.
 
-        An eigenvalue that meets a bound to its residual is inside, and a note says so.
+        An eigenvalue within its residual of a bound counts as inside, and a note says so.
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class Spectrum:
         Parameters
         ----------
         value : float
-            In 1 / unit^2; where it is an eigenvalue itself to a thousandth, the count is that of a number nearby.
+            In 1 / unit^2. Within a thousandth of an eigenvalue, the count is that of a nearby number.
 
         Returns
         -------

@@ -12,6 +12,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from surfexp import extras
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -79,11 +81,11 @@ def imports(file: Path) -> set[tuple[str, bool]]:
 
 
 def allowed_at_once(file: Path) -> frozenset[str]:
-    """Packages that a file may import as soon as it is imported, by the room where it stands."""
-    room = file.relative_to(ROOT).parts[1] if file.is_relative_to(ROOT / "surfexp") else "plugins"
-    if room in ("lab", "records", "report", "reproduction", "commands", "plugins"):
+    """Packages that a file may import as soon as it is imported, by the package where it stands."""
+    folder = file.relative_to(ROOT).parts[1] if file.is_relative_to(ROOT / "surfexp") else "plugins"
+    if folder in ("lab", "records", "report", "reproduction", "commands", "plugins"):
         return declared("") | declared("lab")
-    return declared("") | (declared("figures") if room in ("figures", "drawings") else frozenset())
+    return declared("") | (declared("figures") if folder in ("figures", "drawings") else frozenset())
 
 
 SOURCES = [*(ROOT / "surfexp").rglob("*.py"), *(ROOT / "plugins").rglob("*.py")]
@@ -99,7 +101,7 @@ def test_every_import_is_declared_where_it_is_needed() -> None:
         for module, eager in imports(file):
             package = packages.get(module, module)
             assert package in everywhere, f"{here} imports {module}, which pyproject.toml does not declare"
-            assert not eager or package in at_once, f"{here} imports {module} at once, which is no part of its room"
+            assert not eager or package in at_once, f"{here} imports {module} at once, which is no part of its package"
 
 
 def test_every_declared_package_is_imported() -> None:
@@ -205,3 +207,20 @@ def test_python_names_say_in_one_line_what_to_install(tmp_path: Path) -> None:
     done = without_extras(code, tmp_path)
     lines = done.stdout.splitlines()
     assert [re.findall(r"surfexp\[(\w+)\]", line) for line in lines] == [["figures"], ["lab"], ["anatomy"]], done.stderr
+
+
+def test_a_package_that_runs_on_no_new_python_is_named_with_the_python_to_take(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "version_info", (3, 14, 0, "final", 0))
+    line = extras.missing_line("surfexp run", ["pandas", "hydra"])
+    assert "hydra-core, which runs on no Python from 3.14 on: take Python 3.13" in line and "pip install" not in line
+    assert "pip install 'surfexp[lab]'" in extras.missing_line("surfexp run", ["pandas"])
+    monkeypatch.setattr(sys, "version_info", (3, 13, 9, "final", 0))
+    assert "pip install 'surfexp[lab]'" in extras.missing_line("surfexp run", ["hydra"])
+
+
+def test_what_runs_on_no_new_python_is_not_installed_there() -> None:
+    lines = [line for extra in PROJECT["optional-dependencies"].values() for line in extra]
+    for module, (major, minor) in extras.TOO_NEW.items():
+        package = extras.EXTRAS[module][0]
+        marked = [line for line in lines if name_of(line) == package]
+        assert marked and all(f"python_version < '{major}.{minor}'" in line for line in marked)

@@ -13,7 +13,7 @@ import pytest
 from surfexp.io.map_files import read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.lab import digests
-from surfexp.lab.plan import fingerprint, outcome
+from surfexp.lab.plan import code_digests, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
@@ -102,10 +102,10 @@ def test_data_of_a_package_that_is_not_imported_count(
     monkeypatch.syspath_prepend(tmp_path)
 
     def digest() -> str:
-        for function in vars(fingerprint).values():
+        for function in vars(code_digests).values():
             if hasattr(function, "cache_clear"):
                 function.cache_clear()
-        return fingerprint.code_digest(plugin)
+        return code_digests.code_digest(plugin)
 
     before = digest()
     (tmp_path / name / "__init__.py").write_text("# a comment")
@@ -132,15 +132,15 @@ def test_shipped_plugins_count_the_packages_whose_data_they_read(
     plugin: str, package: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = ROOT / "plugins" / f"{plugin}.py"
-    fingerprint.code_digest.cache_clear()
-    before = fingerprint.code_digest(file)
-    monkeypatch.setattr(fingerprint, "data_digest", lambda name: "other" if name == package else "same")
-    fingerprint.code_digest.cache_clear()
-    one = fingerprint.code_digest(file)
-    monkeypatch.setattr(fingerprint, "data_digest", lambda name: "same")
-    fingerprint.code_digest.cache_clear()
-    assert len({before, one, fingerprint.code_digest(file)}) == 3
-    fingerprint.code_digest.cache_clear()
+    code_digests.code_digest.cache_clear()
+    before = code_digests.code_digest(file)
+    monkeypatch.setattr(code_digests, "data_digest", lambda name: "other" if name == package else "same")
+    code_digests.code_digest.cache_clear()
+    one = code_digests.code_digest(file)
+    monkeypatch.setattr(code_digests, "data_digest", lambda name: "same")
+    code_digests.code_digest.cache_clear()
+    assert len({before, one, code_digests.code_digest(file)}) == 3
+    code_digests.code_digest.cache_clear()
 
 
 @pytest.mark.parametrize(

@@ -57,24 +57,24 @@ PROGRAM = """
 import json, os, sys
 from pathlib import Path
 root, edits = Path(sys.argv[1]), json.loads(sys.argv[2])
-from surfexp.lab.plan import fingerprint, source_code, source_facts
+from surfexp.lab.plan import code_digests, source_code, source_facts
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.loading import load_all
-assert fingerprint.PACKAGE == root / "surfexp", fingerprint.PACKAGE
+assert code_digests.PACKAGE == root / "surfexp", code_digests.PACKAGE
 load_all(Path("/nonexistent"))
 assert not registry.BROKEN, registry.BROKEN
 
 def digests():
-    for module in (fingerprint, source_code, source_facts):
+    for module in (code_digests, source_code, source_facts):
         for function in vars(module).values():
             if hasattr(function, "cache_clear"):
                 function.cache_clear()
-    return {f"{k}/{n}": fingerprint.code_digest(p.file, p.function.__qualname__) for (k, n), p in registry.PLUGINS.items()}
+    return {f"{k}/{n}": code_digests.code_digest(p.file, p.function.__qualname__) for (k, n), p in registry.PLUGINS.items()}
 
 def reaching(file):
     return sorted(
         f"{k}/{n}" for (k, n), p in registry.PLUGINS.items()
-        if file in fingerprint.code_closure(p.file, p.function.__qualname__)[0]
+        if file in code_digests.code_closure(p.file, p.function.__qualname__)[0]
     )
 
 before, answer = digests(), {}

@@ -195,7 +195,7 @@ def test_the_code_of_plugins_outside_of_packages_is_read_again(cache: Path, monk
     plan, arguments = toy_plan(), ["experiment=toys"]
     remember(arguments, plan)
     assert remembered(arguments) == plan
-    monkeypatch.setattr("surfexp.lab.plan.fingerprint.code_digest", lambda file, function: "edited")
+    monkeypatch.setattr("surfexp.lab.plan.code_digests.code_digest", lambda file, function: "edited")
     assert remembered(arguments) is None
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from surfexp.lab import user_cache
-from surfexp.lab.plan import fingerprint, source_code, source_facts
+from surfexp.lab.plan import code_digests, source_code, source_facts
 from surfexp.lab.plan.source_facts import SourceFacts
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.user_cache import Memory
@@ -17,20 +17,20 @@ from surfexp.lab.user_cache import Memory
 def memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(source_facts, "_memory", Memory("source_facts"))
-    monkeypatch.setattr(fingerprint, "package_version", lambda module: "1")  # to find it out takes seconds
+    monkeypatch.setattr(code_digests, "package_version", lambda module: "1")  # to find it out takes seconds
     return tmp_path / "surfexp" / "memory" / "source_facts.json"
 
 
 def forget(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(source_facts, "_memory", Memory("source_facts"))
-    for function in (*vars(fingerprint).values(), *vars(source_facts).values(), *vars(source_code).values()):
+    for function in (*vars(code_digests).values(), *vars(source_facts).values(), *vars(source_code).values()):
         if hasattr(function, "cache_clear"):
             function.cache_clear()
 
 
 def digests() -> list[str]:
     file = package_folder("surfexp.plugins") / "surface" / "disk.py"
-    return [fingerprint.code_digest(file), fingerprint.code_digest(file, "disk")]
+    return [code_digests.code_digest(file), code_digests.code_digest(file, "disk")]
 
 
 def test_digests_from_memory_are_those_from_the_files(memory: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,9 @@ class Settings(BaseModel):
     cores: int | None = Field(None, ge=1, description="processors for Snakemake; default: all")
     profile: str | None = Field(None, description="Snakemake profile, e.g. profiles/slurm")
     resources: dict[Literal["time", "memory"], PositiveFloat | None] = Field({}, description="limits of a stage: s, MB")
-    timing: bool = Field(False, description="clocks matter: one job at a time, the median of later calls counts")
+    timing: bool = Field(
+        False, description="benchmark mode: one job at a time; the median of the calls after the first counts"
+    )
     target: str = Field("solver", description="stage kind at the end of each chain")
     comparison: str = Field("", description="heading of the table that a variant belongs to")
     caption: str = Field("", description="sentence below that table")

@@ -82,7 +82,7 @@ def _sha256(file: Path) -> str:
 
 def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
     """Digests of what stages read: files that options name, and the data of installed packages."""
-    from surfexp.lab.plan.fingerprint import code_closure, data_digest
+    from surfexp.lab.plan.code_digests import code_closure, data_digest
     from surfexp.lab.plan.source_facts import source_facts
 
     methods = {(Path(node.file), node.function) for node in plan.nodes.values()}
@@ -100,7 +100,7 @@ def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
 def _unchanged(plan: Plan, kept: Mapping[str, Any]) -> bool:
     """Whether files are what they were, and so is the code of plugins outside of packages, which `code_state` knows in part."""
     from surfexp.lab.digests import file_digest
-    from surfexp.lab.plan.fingerprint import code_digest, data_digest
+    from surfexp.lab.plan.code_digests import code_digest, data_digest
 
     own = package_folder("surfexp.plugins")
     codes = {(Path(node.file), node.function): node.code for node in plan.nodes.values()}

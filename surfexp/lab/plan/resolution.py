@@ -14,7 +14,7 @@ from surfexp.contract.member import FACTS, axis_members
 from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.errors import UserError, check_known
 from surfexp.lab.experiment.configuration import Context, merge, one_line, settings_of, stage
-from surfexp.lab.plan.fingerprint import code_digest, compiled_state
+from surfexp.lab.plan.code_digests import code_digest, compiled_state
 from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
 from surfexp.lab.registry.registry import Plugin, names_of, plugin
 from surfexp.lab.store.kinds import KINDS

@@ -1,4 +1,4 @@
-"""What fingerprints need of a Python file, remembered for files of the same bytes: parsing takes most of a plan's time."""
+"""What the digests of code need of a Python file, remembered for files of the same bytes: parsing takes most of a plan's time."""
 
 from __future__ import annotations
 

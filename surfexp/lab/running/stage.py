@@ -20,7 +20,7 @@ from surfexp.contract.member import Member  # noqa: E402
 from surfexp.contract.result_contract import check_result  # noqa: E402
 from surfexp.lab.digests import file_digest  # noqa: E402
 from surfexp.lab.errors import DamagedResult  # noqa: E402
-from surfexp.lab.plan.fingerprint import code_digest, edited_since  # noqa: E402
+from surfexp.lab.plan.code_digests import code_digest, edited_since  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
 from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
@@ -28,7 +28,7 @@ from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
 from surfexp.lab.store.kinds import KINDS  # noqa: E402
 
-# where clocks matter: so many calls at most, until all but the first have taken so many seconds
+# in benchmark mode: so many calls at most, until all but the first have taken so many seconds
 CALLS, ENOUGH = 10, 1.0
 _progress: dict[str, Any] = {}
 

@@ -91,17 +91,17 @@ def by_change(results: Mapping[Member, Result], reference: str = "original") -> 
     found: dict[str, dict[Person, Result]] = {reference: {}}
     for member, result in results.items():
         if member.level is None:
-            raise ValueError(f"member {member.label!r} has no level, the number of the person: write level: NUMBER")
+            raise ValueError(f"member {member.label!r} has no level, the number of the subject: write level: NUMBER")
         found.setdefault(member.class_name, {})[member.group, member.level] = result
     people = list(found[reference])
     if len(people) < 2 or len(found) < 2:
         raise ValueError(
-            f"{len(people)} people of class {reference!r} and {len(found) - 1} changes: take 2 and 1 at least"
+            f"{len(people)} subjects of class {reference!r} and {len(found) - 1} changes: take 2 and 1 at least"
         )
     for change, seen in found.items():
         if set(seen) != set(people):
             raise ValueError(
-                f"change {change!r} has {len(seen)} people, {reference!r} has {len(people)}: the same are needed"
+                f"change {change!r} has {len(seen)} subjects, {reference!r} has {len(people)}: the same are needed"
             )
     return {change: {person: seen[person] for person in people} for change, seen in found.items()}
 

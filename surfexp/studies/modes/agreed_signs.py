@@ -40,7 +40,7 @@ def agreed_signs(
         If there are fewer than two people; as `pair_modes`.
     """
     if len(surfaces) < 2:
-        raise ValueError(f"{len(surfaces)} people, at least 2 are needed")
+        raise ValueError(f"{len(surfaces)} subjects, at least 2 are needed")
     rows, names = [], []
     for one, other in combinations(surfaces, 2):
         rows.append(_counts(pair_modes((surfaces[one], systems[one]), (surfaces[other], systems[other]), count)))

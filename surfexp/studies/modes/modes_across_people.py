@@ -47,7 +47,7 @@ def modes_of_people(
         If there are fewer than two people; as `pair_modes`.
     """
     if len(surfaces) < 2:
-        raise ValueError(f"{len(surfaces)} people, at least 2 are needed")
+        raise ValueError(f"{len(surfaces)} subjects, at least 2 are needed")
     found: list[PairedModes] = []
     pairs = list(combinations(surfaces, 2))
     for one, other in pairs:

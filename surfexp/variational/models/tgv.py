@@ -1,4 +1,4 @@
-"""Denoising by total generalised variation of second order: edges stay, and slopes do not become stairs."""
+"""Denoising by total generalised variation of second order: it keeps edges and avoids staircasing."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class TGV:
     Parameters
     ----------
     w : float
-        Weight without unit, w = mu sigma h, as in `ROF`.
+        Dimensionless weight, w = mu sigma h, as in `ROF`.
     mu : float, optional
         The weight itself, in 1 / (unit of the image * unit of length), in place of w.
     ratio : float
-        Length in edge lengths h over which a slope may turn: small ones blur, large ones make stairs as total variation
+        Length in edge lengths h over which a slope may turn: small ones blur, large ones give staircasing, as total variation
         does.
     """
 

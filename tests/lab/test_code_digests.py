@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from surfexp.lab.plan import fingerprint, source_code
+from surfexp.lab.plan import code_digests, source_code
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.registry.loading import load_all
+
+SHOWING = {"lab", "records", "report", "reproduction", "commands"}
 
 
 @pytest.fixture
@@ -35,18 +37,18 @@ def forget() -> None:
     source_code.statements.cache_clear()
     source_code._parts.cache_clear()
     source_code.needed_by.cache_clear()
-    for function in vars(fingerprint).values():
+    for function in vars(code_digests).values():
         if hasattr(function, "cache_clear"):
             function.cache_clear()
 
 
 def digest(file: Path) -> str:
     forget()
-    return fingerprint.code_digest(file)
+    return code_digests.code_digest(file)
 
 
 def test_closure_reaches_through_modules_and_lists_outside_packages(package: Path) -> None:
-    files, packages = fingerprint.code_closure(package / "method.py")
+    files, packages = code_digests.code_closure(package / "method.py")
     assert {file.name for file in files} == {"method.py", "helper.py", "deep.py", "__init__.py"}
     assert packages == {"numpy"}
 
@@ -63,13 +65,13 @@ def test_only_meaning_counts(package: Path) -> None:
 def test_the_framework_is_not_part_of_a_key() -> None:
 
     plugins = package_folder("surfexp.plugins")
-    files, packages = fingerprint.code_closure(plugins / "operator" / "fem.py")
+    files, packages = code_digests.code_closure(plugins / "operator" / "fem.py")
     names = {file.parent.name + "/" + file.name for file in files}
     assert "operators/fem.py" in names and "mesh/triangle_mesh.py" in names
-    rooms = {
-        file.relative_to(fingerprint.PACKAGE).parts[0] for file in files if file.is_relative_to(fingerprint.PACKAGE)
+    folders = {
+        file.relative_to(code_digests.PACKAGE).parts[0] for file in files if file.is_relative_to(code_digests.PACKAGE)
     }
-    assert not rooms & {"workflow", "report", "commands", "tasks", "catalogue", "workers"}
+    assert not folders & (SHOWING | {"tasks"})
     assert {"numpy", "scipy"} <= packages
 
 
@@ -77,12 +79,13 @@ def test_nothing_that_shows_results_is_part_of_any_key() -> None:
     from surfexp.lab.registry import registry
 
     load_all(Path("/nonexistent"))
-    shown = {fingerprint.PACKAGE / room for room in ("report", "commands", "catalogue", "workers")}
+    shown = {code_digests.PACKAGE / folder for folder in SHOWING}
+    assert all(folder.is_dir() for folder in shown)
     for plugin in registry.PLUGINS.values():
         if plugin.file.is_relative_to(package_folder("surfexp.plugins")):
-            files, _ = fingerprint.code_closure(plugin.file)
-            assert not {file for file in files for room in shown if file.is_relative_to(room)}, plugin.name
-            assert not {fingerprint.PACKAGE / "__init__.py", fingerprint.PACKAGE / "face.py"} & files, plugin.name
+            files, _ = code_digests.code_closure(plugin.file)
+            assert not {file for file in files for folder in shown if file.is_relative_to(folder)}, plugin.name
+            assert not {code_digests.PACKAGE / "__init__.py", code_digests.PACKAGE / "face.py"} & files, plugin.name
 
 
 def test_imports_for_type_checkers_do_not_count(package: Path) -> None:
@@ -91,7 +94,7 @@ def test_imports_for_type_checkers_do_not_count(package: Path) -> None:
         "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from . import unreached\nelse:\n    from . import deep\n"
     )
     forget()
-    assert {file.name for file in fingerprint.code_closure(method)[0]} == {"method.py", "deep.py", "__init__.py"}
+    assert {file.name for file in code_digests.code_closure(method)[0]} == {"method.py", "deep.py", "__init__.py"}
 
 
 @pytest.mark.parametrize(
@@ -111,7 +114,7 @@ def test_what_a_plugin_takes_from_the_face_counts(package: Path, code: str, reac
     method = package / "method.py"
     method.write_text(code)
     forget()
-    names = {file.name for file in fingerprint.code_closure(method, "f")[0]}
+    names = {file.name for file in code_digests.code_closure(method, "f")[0]}
     assert reached in names and unreached not in names
 
 
@@ -161,7 +164,7 @@ def pair(package: Path) -> Path:
 
 def digests(file: Path) -> tuple[str, str]:
     forget()
-    return fingerprint.code_digest(file, "first"), fingerprint.code_digest(file, "second")
+    return code_digests.code_digest(file, "first"), code_digests.code_digest(file, "second")
 
 
 @pytest.mark.parametrize(
@@ -217,9 +220,9 @@ def test_where_it_cannot_be_told_the_whole_file_counts(pair: Path, old: str, new
 
 def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> None:
     forget()
-    assert fingerprint.code_digest(pair, "maker.<locals>.made") != fingerprint.code_digest(pair, "first")
-    assert pair in fingerprint.code_closure(pair, "maker.<locals>.made")[0]
-    assert pair not in fingerprint.code_closure(pair, "first")[0]
+    assert code_digests.code_digest(pair, "maker.<locals>.made") != code_digests.code_digest(pair, "first")
+    assert pair in code_digests.code_closure(pair, "maker.<locals>.made")[0]
+    assert pair not in code_digests.code_closure(pair, "first")[0]
 
 
 def test_every_plugin_of_the_package_is_told_apart() -> None:
