@@ -21,7 +21,7 @@ def dense(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8
     weyl = 4.0 * np.pi / float(mass.sum())
     stacks = dense_pairs(stiffness.toarray()[None], mass.toarray()[None], tolerance, weyl)
     values, vectors = stacks[0][0], stacks[1][0]
-    stop = next((stop for start, stop in clusters(values) if start < k <= stop), k)
+    stop = _whole_cluster(values, k)
     pencil = ShiftedPencil(stiffness, mass)
     edge = factor_above(pencil, values, stop)
     notes: tuple[str, ...] = ()
@@ -36,6 +36,19 @@ def dense(stiffness: csr_array, mass: csr_array, k: int, tolerance: float = 1e-8
         complete=bool(clear) and pencil.counts[edge] == stop,
         notes=notes,
     )
+
+
+def _whole_cluster(values: Floats, k: int) -> int:
+    """Return where the cluster that holds the k-th of the sorted values ends.
+
+    Only as many values are looked at as it takes: slivers bring some of 1e12, beside which all others are equal.
+    """
+    some = k
+    while True:
+        some = min(some + k + 8, len(values))
+        stop = next((stop for start, stop in clusters(values[:some]) if start < k <= stop), k)
+        if stop < some or some == len(values):
+            return stop
 
 
 def factor_above(pencil: ShiftedPencil, values: Floats, count: int) -> float:

@@ -16,6 +16,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 from surfexp.spectrum import spectrum_slice
+from surfexp.spectrum.dense import dense
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import clusters
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
@@ -250,3 +251,16 @@ def test_only_a_cut_cluster_is_said_to_be_cut(method: str, k: int) -> None:
     a, b = pencil(icosphere(2).mesh)  # values 1 to 3 are equal by symmetry
     said = (f"k = {k} cuts a cluster of nearly equal eigenvalues: k = 4 contains all of it",)
     assert eigenpairs(a, b, k, method=method).notes == (said if k in (2, 3) else ())  # type: ignore[arg-type]
+
+
+def test_a_few_huge_values_hide_no_error_of_the_small_ones() -> None:
+    """The spacing that residuals are relative to is that of the pairs asked for, whatever stands at the other end."""
+    mesh = icosphere(2).mesh
+    stiff, mass = stiffness(fem(mesh)), mass_matrix(fem(mesh))
+    huge = stiff.copy().tolil()
+    huge[:2, :2] += 1e11 * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    dense_result = dense(csr_array(huge), mass, 4)
+    exact = dense(stiff, mass, 8).values
+    assert dense_result.spacing < exact[7]
+    wrong = np.abs(dense_result.values[0]) / dense_result.spacing
+    assert dense_result.residuals[0] >= 0.1 * wrong
