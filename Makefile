@@ -29,7 +29,7 @@ test-optional: optional
 
 lint: .venv/ready
 	$(BIN)/ruff check .
-	$(BIN)/typos --quiet docs conf surfexp plugins examples benchmarks *.md
+	$(BIN)/typos --quiet docs conf surfexp plugins studies examples benchmarks *.md
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports

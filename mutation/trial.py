@@ -88,7 +88,7 @@ class Outcome:
 def prepare() -> None:
     """Set the environment as the tests do, and import once what the forked processes share."""
     os.environ |= {"COLUMNS": "200", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    runpy.run_path(str(ROOT / "tests" / "conftest.py"))
+    runpy.run_path(str(ROOT / "conftest.py"))
     for name in ("numba", "scipy.sparse.linalg", "scipy.spatial", "scipy.optimize", "hypothesis.strategies", "igl",
                  "sklearn.manifold", "networkx", "ot", "nibabel", "matplotlib.figure", "skimage.measure"):  # fmt: skip
         if importlib.util.find_spec(name.split(".")[0]) is not None:

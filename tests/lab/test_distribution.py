@@ -29,7 +29,13 @@ def test_every_folder_of_code_and_every_file_beside_it_is_in_the_wheel() -> None
     setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     package = ROOT / "surfexp"
     folders = {file.parent.relative_to(ROOT) for file in package.rglob("*.py")}
-    mapped = {"surfexp.plugins", "surfexp.conf", "surfexp.profiles", "snakemake_executor_plugin_surfexp"}
+    mapped = {
+        "surfexp.plugins",
+        "surfexp.conf",
+        "surfexp.profiles",
+        "surfexp_studies",
+        "snakemake_executor_plugin_surfexp",
+    }
     code = {".".join(folder.parts) for folder in folders if "templates" not in folder.parts}
     assert set(setup["packages"]) == code | mapped
     kept = [

@@ -8,8 +8,8 @@ from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.nulls.fields import gaussian_fields
 from surfexp.operators.fem import fem
-from surfexp.studies.nulls.planted_length import widths_along
 from surfexp.variational.image import Image
+from surfexp_studies.nulls.planted_length import widths_along
 
 
 @register("image", "gaussian_fields", defaults_of=gaussian_fields)

@@ -11,9 +11,9 @@ from surfexp.nulls.variogram import variogram_pairs
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.nulls.null_methods import OneSurface
-from surfexp.studies.nulls.null_rejections import Design, null_rejections
 from surfexp.variational.image import Image
+from surfexp_studies.nulls.null_methods import OneSurface
+from surfexp_studies.nulls.null_rejections import Design, null_rejections
 
 METRICS = {
     "pairs": Metric("pairs of independent maps"),

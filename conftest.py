@@ -18,7 +18,6 @@ settings.load_profile("unhurried")
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
-ROOT = Path(__file__).resolve().parent.parent
 compiled_code.use(compiled_state())
 
 

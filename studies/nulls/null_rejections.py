@@ -14,7 +14,8 @@ from surfexp.nulls.kept import power_error, values_error, variogram_error
 from surfexp.nulls.rejection import correlations, crossed_interval, p_values, parametric_p_values
 from surfexp.operators.assembly import mass_matrix
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.nulls.null_methods import METHODS, OneSurface, null_models
+
+from .null_methods import METHODS, OneSurface, null_models
 
 LEVEL = 0.05
 # the protocol calls a method exact enough where its interval meets these

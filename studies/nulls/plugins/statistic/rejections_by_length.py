@@ -4,7 +4,7 @@ from surfexp.contract.member import Member, levels_of
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.nulls.null_rejections import rejections_by_length
+from surfexp_studies.nulls.null_rejections import rejections_by_length
 
 METRICS = {
     "lengths": Metric("correlation lengths"),

@@ -13,8 +13,8 @@ from surfexp.nulls.fields import gaussian_fields
 from surfexp.nulls.rejection import correlations
 from surfexp.nulls.variogram import variogram_pairs
 from surfexp.operators.fem import fem
-from surfexp.studies.nulls.null_methods import METHODS, OneSurface, null_models
-from surfexp.studies.nulls.null_rejections import ROWS, Design, _planted, null_rejections, rejections_by_length
+from surfexp_studies.nulls.null_methods import METHODS, OneSurface, null_models
+from surfexp_studies.nulls.null_rejections import ROWS, Design, _planted, null_rejections, rejections_by_length
 
 BALL = icosphere(3)
 PART = cut_to_mask(replace(BALL, shape=None), BALL.mesh.vertices[:, 2] < 0.8)
