@@ -26,12 +26,12 @@ from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.articulated import articulated_body, carried_body
+from surfexp.populations.disguise import disguise
+from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.studies.distances.template_distances import template_distances
-from surfexp.studies.populations.articulated import articulated_body, carried_body
-from surfexp.studies.populations.disguise import disguise
-from surfexp.studies.sulci.population import synthetic_subject
 
 
 def warm_up() -> None:

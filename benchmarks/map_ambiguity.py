@@ -28,9 +28,9 @@ from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.articulated import BODIES, articulated_body
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.populations.articulated import BODIES, articulated_body
-from surfexp.studies.populations.disguise import disguise
 
 # bones of a left limb; without a nose the bodies on two legs have front and back alike, too
 LIMBS = {"biped": (2, 3), "heavy_biped": (6, 7), "quadruped": (4, 5), "long_neck": (8, 9)}

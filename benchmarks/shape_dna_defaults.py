@@ -18,9 +18,9 @@ from surfexp.anatomy.subcortical import subcortical_surface
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
+from surfexp.populations.articulated import articulated_body
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.studies.populations.articulated import articulated_body
 
 BODIES = ("biped", "heavy_biped", "quadruped", "long_neck", "octopod", "worm")
 STRUCTURES = ("caudate", "putamen", "hippocampus", "thalamus", "amygdala")

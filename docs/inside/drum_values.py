@@ -2,9 +2,8 @@
 
 import numpy as np
 
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, RIGHT_ISOSCELES
 from surfexp.studies.drums.drum_values import drum_values
-from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 found = drum_values(GORDON_WEBB_WOLPERT.first, RIGHT_ISOSCELES, 10, divisions=(16, 20, 28))
 print(" ".join(f"{value:.8f}" for value in found.values))

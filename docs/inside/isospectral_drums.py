@@ -1,11 +1,11 @@
 """Two drums of different shape that sound the same, and the fourth mode whose nodal domains tell them apart."""
 
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, RIGHT_ISOSCELES, glued_drum, tile_mesh
 from surfexp.operators.elements_surface import SurfaceElements
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.nodal_domains import filtered_nodal_counts, nodal_thresholds
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
-from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.drum_elements import drum_elements
 
 
 def listen(elements: SurfaceElements) -> None:

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT as PAIR
+from surfexp.mesh.shapes.isospectral_drum import RIGHT_ISOSCELES, glued_drum, tile_mesh
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
+from surfexp.studies.drums.drum_elements import drum_elements
 from surfexp.studies.drums.transplantation import transplant
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT as PAIR
 
 one, two = (drum_elements(glued_drum(g, RIGHT_ISOSCELES, *tile_mesh(10, 2.0)), 2) for g in (PAIR.first, PAIR.second))
 system = eigenpairs(one.stiffness, one.mass, 5, tolerance=1e-11)

@@ -8,11 +8,10 @@ from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, TILE_SHAPES
 from surfexp.statistics.statistic import Statistic
+from surfexp.studies.drums.drum_elements import GORDON_WEBB_WOLPERT_VALUES
 from surfexp.studies.drums.drum_values import drum_values
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
-from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 # modes 9 and 21 are those of the tile itself, reflected: 5 pi^2 / 4 and twice that
 EXACT = {8: 1.25 * np.pi**2, 20: 2.5 * np.pi**2}

@@ -7,11 +7,12 @@ from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, TILE_SHAPES
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
-from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.studies.drums.drum_elements import GORDON_WEBB_WOLPERT_VALUES
+from surfexp.studies.drums.isospectral_comparison import compare_drums
 from surfexp.studies.drums.isospectral_graphs import compare_graphs
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, transplantation_pairs
+from surfexp.studies.drums.transplantation_pairs import transplantation_pairs
 
 NAMED = {"gordon_webb_wolpert": "Gordon-Webb-Wolpert drums", "berard": "drums of Berard's transplantation"}
 

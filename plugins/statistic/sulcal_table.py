@@ -10,10 +10,9 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
+from surfexp.populations.synthetic_subject import SIDES, Side
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.sulci.length_table import length_columns
-from surfexp.studies.sulci.population import Side
-from surfexp.studies.sulci.population_study import SIDES
 from surfexp.studies.sulci.sulcal_measurement import DEFAULT, TRUE, measure_sulci
 from surfexp.studies.sulci.sulcal_template import make_template
 

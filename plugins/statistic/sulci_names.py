@@ -10,8 +10,8 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
+from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.sulci.population import synthetic_subject
 from surfexp.studies.sulci.population_study import name_regions
 from surfexp.studies.sulci.sulcal_template import make_template
 

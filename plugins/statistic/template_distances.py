@@ -10,10 +10,9 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
+from surfexp.populations.synthetic_subject import SIDES, synthetic_subject
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.distances.template_distances import template_distances
-from surfexp.studies.sulci.population import synthetic_subject
-from surfexp.studies.sulci.population_study import SIDES
 
 METRICS = {
     "surfaces": Metric("number of surfaces"),

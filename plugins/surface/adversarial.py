@@ -5,8 +5,9 @@ from typing import Annotated
 from pydantic import Field
 
 from surfexp.lab.registry.registry import register
+from surfexp.mesh.coarsening import coarse
 from surfexp.mesh.surface import Surface
-from surfexp.studies.modes.adversarial_meshes import coarse, side_by_side, with_slivers
+from surfexp.studies.modes.adversarial_meshes import side_by_side, with_slivers
 
 
 @register("surface", "coarse", defaults_of=coarse)

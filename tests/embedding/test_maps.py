@@ -27,9 +27,9 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.studies.distances.template_distances import embedded, template_distances
-from surfexp.studies.populations.disguise import disguise
 
 
 def system_of(surface: Surface, k: int = 31):

@@ -19,10 +19,10 @@ from surfexp.embedding.distance_methods import (
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.sup_inf import block_group, refines, sup_inf_distance
+from surfexp.mesh.shapes.counterexamples import clover, named_revolution
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.distances.counterexamples import clover, named_revolution
 from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
 
 

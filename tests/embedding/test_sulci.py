@@ -12,11 +12,11 @@ from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.populations.synthetic_subject import random_displacement, stretch, synthetic_subject
 from surfexp.statistics.paired_tests import paired_tests, power_by_subjects, rate_in_halves
 from surfexp.studies.sulci import population
 from surfexp.studies.sulci.asymmetry import asymmetry_study, measured, power_study
 from surfexp.studies.sulci.length_table import chosen, length_columns, table_of
-from surfexp.studies.sulci.population import random_displacement, stretch, synthetic_subject
 from surfexp.studies.sulci.population_study import measure_population, name_regions
 from surfexp.studies.sulci.sulcal_lengths import (
     carried_ends,

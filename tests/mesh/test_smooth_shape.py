@@ -15,6 +15,7 @@ from surfexp.mesh.exact_spectra import lattice_spectrum, rectangle_spectrum
 from surfexp.mesh.flat_domain import boundary_angles
 from surfexp.mesh.flat_shapes import Disk, FlatTorus, Polygon, Rectangle
 from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.counterexamples import named_revolution
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
@@ -28,13 +29,12 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface
 from surfexp.operators.fem import fem
 from surfexp.operators.manufactured import manufactured
+from surfexp.populations.atrophy import with_atrophy
+from surfexp.populations.disguise import disguise
+from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
-from surfexp.studies.distances.counterexamples import named_revolution
-from surfexp.studies.populations.atrophy import with_atrophy
-from surfexp.studies.populations.disguise import disguise
 from surfexp.studies.spectra.heat_expansion import heat_expansion
 from surfexp.studies.spectra.spectrum_error import spectrum_error
-from surfexp.studies.sulci.population import synthetic_subject
 
 SHAPED = {
     "sphere": icosphere(2, 1.5),

@@ -15,8 +15,8 @@ from surfexp.operators.elements_patches import patch_normals, patch_positions
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface
 from surfexp.operators.elements_surface import assemble_elements
 from surfexp.operators.fem import fem
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.studies.populations.disguise import disguise
 from surfexp.studies.spectra.spectrum_error import spectrum_error
 
 

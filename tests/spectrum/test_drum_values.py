@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, TILE_SHAPES
+from surfexp.studies.drums.drum_elements import GORDON_WEBB_WOLPERT_VALUES
 from surfexp.studies.drums.drum_values import drum_values, extrapolated
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
-from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 TILE = TILE_SHAPES["right_isosceles"]
 KNOWN = np.array(GORDON_WEBB_WOLPERT_VALUES)

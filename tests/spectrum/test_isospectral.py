@@ -7,18 +7,19 @@ import itertools
 import numpy as np
 import pytest
 
-from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.drums.isospectral_drums import (
-    GORDON_WEBB_WOLPERT_VALUES,
+from surfexp.mesh.shapes.isospectral_drum import (
+    GORDON_WEBB_WOLPERT,
     RIGHT_ISOSCELES,
-    drum_elements,
+    TransplantationPair,
     glued_drum,
     tile_layout,
     tile_mesh,
 )
+from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.studies.drums.drum_elements import GORDON_WEBB_WOLPERT_VALUES, drum_elements
 from surfexp.studies.drums.isospectral_graphs import PATH, compare_graphs
 from surfexp.studies.drums.transplantation import transplant, transplantation_matrix
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, TransplantationPair, transplantation_pairs
+from surfexp.studies.drums.transplantation_pairs import transplantation_pairs
 
 TRIANGLES = {
     "isosceles": RIGHT_ISOSCELES,

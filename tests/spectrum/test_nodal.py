@@ -12,6 +12,7 @@ from scipy.special import jn_zeros
 
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, RIGHT_ISOSCELES, glued_drum, tile_mesh
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
@@ -26,8 +27,7 @@ from surfexp.spectrum.nodal_domains import (
 )
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.soft_nodal_counts import soft_nodal_counts
-from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.drum_elements import drum_elements
 
 WIDTH = float(np.sqrt(2.1))
 

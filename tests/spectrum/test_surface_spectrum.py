@@ -10,6 +10,7 @@ from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangl
 from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, TILE_SHAPES
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
@@ -20,8 +21,7 @@ from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes
 from surfexp.spectrum.spectral_signature import spectral_signature, spectrum_part
 from surfexp.spectrum.surface_spectrum import elements_of, graph_of, surface_spectrum
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
+from surfexp.studies.drums.isospectral_comparison import compare_drums
 from surfexp.studies.spectra.heat_expansion import heat_expansion
 from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
 

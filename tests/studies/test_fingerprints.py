@@ -18,6 +18,7 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
+from surfexp.populations.synthetic_subject import random_displacement
 from surfexp.spectrum.heat_trace import heat_trace
 from surfexp.spectrum.shape_distributions import RELATIVE_TIMES
 from surfexp.spectrum.signature import Signature
@@ -38,7 +39,6 @@ from surfexp.studies.fingerprints.pairwise_identification import pairwise_identi
 from surfexp.studies.fingerprints.recognition import by_change, recognition
 from surfexp.studies.fingerprints.reliability import constant_entries, median_reliability, reliability_within
 from surfexp.studies.fingerprints.usual_spectrum import usual_spectrum
-from surfexp.studies.sulci.population import random_displacement
 
 ROUGH = add_vertex_noise(icosphere(2), 0.02)
 OPERATOR = fem(ROUGH.mesh)

@@ -6,6 +6,7 @@ from scipy.linalg import eigh
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.contract.member import Member
+from surfexp.mesh.coarsening import coarse
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
@@ -13,7 +14,7 @@ from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.modes.adversarial_meshes import coarse, side_by_side, with_slivers
+from surfexp.studies.modes.adversarial_meshes import side_by_side, with_slivers
 from surfexp.studies.modes.missing_pairs import compared, missing_by_kind, missing_pairs
 
 BALL = icosphere(2)

@@ -12,13 +12,13 @@ from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
+from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.studies.modes import agreed_signs as agreed
 from surfexp.studies.modes import modes_across_people
 from surfexp.studies.modes.modes_across_people import modes_of_people, modes_of_twins, pooled
 from surfexp.studies.modes.paired_modes import METHODS, PairedModes, pair_modes, true_pairs
-from surfexp.studies.sulci.population import synthetic_subject
 
 COUNT = 12
 points = ellipsoid(3, (1.0, 1.5, 2.5)).mesh

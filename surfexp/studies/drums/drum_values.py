@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.shapes.isospectral_drum import Gluing, glued_drum, tile_mesh
 from surfexp.operators.elements_surface import Boundary
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.drums.isospectral_drums import drum_elements, glued_drum, tile_mesh
-from surfexp.studies.drums.transplantation_pairs import Gluing
+from surfexp.studies.drums.drum_elements import drum_elements
 
 ORDER = 3
 # cubic elements: 6 is the order of their eigenvalues, then comes 8; 7 is what a doubt about the second term changes

@@ -7,20 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.shapes.isospectral_drum import TILES, Gluing, TransplantationPair, glued_drum, tile_layout, tile_mesh
 from surfexp.operators.elements_surface import Boundary
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem, measure
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.nodal_signature import counted_domains
-from surfexp.studies.drums.isospectral_drums import drum_elements, glued_drum, tile_layout, tile_mesh
+from surfexp.studies.drums.drum_elements import drum_elements
 from surfexp.studies.drums.transplantation import transplant
-from surfexp.studies.drums.transplantation_pairs import TILES, Gluing, TransplantationPair
-
-TILE_SHAPES = {
-    "right_isosceles": np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]),
-    "scalene": np.array([[0.0, 0.0], [1.7, 0.1], [0.4, 1.1]]),
-    "obtuse": np.array([[0.0, 0.0], [1.0, 0.0], [-0.5, 0.8]]),
-}
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.studies.drums.transplantation_pairs import TILES, Gluing, TransplantationPair
+from surfexp.mesh.shapes.isospectral_drum import TILES, Gluing, TransplantationPair
 
 # a vertex for each side of the tile, joined in a path, and one more that tells the ends of the path apart
 PATH = np.array([[0.0, 1.0, 0.0, 1.0], [1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]])

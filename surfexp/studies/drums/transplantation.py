@@ -7,9 +7,9 @@ import itertools
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.shapes.isospectral_drum import TILES, Gluing, TransplantationPair
 from surfexp.operators.elements_nodes import ElementNodes
 from surfexp.operators.elements_surface import Boundary
-from surfexp.studies.drums.transplantation_pairs import TILES, Gluing, TransplantationPair
 
 
 def transplantation_matrix(pair: TransplantationPair, boundary: Boundary = "dirichlet") -> Floats:

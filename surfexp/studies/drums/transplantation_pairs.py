@@ -3,36 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-Permutation = tuple[int, ...]
-Gluing = tuple[Permutation, Permutation, Permutation]
-TILES = 7
-
-
-@dataclass(frozen=True)
-class TransplantationPair:
-    """Two ways to glue seven copies of one triangle that sound the same (Gordon, Webb and Wolpert 1992; Buser et al. 1994).
-
-    A gluing has one permutation for each side of the tile: side s of tile t is joined, by reflection, to that of tile
-    gluing[s][t], or lies on the boundary where that is t itself.
-
-    Parameters
-    ----------
-    first, second : three permutations of 0..6 each
-    """
-
-    first: Gluing
-    second: Gluing
-
-
-GORDON_WEBB_WOLPERT = TransplantationPair(
-    first=((0, 2, 1, 3, 4, 6, 5), (0, 3, 2, 1, 5, 4, 6), (1, 0, 4, 3, 2, 5, 6)),
-    second=((0, 1, 3, 2, 5, 4, 6), (0, 2, 1, 3, 6, 5, 4), (1, 0, 2, 4, 3, 5, 6)),
-)
+from surfexp.mesh.shapes.isospectral_drum import TILES, Gluing, Permutation, TransplantationPair
 
 
 @cache

@@ -11,13 +11,13 @@ from scipy.ndimage import binary_dilation, binary_erosion
 
 from surfexp.anatomy.label_volume import DONORS, LabelVolume, label_of, label_volume
 from surfexp.anatomy.subcortical import surface_of_label
+from surfexp.mesh.coarsening import coarse
 from surfexp.mesh.noise import add_vertex_noise
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.studies.modes.adversarial_meshes import coarse
-from surfexp.studies.populations.disguise import disguise
-from surfexp.studies.sulci.population import random_displacement, synthetic_subject
+from surfexp.populations.disguise import disguise
+from surfexp.populations.synthetic_subject import random_displacement, synthetic_subject
 
 MeshChange = Literal["original", "resampled", "half", "quarter", "noise"]
 Change = Literal["original", "resampled", "half", "quarter", "noise", "segmented"]

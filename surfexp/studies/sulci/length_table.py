@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.studies.sulci.population_study import SIDES, Table
+from surfexp.populations.synthetic_subject import SIDES
+from surfexp.studies.sulci.population_study import Table
 
 KEYS = ("subject", "side", "sulcus")
 

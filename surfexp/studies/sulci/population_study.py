@@ -10,12 +10,11 @@ from surfexp.contract.arrays import Floats
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.mesh.surface import Surface
-from surfexp.studies.sulci.population import Side, synthetic_subject
+from surfexp.populations.synthetic_subject import SIDES, Side, synthetic_subject
 from surfexp.studies.sulci.sulcal_measurement import measure_sulci
 from surfexp.studies.sulci.sulcal_regions import names_by_distance, names_by_majority, naming_accuracy, sulcal_regions
 from surfexp.studies.sulci.sulcal_template import Template, sulcal_system, template_map
 
-SIDES: tuple[Side, ...] = ("left", "right")
 Table = dict[str, dict[Side, Floats]]
 
 

@@ -13,9 +13,10 @@ from surfexp.contract.arrays import Floats
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.studies.populations.disguise import disguise
+from surfexp.populations.disguise import disguise
 
 Side = Literal["left", "right"]
+SIDES: tuple[Side, ...] = ("left", "right")
 WAVES = 24
 REACH = 8.0
 

@@ -7,7 +7,7 @@ import pytest
 
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.studies.populations.disguise import _bent, _meshed_anew
+from surfexp.populations.disguise import _bent, _meshed_anew
 
 
 @pytest.mark.parametrize("scale", [2.0**-10, 2.0**10])

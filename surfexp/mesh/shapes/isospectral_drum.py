@@ -9,16 +9,38 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.operators.elements_nodes import flat_positions, number_nodes
-from surfexp.operators.elements_surface import Boundary, SurfaceElements, assemble_elements
-from surfexp.studies.drums.transplantation_pairs import TILES, Gluing
 
+Permutation = tuple[int, ...]
+Gluing = tuple[Permutation, Permutation, Permutation]
+TILES = 7
 ON_SIDE = 1e-12
 RIGHT_ISOSCELES = np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]])
-# Dirichlet eigenvalues of the Gordon-Webb-Wolpert drums with a right isosceles tile of legs 2 (Driscoll 1997)
-GORDON_WEBB_WOLPERT_VALUES = (
-    *(2.53794399980, 3.65550971352, 5.17555935622, 6.53755744376, 7.24807786256),
-    *(9.20929499840, 10.5969856913, 11.5413953956, 12.3370055014, 13.0536540557),
+TILE_SHAPES = {
+    "right_isosceles": RIGHT_ISOSCELES,
+    "scalene": np.array([[0.0, 0.0], [1.7, 0.1], [0.4, 1.1]]),
+    "obtuse": np.array([[0.0, 0.0], [1.0, 0.0], [-0.5, 0.8]]),
+}
+
+
+@dataclass(frozen=True)
+class TransplantationPair:
+    """Two ways to glue seven copies of one triangle that sound the same (Gordon, Webb and Wolpert 1992; Buser et al. 1994).
+
+    A gluing has one permutation for each side of the tile: side s of tile t is joined, by reflection, to that of tile
+    gluing[s][t], or lies on the boundary where that is t itself.
+
+    Parameters
+    ----------
+    first, second : three permutations of 0..6 each
+    """
+
+    first: Gluing
+    second: Gluing
+
+
+GORDON_WEBB_WOLPERT = TransplantationPair(
+    first=((0, 2, 1, 3, 4, 6, 5), (0, 3, 2, 1, 5, 4, 6), (1, 0, 4, 3, 2, 5, 6)),
+    second=((0, 1, 3, 2, 5, 4, 6), (0, 2, 1, 3, 6, 5, 4), (1, 0, 2, 4, 3, 5, 6)),
 )
 
 
@@ -129,9 +151,3 @@ def tile_layout(gluing: Gluing, triangle: Floats) -> Floats:
                 placed[permutation[tile]] = corners
                 order.append(permutation[tile])
     return np.stack([placed[tile] for tile in range(TILES)])
-
-
-def drum_elements(drum: Drum, order: int = 1, boundary: Boundary = "dirichlet") -> SurfaceElements:
-    """Assemble the Laplacian of a drum with elements of the given order."""
-    nodes = number_nodes(drum.faces, len(drum.vertices), order)
-    return assemble_elements(nodes, flat_positions(drum.corners, order), boundary=boundary)
