@@ -31,7 +31,7 @@ from surfexp.populations.disguise import disguise
 from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.studies.distances.template_distances import template_distances
+from surfexp_studies.template_distances.template_distances import template_distances
 
 
 def warm_up() -> None:

@@ -20,10 +20,10 @@ from surfexp.operators.fem import fem
 from surfexp.spectrum.nodal_signature import counted_domains
 from surfexp.spectrum.shape_distributions import embedding_distances, heat_distribution, wave_distribution
 from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
-from surfexp.studies.fingerprints.certificate import value_radii
-from surfexp.studies.fingerprints.descriptors import MODES
-from surfexp.studies.fingerprints.people import subcortical_person
-from surfexp.studies.fingerprints.usual_spectrum import usual_spectrum
+from surfexp_studies.fingerprints.certificate import value_radii
+from surfexp_studies.fingerprints.descriptors import MODES
+from surfexp_studies.fingerprints.people import subcortical_person
+from surfexp_studies.fingerprints.usual_spectrum import usual_spectrum
 
 COHORT, QUERIES = 10_000, 1
 

@@ -19,8 +19,8 @@ from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.simplification import simplified
-from surfexp.studies.callosum.callosum import callosum
-from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
+from surfexp_studies.skeletons.callosum import callosum
+from surfexp_studies.skeletons.skeleton_study import eigenmap_skeleton
 
 
 def warm_up() -> None:

@@ -12,7 +12,6 @@ from scipy.special import jn_zeros
 
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, RIGHT_ISOSCELES, glued_drum, tile_mesh
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
@@ -27,7 +26,6 @@ from surfexp.spectrum.nodal_domains import (
 )
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.soft_nodal_counts import soft_nodal_counts
-from surfexp.studies.drums.drum_elements import drum_elements
 
 WIDTH = float(np.sqrt(2.1))
 
@@ -86,16 +84,6 @@ def test_filter_set_on_the_rectangle_scores_on_a_disk_and_a_rotated_irregular_re
 
 def system_is_radial(value: float) -> bool:
     return bool(np.isclose(np.sqrt(value), jn_zeros(0, 8), rtol=1e-12).any())
-
-
-def test_gordon_webb_wolpert_drums_are_told_apart_at_the_fourth_mode() -> None:
-    counts = []
-    for gluing in (GORDON_WEBB_WOLPERT.first, GORDON_WEBB_WOLPERT.second):
-        drum = glued_drum(gluing, RIGHT_ISOSCELES, *tile_mesh(14, 2.0))
-        counts.append(counted(drum_elements(drum, 2), 10)[2])
-    first, second = counts
-    assert first[:5].tolist() == [1, 2, 3, 3, 4] and second[:5].tolist() == [1, 2, 3, 4, 4]
-    assert first[8:].tolist() == second[8:].tolist() == [7, 4]
 
 
 def test_counts_and_labels_equal_scipy() -> None:

@@ -92,7 +92,7 @@ def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain
     compiled = first("surfexp/operators/fem.py", b"0.5 * twice_area", b"twice_area")
     stale = stale_functions(compiled)
     assert stale and {module for module, _ in stale} == {"surfexp.operators.fem"}
-    plain = first("surfexp/studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
+    plain = first("studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
     assert stale_functions(plain) == frozenset()
     heap = first("surfexp/skeleton/fast_marching.py", b"(i - 1) // 2", b"i // 2")
     assert {name for _, name in stale_functions(heap)} == {"_rise", "_march"}
@@ -108,7 +108,7 @@ def test_tests_are_chosen_by_imports_and_seconds() -> None:
     name = near.relative_to(ROOT).as_posix()
     seconds = {f"{name}::slow": 5.0, f"{name}::quick": 0.1, f"{name}::red": 0.1, f"{name}::hours": 3000.0}
     baseline = {name: {"seconds": seconds, "failed": [f"{name}::red: assert"]}}
-    change = first("surfexp/studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
+    change = first("studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
     assert list(selected(change, baseline, 30.0).seconds) == [f"{name}::quick", f"{name}::slow"]
     assert list(selected(change, baseline, 1.0).seconds) == [f"{name}::quick"]
 
