@@ -97,6 +97,12 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     assert "surface levels" in said and "holds" in said
     # what ships is there and is found: the experiments plan (solvers compile for a minute, so none runs)
     assert "configurations" in call(surfexp, "plan", "experiment=quickstart", cwd=empty)
+    studies = site / "surfexp_studies"
+    shipped, here = ({file.parent.name for file in top.glob("*/__init__.py")} for top in (studies, ROOT / "studies"))
+    assert shipped == here
+    assert list(studies.glob("*/plugins/*/*.py")) and list(studies.glob("*/README.md"))
+    assert not list(studies.glob("*/tests")) and not list(studies.glob("*/examples"))
+    assert "configurations" in call(surfexp, "plan", "experiment=isospectral_drums", cwd=empty)
     assert (empty / "results" / "sphere_distances" / "report.html").exists()
 
     # an edit in a compiled function that the plugin reaches through another module shows in the next run
