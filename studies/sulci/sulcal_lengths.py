@@ -56,11 +56,6 @@ def geodesic_lengths(mesh: TriangleMesh, pairs: Sequence[tuple[int, int]]) -> li
     return [0.0 if start == end else float(exact.geodesicDistance(start, end)[0]) for start, end in pairs]
 
 
-def geodesic_length(mesh: TriangleMesh, start: int, end: int) -> float:
-    """Return the exact length of the shortest way on the triangles between two vertices."""
-    return geodesic_lengths(mesh, [(start, end)])[0]
-
-
 def carried_vertex(points: Floats, place: Floats) -> int:
     """Return the row of `points` that is nearest to one place.
 

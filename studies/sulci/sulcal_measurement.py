@@ -15,7 +15,6 @@ from .sulcal_regions import OUTSIDE, names_by_majority, sulcal_regions
 from .sulcal_template import Template, sulcal_system, template_map
 
 TRUE, DEFAULT = "true", "carried ends"
-ESTIMATORS = (DEFAULT, *(f"{where}, {name}" for where in ("carried region", "own region") for name in LINE_ESTIMATORS))
 
 
 @dataclass(frozen=True, eq=False)

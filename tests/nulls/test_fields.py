@@ -7,7 +7,7 @@ from scipy.linalg import expm
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.nulls.fields import field_variance, gaussian_fields
+from surfexp.nulls.fields import _metric_of, _variance, gaussian_fields
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
 
@@ -24,7 +24,7 @@ def test_the_variance_is_that_of_dense_algebra(width: float | np.ndarray) -> Non
     time = 0.25 * (largest / np.sqrt(8 * np.log(2))) ** 2
     root = np.sqrt(mass)
     wanted = (expm(-2.0 * time * stiffness(BALL).toarray() / np.outer(root, root)) / np.outer(root, root)).diagonal()
-    np.testing.assert_allclose(field_variance(BALL, width), wanted, rtol=1e-4)
+    np.testing.assert_allclose(_variance(*_metric_of(BALL, width)), wanted, rtol=1e-4)
 
 
 def test_fields_are_independent_of_variance_1_at_each_vertex() -> None:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import networkx
 import numpy as np
-import pytest
 
 from surfexp.mesh.shapes.genus_surface import genus_surface
 from surfexp.mesh.shapes.strip import strip
-from surfexp.mesh.shapes.torus import torus
-from surfexp.skeleton.branches import branch_graph, branch_paths
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.nearest_point import nearest_on_triangles
 from surfexp.skeleton.reeb_graph import reeb_graph
@@ -59,31 +55,3 @@ def test_junctions_of_closed_contours_stay_amid_their_centroids():
     for node in np.flatnonzero(skeleton.kinds == JUNCTION):
         around = skeleton.arcs[(skeleton.arcs == node).any(axis=1)].sum(axis=1) - node
         assert np.allclose(skeleton.positions[node], skeleton.positions[around].mean(axis=0))
-
-
-def test_arcs_between_forks_carry_their_polylines_and_widths():
-    mesh = genus_surface(2, 3000).mesh
-    skeleton = reeb_graph(mesh, mesh.vertices[:, 0] + 0.2 * mesh.vertices[:, 1], np.linspace(-2.2, 2.2, 30))
-    graph = branch_graph(skeleton)
-    assert (graph.number_of_nodes(), graph.number_of_edges()) == (6, 7)
-    assert graph.number_of_edges() - graph.number_of_nodes() + 1 == skeleton.metrics["b1"] == 2
-    total = sum(data["length"] for _, _, data in graph.edges(data=True))
-    assert total == pytest.approx(sum(length for _, _, length in skeleton.graph().edges(data="length")))
-    assert sum(len(path) - 1 for path in branch_paths(skeleton)) == len(skeleton.arcs)
-    for a, b, data in graph.edges(data=True):
-        assert np.array_equal(data["polyline"][0], graph.nodes[a]["position"])
-        assert np.array_equal(data["polyline"][-1], graph.nodes[b]["position"])
-        assert (data["widths"][1:-1] > 0).all() and len(data["widths"]) == len(data["values"]) == len(data["polyline"])
-
-
-def test_a_ring_without_ends_is_one_arc():
-    ring = torus(40, 16).mesh
-    skeleton = reeb_graph(ring, ring.vertices[:, 0], np.linspace(-0.4, 0.4, 5))
-    arcs = [arc for arc in skeleton.arcs if skeleton.degrees[arc].max() == 2]
-    loop = type(skeleton)(**{**vars(skeleton), "arcs": np.array(arcs)})
-    largest = max(networkx.connected_components(networkx.Graph(skeleton.arcs.tolist())), key=len)
-    assert len(largest) == len(skeleton.positions)
-    assert sum(len(path) - 1 for path in branch_paths(loop)) == len(arcs)
-    triangle = type(skeleton)(**{**vars(skeleton), "arcs": np.array([[0, 1], [1, 2], [0, 2]])})
-    (path,) = branch_paths(triangle)
-    assert path[0] == path[-1] and len(path) == 4 and branch_graph(triangle).number_of_edges() == 1
