@@ -29,7 +29,7 @@ test-optional: optional
 
 lint: .venv/ready
 	$(BIN)/ruff check .
-	$(BIN)/typos --quiet docs conf surfexp plugins examples benchmarks *.md
+	$(BIN)/typos --quiet docs conf surfexp plugins studies examples audits *.md
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
@@ -38,18 +38,18 @@ lint: .venv/ready
 	$(BIN)/python -m surfexp.reproduction.stamp check
 
 bench: optional # the rivals come with it
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m audits.benchmarks
 
 mutate: .venv/ready
-	$(BIN)/python -m mutation planted
-	$(BIN)/python -m mutation random
-	$(BIN)/python -m mutation claims
+	$(BIN)/python -m audits.mutation planted
+	$(BIN)/python -m audits.mutation random
+	$(BIN)/python -m audits.mutation claims
 
 torture: .venv/ready
-	$(BIN)/python -m torture
+	$(BIN)/python -m audits.torture
 
 torture-part: .venv/ready
-	$(BIN)/python -m torture --part
+	$(BIN)/python -m audits.torture --part
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.

@@ -19,6 +19,7 @@ PACKAGES_OF_THE_LABORATORY = sorted(file.parent.name for file in (ROOT / "surfex
 
 def module_of(file: Path) -> str:
     parts = file.relative_to(ROOT).with_suffix("").parts
+    parts = (parts[0].replace("studies", "surfexp_studies"), *parts[1:])
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
@@ -36,10 +37,10 @@ def imports_of_files(files: dict[str, str]) -> nx.DiGraph:
     for module, source in files.items():
         for node in executed(ast.parse(source)):
             named: list[str] = []
-            if isinstance(node, ast.ImportFrom) and node.module and not node.level:
-                named = [
-                    name if (name := f"{node.module}.{item.name}") in files else node.module for item in node.names
-                ]
+            if isinstance(node, ast.ImportFrom):
+                above = module.split(".")[: -node.level] if node.level else []
+                base = ".".join([*above, *([node.module] if node.module else [])])
+                named = [name if (name := f"{base}.{item.name}") in files else base for item in node.names]
             elif isinstance(node, ast.Import):
                 named = [item.name for item in node.names]
             # the package itself imports only when a name of its face is asked for
@@ -52,7 +53,8 @@ def circles(files: dict[str, str]) -> list[list[str]]:
 
 
 def sources() -> dict[str, str]:
-    return {module_of(file): file.read_text() for file in (ROOT / "surfexp").rglob("*.py")}
+    files = (file for folder in ("surfexp", "studies") for file in (ROOT / folder).rglob("*.py"))
+    return {module_of(file): file.read_text() for file in files}
 
 
 def test_no_files_import_each_other_in_a_circle() -> None:
@@ -69,10 +71,16 @@ def test_a_planted_circle_is_seen() -> None:
 def linted_with_planted_imports(tmp_path_factory: pytest.TempPathFactory) -> str:
     """What the import contracts say where a file of `mesh` imports each package of the laboratory, beside an unlisted package."""
     folder = tmp_path_factory.mktemp("house")
-    shutil.copytree(ROOT / "surfexp", folder / "surfexp", ignore=shutil.ignore_patterns("__pycache__"))
+    for part, package in (("surfexp", "surfexp"), ("studies", "surfexp_studies")):
+        shutil.copytree(ROOT / part, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", folder)
     with (folder / "surfexp/mesh/noise.py").open("a") as noise:
         noise.writelines(f"import surfexp.lab.{package}\n" for package in PACKAGES_OF_THE_LABORATORY)
+        noise.write("import surfexp_studies.planted.code\n")
+    for name, imported in (("planted", "pathlib"), ("nosy", "surfexp_studies.planted.code")):
+        (folder / "surfexp_studies" / name).mkdir()
+        (folder / "surfexp_studies" / name / "__init__.py").write_text(f'"""A study called {name}."""\n')
+        (folder / "surfexp_studies" / name / "code.py").write_text(f"import {imported}\n")
     (folder / "surfexp/attic").mkdir()
     (folder / "surfexp/attic/__init__.py").write_text('"""A package that nobody listed."""\n')
     command = [
@@ -94,6 +102,14 @@ def linted_with_planted_imports(tmp_path_factory: pytest.TempPathFactory) -> str
 @pytest.mark.parametrize("package", PACKAGES_OF_THE_LABORATORY)
 def test_the_numerics_may_import_no_package_of_the_laboratory(package: str, linted_with_planted_imports: str) -> None:
     assert f"surfexp.mesh.noise -> surfexp.lab.{package}" in linted_with_planted_imports
+
+
+def test_the_library_may_import_no_study(linted_with_planted_imports: str) -> None:
+    assert "surfexp.mesh.noise -> surfexp_studies.planted.code" in linted_with_planted_imports
+
+
+def test_a_study_may_import_no_other(linted_with_planted_imports: str) -> None:
+    assert "surfexp_studies.nosy.code -> surfexp_studies.planted.code" in linted_with_planted_imports
 
 
 def test_a_package_that_is_not_listed_is_refused(linted_with_planted_imports: str) -> None:

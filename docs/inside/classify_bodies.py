@@ -2,10 +2,10 @@
 
 from surfexp.contract.member import Member
 from surfexp.operators.fem import fem
+from surfexp.populations.articulated import articulated_body
 from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.statistics.classifiers import classify
 from surfexp.statistics.signature_distances import signature_distances
-from surfexp.studies.populations.articulated import articulated_body
 
 signatures = {}
 for body in ("biped", "quadruped", "worm"):

@@ -3,8 +3,8 @@
 from surfexp.embedding.mode_pairs import counterparts, mode_correlations, pairs_in_order
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.operators.fem import fem
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.studies.populations.disguise import disguise
 
 body = ellipsoid(4, (1.0, 1.3, 1.7))
 copy = disguise(body, bend=1.5)

@@ -7,7 +7,7 @@ from pydantic import Field
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-from surfexp.studies.populations.articulated import articulated_body
+from surfexp.populations.articulated import articulated_body
 
 METRICS = {
     "area_change": Metric("area over that of the rest pose, less one"),

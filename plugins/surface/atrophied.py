@@ -7,7 +7,7 @@ from pydantic import Field
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-from surfexp.studies.populations.atrophy import with_atrophy
+from surfexp.populations.atrophy import with_atrophy
 
 METRICS = {
     "tissue_lost": Metric("planted loss of volume, share"),

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-from surfexp.studies.populations.disguise import disguise
+from surfexp.populations.disguise import disguise
 
 
 @register("surface", "disguised", defaults_of=disguise)

@@ -9,11 +9,9 @@ from surfexp.lab.registry.registry import register
 from surfexp.mesh.flat_domain import boundary_angles
 from surfexp.mesh.flat_shapes import Polygon
 from surfexp.mesh.shape_metrics import with_metrics
+from surfexp.mesh.shapes.isospectral_drum import GORDON_WEBB_WOLPERT, TILE_SHAPES, glued_drum, tile_mesh
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
-from surfexp.studies.drums.isospectral_drums import glued_drum, tile_mesh
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 
 @register("surface", "drum", defaults_of=tile_mesh)

@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from surfexp.lab.registry.registry import register
+from surfexp.mesh.shapes.counterexamples import clover, named_revolution
 from surfexp.mesh.surface import Surface
-from surfexp.studies.distances.counterexamples import clover, named_revolution
 
 
 @register("surface", "revolution", defaults_of=named_revolution)

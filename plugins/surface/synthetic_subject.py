@@ -6,7 +6,7 @@ from pydantic import Field
 
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-from surfexp.studies.sulci.population import synthetic_subject
+from surfexp.populations.synthetic_subject import synthetic_subject
 
 
 @register("surface", "synthetic_subject", defaults_of=synthetic_subject)

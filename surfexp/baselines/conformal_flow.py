@@ -71,14 +71,6 @@ def conformal_flow(
     return centred(points / np.linalg.norm(points, axis=1, keepdims=True), mesh.vertex_areas)
 
 
-def conformality_defect(mesh: TriangleMesh, positions: Floats) -> float:
-    """Dirichlet energy over area, minus 1, of the piecewise linear map from the mesh to `positions`.
-
-    0 for a conformal map, positive for any other.
-    """
-    return _defect(stiffness(fem(mesh)), mesh, positions)
-
-
 def _defect(matrix: csr_array, mesh: TriangleMesh, positions: Floats) -> float:
     energy = 0.5 * float(np.einsum("nd,nd->", positions, matrix @ positions))
     return energy / TriangleMesh(positions, mesh.faces).area - 1.0

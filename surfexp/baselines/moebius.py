@@ -35,11 +35,6 @@ def invert(points: Floats, centre: Floats) -> Floats:
     return (1.0 - size) * shifted / np.einsum("nd,nd->n", shifted, shifted)[:, None] + centre
 
 
-def centre_of_mass(points: Floats, masses: Floats) -> Floats:
-    """Weighted mean of points, (3,)."""
-    return masses @ points / masses.sum()
-
-
 def centred(points: Floats, masses: Floats, tolerance: float = 1e-10, iteration_limit: int = 100) -> Floats:
     """Move masses on the unit sphere by Moebius transformations until their centre of mass is the origin.
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 
 import igl
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -90,38 +88,6 @@ def interpolation_radius(degree: int) -> float:
     """
     half = (degree + 1) / 2
     return math.sqrt(2 * half**2 + (1 + half) ** 2)
-
-
-def grid_step(mesh: TriangleMesh, shape: Sequence[int], radius: float) -> float:
-    """Step of the cubic grid around the mesh and its band that has as many points as a grid of a given shape.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-    shape : sequence of int
-        Only the product counts, since the published sizes of table 2.2 belong to boxes of other proportions.
-    radius : float
-        Band radius in grid steps.
-
-    Raises
-    ------
-    ValueError
-        If the points do not even hold the margin around the band.
-    """
-    padding = _padding(radius)
-    sides = np.ptp(mesh.vertices, axis=0)
-    wanted = float(np.prod(np.asarray(shape, dtype=np.float64)))
-    least = float((2 * padding + 3) ** 3)
-    if wanted < least:
-        raise ValueError(
-            f"grid {tuple(shape)} has {wanted:g} points, a band of radius {radius:g} steps needs at least {least:g}"
-        )
-
-    def excess(step: float) -> float:
-        return float((sides / step + 2 * padding + 2).prod()) - wanted
-
-    longest = float(sides.max())
-    return float(brentq(excess, 1e-3 * longest / wanted ** (1 / 3), longest))
 
 
 def narrow_band(mesh: TriangleMesh, step: float, radius: float) -> NarrowBand:

@@ -23,7 +23,7 @@ MAP_SAMPLES, LARGEST_MAP, STEP, COMPARED = 500, 40, 5, 16
 # flipping half of the modes changes an orthogonal matrix by sqrt 2 of its norm
 SAME_MAP = 0.5
 # chosen on one half of 168 pairs with known truth: on the other half .83 of the ambiguous ones are called so, and .50 of those
-# that are lopsided, whose pose changes energies more than a longer limb does (benchmarks/map_ambiguity.py)
+# that are lopsided, whose pose changes energies more than a longer limb does (audits/benchmarks/map_ambiguity.py)
 INDISTINCT_SHARE = 0.25
 NEGLIGIBLE_ENERGY = 1e-3
 

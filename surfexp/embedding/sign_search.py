@@ -146,34 +146,3 @@ def search_signs(
     if n <= LARGEST_ENUMERATION and 2**n <= limit:
         return enumerate_signs(objective, n)
     return branch_and_bound(objective, n, start, limit, progress)
-
-
-def check_certificate(search: SignSearch, objective: Bound, tolerance: float = 1e-9) -> list[str]:
-    """Replay the log of a search with an objective of one's own; return what is wrong, nothing when the proof holds.
-
-    The closed nodes have to be disjoint and cover all 2^n signs, each bound must be one that `objective` confirms, none
-    may lie below the lower bound, and the value must be that of the signs.
-    """
-    closed, n = search.closed, len(search.signs)
-    faults = []
-    depths = (closed != 0).sum(axis=1)
-    if any((row[:depth] == 0).any() for row, depth in zip(closed, depths, strict=True)):
-        faults.append("a closed node has decided signs after undecided ones")
-    if sum(2 ** (n - int(depth)) for depth in depths) != 2**n:
-        faults.append("the closed nodes do not count to 2^n signs")
-    prefixes = {bytes(row[:depth].tobytes()) for row, depth in zip(closed, depths, strict=True)}
-    if len(prefixes) < len(closed):
-        faults.append("a closed node is listed twice")
-    for row, depth in zip(closed, depths, strict=True):
-        if any(bytes(row[:k].tobytes()) in prefixes for k in range(int(depth))):
-            faults.append("a closed node lies below another")
-            break
-    slack = tolerance * max(1.0, abs(search.value))
-    for row, bound in zip(closed, search.bounds, strict=True):
-        if bound > -np.inf and objective(row, np.inf) < min(bound, search.value) - slack:
-            faults.append(f"the bound {bound:g} of node {row.tolist()} is not confirmed")
-    if search.bounds.min() < search.lower_bound - slack:
-        faults.append(f"a node has the bound {search.bounds.min():g} below the lower bound {search.lower_bound:g}")
-    if abs(objective(search.signs, np.inf) - search.value) > slack:
-        faults.append("the value is not that of the signs")
-    return faults

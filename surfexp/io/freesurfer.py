@@ -253,10 +253,3 @@ def read_vertex_list(path: Path) -> Integers:
     if len(numbers) != count:
         raise ValueError(f"it ends after {len(numbers)} of {count} vertices")
     return np.array(numbers, dtype=np.int64)
-
-
-def write_vertex_list(path: Path, inside: Integers, mesh: TriangleMesh) -> None:
-    """Write the vertices of one region as a .label file, with their positions."""
-    places = zip(inside.tolist(), mesh.vertices[inside].tolist(), strict=True)
-    rows = [f"{vertex}  {x:.6f}  {y:.6f}  {z:.6f} 0.000000" for vertex, (x, y, z) in places]
-    path.write_text("\n".join(["#!ascii label, written by surfexp", str(len(inside)), *rows]) + "\n")

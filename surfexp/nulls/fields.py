@@ -52,22 +52,6 @@ def gaussian_fields(operator: SurfaceOperator, width: float | Floats, count: int
     return _flow(stretched, noise, time) / np.sqrt(_variance(stretched, time))[:, None]
 
 
-def field_variance(operator: SurfaceOperator, width: float | Floats) -> Floats:
-    """Return the variance at each vertex of white noise after the heat flow of `gaussian_fields`.
-
-    Parameters
-    ----------
-    operator : SurfaceOperator
-    width : float or (n,) float64
-
-    Returns
-    -------
-    (n,) float64
-        In the inverse of the squared unit of the surface.
-    """
-    return _variance(*_metric_of(operator, width))
-
-
 def _metric_of(operator: SurfaceOperator, width: float | Floats) -> tuple[SurfaceOperator, float]:
     """The operator of the metric in which the width is constant, and the time of the flow."""
     n = operator.vertex_count

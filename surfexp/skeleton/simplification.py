@@ -6,7 +6,7 @@ from heapq import heappop, heappush
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.arrays import Integers
 from surfexp.skeleton.exact_reeb_graph import ReebGraph
 
 Neighbours = list[list[list[int]]]
@@ -99,40 +99,3 @@ def _collected(graph: ReebGraph, ends: list[list[int] | None], around: Neighbour
     final = np.where(merged >= 0, arc_number[np.maximum(merged, 0)], -1)
     vertex_arcs = np.where(graph.vertex_arcs >= 0, final[np.maximum(graph.vertex_arcs, 0)], -1)
     return ReebGraph(graph.vertices[kept_nodes], graph.values[kept_nodes], node_number[arcs], vertex_arcs)
-
-
-def contracted(graph: ReebGraph, levels: Floats) -> tuple[Integers, Integers]:
-    """The sampled graph that an exact one contracts to: crossings of arcs with levels, and the pieces between them.
-
-    Returns
-    -------
-    level : (N,) int64
-        The level of each node, -1 for a piece of a slab.
-    arcs : (A, 2) int64
-        One between each crossing and the pieces below and above it: the graph of contours and all slab components.
-    """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    # a vertex at a level counts as above it
-    slab = np.searchsorted(levels, graph.values, side="right")
-    low, high = slab[graph.arcs[:, 0]], slab[graph.arcs[:, 1]]
-    crossings = high - low
-    first = np.concatenate([[0], np.cumsum(crossings + 1)])
-    owner = np.repeat(np.arange(len(crossings)), crossings + 1)
-    place = np.arange(first[-1]) - first[owner]
-    count, nodes = int(first[-1]), len(graph.values)
-    # an arc's first and last piece hang on its end nodes
-    joins = [
-        np.stack([first[:-1], count + graph.arcs[:, 0]], axis=1),
-        np.stack([first[1:] - 1, count + graph.arcs[:, 1]], 1),
-    ]
-    pairs = np.concatenate(joins)
-    matrix = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count + nodes, count + nodes))
-    pieces, piece = connected_components(matrix, directed=False)
-    crossed = np.flatnonzero(place < crossings[owner])
-    level = np.concatenate([low[owner[crossed]] + place[crossed], np.full(pieces, -1)])
-    number = np.arange(len(crossed))
-    below = np.stack([len(crossed) + piece[crossed], number], axis=1)
-    above = np.stack([number, len(crossed) + piece[crossed + 1]], axis=1)
-    return level.astype(np.int64), np.concatenate([below, above]).astype(np.int64)

@@ -1,4 +1,4 @@
-"""The heat kernel of a surface from its eigenpairs: diffusion, embedding and pointwise signatures."""
+"""The heat kernel of a surface from its eigenpairs: diffusion and pointwise signatures."""
 
 from __future__ import annotations
 
@@ -44,25 +44,9 @@ def diffuse(system: EigenSystem, mass: sparray, function: Floats, time: float) -
     return system.vectors @ (decay[:, None] * coefficients if coefficients.ndim == 2 else decay * coefficients)
 
 
-def heat_embedding(system: EigenSystem, time: float) -> Floats:
-    """Return the (n, k - c) map x -> exp(-lambda_i t / 2) phi_i(x) into l2 (3.11) (Berard, Besson and Gallot 1994).
-
-    The constant functions (one for each of c components) are left out; squared distances of its points are diffusion
-    distances K(t,x,x) + K(t,y,y) - 2 K(t,x,y).
-    """
-    moving = system.values > 1e-6 * system.values[-1]
-    return np.asarray((system.vectors * np.sqrt(_decay(system, time)))[:, moving])
-
-
 def heat_kernel_signature(system: EigenSystem, times: Floats) -> Floats:
     """Return K(t, x, x) for each time, (n, s) (Sun, Ovsjanikov and Guibas 2009)."""
     return np.asarray(system.vectors**2 @ np.exp(-np.multiply.outer(system.values, times)))
-
-
-def heat_times(system: EigenSystem, count: int = 16) -> Floats:
-    """Return the usual times of the signature, geometric from 4 ln 10 / lambda_k to 4 ln 10 / lambda_1."""
-    positive = system.values[system.values > 1e-6 * system.values[-1]]
-    return np.geomspace(4.0 * np.log(10.0) / positive[-1], 4.0 * np.log(10.0) / positive[0], count)
 
 
 def _decay(system: EigenSystem, time: float) -> Floats:

@@ -84,12 +84,6 @@ def cluster_averaged_counts(
     return mean, deviation
 
 
-def nodal_domain_labels(graph: NodalGraph, function: Floats) -> Integers:
-    """Return the number of the nodal domain of each node, from 0 in the order of their first nodes."""
-    _check(graph, function[:, None])
-    return _label(graph.starts, graph.neighbours, np.ascontiguousarray(function))
-
-
 def courant_violations(counts: Integers) -> Integers:
     """Return the indices i, from 0, at which Courant's bound, count <= i + 1, is broken (Courant; Cheng 1976).
 
@@ -141,27 +135,3 @@ def _count(
         for piece in range(pieces):
             result[c] += parent[piece] == piece and top[piece] >= peaks[c]
     return result
-
-
-@njit(cache=True, nogil=True)
-def _label(starts: Integers, neighbours: Integers, values: Floats) -> Integers:
-    n = len(values)
-    labels, queue = np.full(n, -1, np.int64), np.empty(n, np.int64)
-    count = 0
-    for root in range(n):
-        if labels[root] >= 0:
-            continue
-        queue[0] = root
-        labels[root] = count
-        head, tail = 0, 1
-        while head < tail:
-            node = queue[head]
-            head += 1
-            for p in range(starts[node], starts[node + 1]):
-                other = neighbours[p]
-                if labels[other] < 0 and (values[other] >= 0.0) == (values[root] >= 0.0):
-                    labels[other] = count
-                    queue[tail] = other
-                    tail += 1
-        count += 1
-    return labels

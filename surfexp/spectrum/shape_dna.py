@@ -53,10 +53,3 @@ def shape_dna(
         "slope": float((numbers @ numbers) / (numbers @ positive)),
     }[normalisation]
     return np.asarray(factor * positive / (numbers if reweighted else 1.0))
-
-
-def weighted_distance(first: Floats, second: Floats, alpha: float = 1.0) -> float:
-    """Return sqrt(sum_n ((l_n - l'_n) / n^alpha)^2) (4.3), n from 1, over the length of the shorter signature."""
-    count = min(len(first), len(second))
-    weights = np.arange(1.0, count + 1.0) ** -alpha
-    return float(np.linalg.norm(weights * (np.asarray(first)[:count] - np.asarray(second)[:count])))

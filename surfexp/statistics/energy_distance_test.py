@@ -10,12 +10,6 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 
 
-def energy_distance(distances: Floats, first: Integers, second: Integers) -> float:
-    """Return 2 E|X - Y| - E|X - X'| - E|Y - Y'| over members of two groups (Szekely and Rizzo 2004)."""
-    within = sum(distances[np.ix_(some, some)].sum() / len(some) ** 2 for some in (first, second))
-    return float(2.0 * distances[np.ix_(first, second)].mean() - within)
-
-
 def p_value(
     distances: Floats,
     first: Integers,

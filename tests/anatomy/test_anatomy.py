@@ -12,8 +12,8 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
-from surfexp.studies.populations.articulated import BODIES, articulated_body, carried_body, posed_bones
-from surfexp.studies.populations.atrophy import with_atrophy
+from surfexp.populations.articulated import BODIES, articulated_body, carried_body, posed_bones
+from surfexp.populations.atrophy import with_atrophy
 
 
 def ball(radius: float = 12.0, size: int = 40) -> LabelVolume:

@@ -11,7 +11,6 @@ from excess_over_data import excess_over_data
 from surfexp.baselines.closest_point import closest_point
 from surfexp.baselines.grid_interpolation import GridInterpolation
 from surfexp.baselines.level_set import LevelSet, level_set
-from surfexp.baselines.level_set_chan_vese import LevelSetChanVese
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.image import Image
@@ -137,29 +136,6 @@ def test_the_level_set_method_tells_its_steps_and_how_the_energy_falls():
     steps, falls = zip(*told, strict=True)
     assert list(steps) == solution.history["iteration"].tolist() and steps[-1] == 9
     assert falls[0] == np.inf and np.isfinite(falls[1:]).all()
-
-
-def test_non_convex_chan_vese_says_how_many_steps_it_took():
-    initial = 0.5 - np.arccos(np.clip(MESH.vertices[:, 2], -1, 1))
-    scheme = replace(level_set(MESH, 0.3), regularisation=0.1, step_limit=101, tolerance=0.0)
-    solution = LevelSetChanVese(scheme, mu=1 / (3 * MESH.edge_length))(NOISY, OPERATOR, initial)
-    assert solution.iterations == solution.metrics["iterations"] == solution.history["iteration"][-1] == 101
-    assert len(solution.history["iteration"]) > 2
-    assert not solution.converged and solution.reason == "step limit"
-
-
-@pytest.mark.slow
-def test_non_convex_chan_vese_moves_a_small_curve_to_the_cap():
-    height = MESH.vertices[:, 2]
-    initial = 0.5 - np.arccos(np.clip(height, -1, 1))
-    scheme = replace(level_set(MESH, 0.15), regularisation=0.1, tolerance=1e-3)
-    solution = LevelSetChanVese(scheme, mu=1 / (3 * MESH.edge_length))(NOISY, OPERATOR, initial)
-    assert solution.converged
-    assert OPERATOR.mass @ ((initial > 0) == CAP) / OPERATOR.mass.sum() < 0.92
-    assert OPERATOR.mass @ (solution.segmentation == CAP) / OPERATOR.mass.sum() > 0.98
-    assert solution.metrics["c1"] == pytest.approx(1, abs=0.1) and solution.metrics["c2"] == pytest.approx(0, abs=0.1)
-    with pytest.raises(ValueError, match="mu is 0"):
-        LevelSetChanVese(scheme, mu=0.0)(NOISY, OPERATOR, initial)
 
 
 def test_results_are_the_same_to_the_byte():

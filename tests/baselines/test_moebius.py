@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from surfexp.baselines.distortion import distortion
-from surfexp.baselines.moebius import centre_of_mass, centred, invert
+from surfexp.baselines.moebius import centred, invert
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -38,9 +38,9 @@ def test_centring_undoes_a_moebius_transformation():
     areas = MESH.vertex_areas
     for size in (0.3, 0.9, 0.99):
         moved = invert(MESH.vertices, size * np.array([0.6, 0.0, 0.8]))
-        assert np.linalg.norm(centre_of_mass(moved, areas)) > 0.2
+        assert np.linalg.norm(areas @ moved / areas.sum()) > 0.2
         back = centred(moved, areas, iteration_limit=12)
-        assert np.linalg.norm(centre_of_mass(back, areas)) < 1e-9
+        assert np.linalg.norm(areas @ back / areas.sum()) < 1e-9
         left, _, right = np.linalg.svd(back.T @ MESH.vertices)
         np.testing.assert_allclose(back @ (left @ right), MESH.vertices, atol=1e-8)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.baselines.narrow_band import grid_step, interpolation_radius, narrow_band
+from surfexp.baselines.narrow_band import narrow_band
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
 
@@ -77,20 +77,9 @@ def test_an_open_surface_has_a_band():
     np.testing.assert_allclose(np.abs(band.distance[inside]), np.abs(band.positions[inside, 2]), atol=1e-12)
 
 
-def test_grid_of_a_published_size():
-    mesh = icosphere(2).mesh
-    radius = interpolation_radius(1)
-    for shape in ((65, 162, 99), (30, 30, 30)):
-        band = narrow_band(mesh, grid_step(mesh, shape, radius), radius)
-        assert np.prod(band.shape) == pytest.approx(np.prod(shape), rel=0.1)
-        assert band.memory < 200 * band.node_count
-
-
 def test_bad_sizes_are_refused():
     mesh = icosphere(1).mesh
     with pytest.raises(ValueError, match="grid step is 0"):
         narrow_band(mesh, 0.0, 2.0)
     with pytest.raises(ValueError, match="take a step of at least"):
         narrow_band(mesh, 1e-4, 2.0)
-    with pytest.raises(ValueError, match="needs at least"):
-        grid_step(mesh, (5, 5, 5), 2.5)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import networkx
@@ -19,21 +19,20 @@ from scipy.io import mmread
 from scipy.sparse import load_npz
 
 import surfexp as sx
-from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.commands.command_line import main
 from surfexp.commands.exporting.folder import ExportFolder
 from surfexp.commands.exporting.names import slug
+from surfexp.contract.member import Member
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.io.csv_cells import cell
-from surfexp.io.label_files import read_labels
+from surfexp.io.label_files import read_labels, write_labels
 from surfexp.io.reading import read_mesh
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
 from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
-from surfexp.lab.plan.resolution import make_plan
-from surfexp.lab.registry.loading import load_all
+from surfexp.lab.registry import registry
 from surfexp.lab.store.kinds import KINDS, stage_kind
 from surfexp.lab.store.store import save
 from surfexp.mesh.label_map import LabelMap
@@ -463,63 +462,40 @@ def test_a_run_of_the_dashboard_is_exported_by_its_id(laboratory: Laboratory, sp
         assert {row["key"] for row in index.values()} == {surface}
 
 
-def test_sulci_have_the_names_of_their_surfaces_and_one_that_is_missing_is_said(
+def toy_table(template: Surface, surfaces: dict[Member, Surface], *, level: float = 0.0) -> Statistic:
+    """A table of one's own surfaces, which is exported with labels of each."""
+    return Statistic("heights")
+
+
+def labels_above(
+    folder: Path, template: Surface, surfaces: Mapping[Member, Surface], *, level: float
+) -> Iterator[tuple[str, Path]]:
+    for number, (member, surface) in enumerate(surfaces.items()):
+        file = folder / f"{number}.annot"
+        write_labels(file, (surface.mesh.vertices[:, 2] > level).astype(np.int64), ("below", template.name))
+        yield str(member), file
+
+
+def test_what_a_plugin_writes_beside_its_result_has_the_names_it_gives_and_what_is_missing_is_said(
     laboratory: Laboratory,
     sphere: Surface,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    from surfexp.studies.sulci import sulcal_measurement, sulcal_template
-
-    regions = np.where(sphere.mesh.vertices[:, 2] > 0, 1, -1)
-    named = sulcal_measurement.NamedSulci(np.arange(len(regions)), regions, regions)
-    monkeypatch.setattr(sulcal_template, "make_template", lambda surface, count: SimpleNamespace(regions=regions))
-    monkeypatch.setattr(sulcal_measurement, "name_sulci", lambda study, surface: named)
+    monkeypatch.setitem(registry.PLUGINS, ("statistic", "toy_table"), None)  # restored at the end
+    del registry.PLUGINS["statistic", "toy_table"]
+    registry.register("statistic", "toy_table", exports=labels_above)(toy_table)
     ball = laboratory.stage("surface", "ball", sphere)
     members = {"left anna": ball, "../LEFT anna": ball, "right": laboratory.stage("surface", "missing")}
-    lengths = Statistic("lengths", {"length": np.array([1.0])}, ("left anna, sulcus 1",))
-    table = laboratory.stage(
-        "statistic", "sulcal_table", lengths, template=ball, surfaces=members, options={"regions": 2}
-    )
-    laboratory.leaf(table, statistic__name="sulcal_table")
+    lengths = Statistic("lengths", {"length": np.array([1.0])}, ("left anna",))
+    table = laboratory.stage("statistic", "toy_table", lengths, template=ball, surfaces=members, options={"level": 0.5})
+    laboratory.leaf(table, statistic__name="toy_table")
     index = laboratory.export("--kind", "statistic", to=tmp_path / "out")
-    stems = {name.partition(".")[0] for name in index}
-    assert stems == {"statistic-sulcal_table", "left_anna", "left_anna-2"} and len(index) == 7
+    assert set(index) == {"statistic-toy_table.csv", "left_anna.annot", "left_anna-2.annot"}
     keys, names = read_labels(tmp_path / "out" / "left_anna-2.annot")
-    assert np.array_equal(keys, regions + 1) and names == ("unknown", "region 1", "region 2")
-    assert "left out: labels of sulci" in capsys.readouterr().err
-
-
-PIAL = {"surface": {"name": "fsaverage5", "sheet": "pial"}}
-TABLE = {
-    "experiment": "sulcal_table",
-    "target": "statistic",
-    "statistic": {
-        "name": "sulcal_table",
-        "regions": 2,
-        "inputs": {"template": PIAL, "surfaces": {"over": "subjects"}},
-    },
-    "axes": {"subjects": {f"{side} anna": {"class": side, "group": "anna", **PIAL} for side in ("left", "right")}},
-}
-
-
-@pytest.mark.slow
-def test_sulci_are_written_for_each_surface(tmp_path: Path) -> None:
-    load_all(Path("/nonexistent"))
-    plan = make_plan([TABLE])
-    plan.write(tmp_path / "results")
-    for key, node in plan.nodes.items():
-        if node.kind == "surface":
-            save(tmp_path / "results", node.kind, key, fsaverage5("left", "pial"))
-    lengths = Statistic("sulcal lengths", {"sulcus": np.array([1.0])}, ("anna, left, sulcus 1",))
-    save(tmp_path / "results", "statistic", plan.leaves[0].key, lengths)
-    assert main(["export", "sulcal_table", "--to", str(tmp_path / "out"), "--results", str(tmp_path / "results")]) == 0
-    tables = {name for name, row in rows_of(tmp_path / "out").items() if row["kind"] == "statistic"}
-    sides = {f"{side}_anna{suffix}" for side in ("left", "right") for suffix in (".label.gii", ".annot", ".vtk")}
-    assert tables == sides | {"statistic-sulcal_table.csv"}
-    labels, _ = read_labels(tmp_path / "out" / "left_anna.annot")
-    assert len(labels) == 10242 and labels.max() > 15 and 0.2 < (labels > 0).mean() < 0.6
+    assert np.array_equal(keys, sphere.mesh.vertices[:, 2] > 0.5) and names == ("below", sphere.name)
+    assert "left out: further files" in capsys.readouterr().err
 
 
 def test_help_has_two_examples(capsys: pytest.CaptureFixture[str]) -> None:

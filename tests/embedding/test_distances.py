@@ -24,8 +24,8 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.populations.disguise import disguise
 
 
 def embed(surface: Surface, n: int) -> SpectralEmbedding:

@@ -16,8 +16,8 @@ from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.populations.disguise import disguise
 
 
 def by_programme(point: np.ndarray, corners: np.ndarray) -> float:

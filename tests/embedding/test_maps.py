@@ -10,7 +10,6 @@ import pytest
 from surfexp.embedding.functional_map import functional_map, nearest_orthogonal, spectral_icp
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
 from surfexp.embedding.labels import desikan_killiany, label_accuracy, map_metrics
-from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
 from surfexp.embedding.surface_map import (
     Pair,
@@ -27,9 +26,8 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface, Truth
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
+from surfexp.populations.disguise import disguise
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.distances.template_distances import embedded, template_distances
-from surfexp.studies.populations.disguise import disguise
 
 
 def system_of(surface: Surface, k: int = 31):
@@ -157,18 +155,6 @@ def test_geodesic_errors_are_arcs_of_the_sphere() -> None:
         geodesic_errors(mesh, mesh.vertex_areas, true, {"short": true[:3]})
     with pytest.raises(ValueError, match="map 'origin' names vertex"):
         geodesic_errors(mesh, mesh.vertex_areas, true + 5, {"true": true})
-
-
-def test_distances_to_a_template_are_those_of_the_pairs_and_know_a_copy() -> None:
-    template = ellipsoid(3, (1.0, 1.35, 0.7))
-    others = [ellipsoid(3, (1.0, 1.5, 0.6)), disguise(template, scale=5.0)]
-    done: list[int] = []
-    found = template_distances(template, iter(others), 6, exact=True, progress=done.append)
-    pairs = [spectral_distance(embedded(template, 6), embedded(other, 6)).value for other in others]
-    assert found["distance"] == pytest.approx(pairs) and found["distance"][1] < 1e-6 < found["distance"][0]
-    assert (found["lower bound"] <= found["distance"]).all() and not found["doubtful"].any()
-    assert done == [1, 2]
-    assert template_distances(template, [], 6)["distance"].shape == (0,)
 
 
 @pytest.mark.parametrize("symmetric", [True, False])

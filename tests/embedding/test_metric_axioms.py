@@ -19,11 +19,10 @@ from surfexp.embedding.distance_methods import (
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, spectral_embedding
 from surfexp.embedding.sup_inf import block_group, refines, sup_inf_distance
+from surfexp.mesh.shapes.counterexamples import clover, named_revolution
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.studies.distances.counterexamples import clover, named_revolution
-from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
 
 
 def embed(surface: Surface, n: int) -> SpectralEmbedding:
@@ -164,23 +163,6 @@ def test_analytic_embeddings_agree_with_each_other_and_with_elements() -> None:
 
     meshed = embed(ellipsoid(4, (1.0, 1.0, 0.8)), 8)
     assert meshed.values == pytest.approx(spheroid_embedding(0.8, 8).values, rel=0.01)
-
-
-def test_the_norm_grows_by_a_quarter_over_pi_with_the_logarithm() -> None:
-    sizes = [25, 50, 100, 200, 400]
-    for embedding in (torus_embedding(1.1, 400, 12), spheroid_embedding(0.8, 400, 20, 20), sphere_embedding(440, 200)):
-        assert 4 * np.pi * logarithmic_slope(sizes, squared_norms(embedding, sizes)) == pytest.approx(1.0, abs=0.05)
-    tame = torus_embedding(1.1, 400, 12, "biharmonic")
-    norms = squared_norms(tame, sizes)
-    assert norms[-1] / norms[-2] < 1.01
-
-
-def test_brackets_hold_the_distance() -> None:
-    first, second = torus_embedding(1.3, 8, 16), torus_embedding(1.5, 8, 16)
-    lower, upper = distance_brackets(first, second, [2, 4, 8])
-    assert (lower <= upper + 1e-12).all()
-    best = spectral_distance(first.truncated(4), second.truncated(4)).value
-    assert lower[1] <= best <= upper[1] + 1e-12
 
 
 SENSELESS = (

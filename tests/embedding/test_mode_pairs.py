@@ -12,7 +12,7 @@ from surfexp.embedding.mode_pairs import (
 )
 from surfexp.embedding.rigid_alignment import rigid_map
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
-from surfexp.studies.populations.disguise import random_rotation
+from surfexp.populations.disguise import random_rotation
 
 RNG = np.random.default_rng(4)
 WEIGHTS = RNG.uniform(0.5, 2.0, 400)

@@ -14,7 +14,6 @@ from surfexp.io.csv_cells import STARTS_A_FORMULA, cell
 from surfexp.io.text_tables import write_table
 from surfexp.lab.plan.plan import Leaf
 from surfexp.records.table import Row, to_csv
-from surfexp.studies.sulci.sulcal_export import write_length_table
 
 EVIL = "=HYPERLINK(1)"
 
@@ -37,7 +36,6 @@ def test_numbers_stay(number: float) -> None:
 
 def test_every_table_is_written_so(tmp_path: Path) -> None:
     write_csv(tmp_path / "export.csv", (EVIL, "value"), [(EVIL, -0.5)])
-    write_length_table(tmp_path / "lengths.csv", [EVIL], {EVIL: np.array([-0.5])})
     write_table(tmp_path / "maps.csv", {EVIL: np.array([-0.5])})
     row = Row(Leaf("key", "none", {"comparison": EVIL}), {"solver.name": EVIL}, {"gap": -0.5}, 0.0, failure=EVIL)
     (tmp_path / "report.csv").write_text(to_csv([row]))

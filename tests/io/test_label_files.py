@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 import nibabel
@@ -11,10 +10,6 @@ import pytest
 
 from surfexp.io.label_files import label_colors, read_labels, write_labels
 from surfexp.io.map_files import read_mask
-from surfexp.io.vtk import write_vtk
-from surfexp.mesh.shapes.icosphere import icosphere
-from surfexp.studies.sulci.sulcal_export import export_sulci, sulcus_names, write_length_table
-from surfexp.studies.sulci.sulcal_measurement import NamedSulci
 
 NAMES = ("unknown", "central", "calcarine", "superior temporal")
 
@@ -72,30 +67,6 @@ def test_what_cannot_be_written_or_read_is_refused(tmp_path) -> None:
         (tmp_path / name).write_bytes(b"no labels")
         with pytest.raises(ValueError, match="not a readable file of labels"):
             read_labels(tmp_path / name)
-
-
-def test_sulci_are_exported_for_three_tools(tmp_path) -> None:
-    from surfexp.mesh.surface import Surface
-
-    mesh = icosphere(2).mesh
-    own = np.where(mesh.vertices[:, 2] > 0.5, 1, -1)
-    named = NamedSulci(np.arange(len(own)), np.full(len(own), 2), own)
-    files = export_sulci(tmp_path / "out", "left @ anna", Surface(mesh), named, 3)
-    assert [file.name for file in files] == ["left_anna.label.gii", "left_anna.annot", "left_anna.vtk"]
-    for file in files[:2]:
-        labels, names = read_labels(file)
-        assert np.array_equal(labels, own + 1) and names == sulcus_names(3)
-    write_vtk(tmp_path / "left_anna.vtk", mesh, {"own region": own + 1.0, "carried region": np.full(len(own), 3.0)})
-    assert files[2].read_text() == (tmp_path / "left_anna.vtk").read_text()
-
-
-def test_lengths_are_written_with_gaps(tmp_path) -> None:
-    columns = {"sulcus": np.array([1.0, 2.0]), "geodesic": np.array([12.25, np.nan])}
-    write_length_table(tmp_path / "lengths.csv", ("anna, left, sulcus 1", "anna, left, sulcus 2"), columns)
-    with (tmp_path / "lengths.csv").open() as stream:
-        rows = list(csv.reader(stream))
-    assert rows[0] == ["row", "sulcus", "geodesic"]
-    assert rows[1] == ["anna, left, sulcus 1", "1", "12.25"] and rows[2][2] == ""
 
 
 def test_a_label_file_without_names_is_a_mask_by_its_numbers(tmp_path: Path) -> None:

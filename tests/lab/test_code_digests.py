@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from surfexp.lab.plan import code_digests, source_code
-from surfexp.lab.registry.folders import package_folder
+from surfexp.lab.registry.folders import package_folder, shipped_plugin_folders, studies_folder
 from surfexp.lab.registry.loading import load_all
 
 SHOWING = {"lab", "records", "report", "reproduction", "commands"}
@@ -82,7 +83,7 @@ def test_nothing_that_shows_results_is_part_of_any_key() -> None:
     shown = {code_digests.PACKAGE / folder for folder in SHOWING}
     assert all(folder.is_dir() for folder in shown)
     for plugin in registry.PLUGINS.values():
-        if plugin.file.is_relative_to(package_folder("surfexp.plugins")):
+        if {*shipped_plugin_folders()} & {*plugin.file.parents}:
             files, _ = code_digests.code_closure(plugin.file)
             assert not {file for file in files for folder in shown if file.is_relative_to(folder)}, plugin.name
             assert not {code_digests.PACKAGE / "__init__.py", code_digests.PACKAGE / "face.py"} & files, plugin.name
@@ -225,12 +226,23 @@ def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> N
     assert pair not in code_digests.code_closure(pair, "first")[0]
 
 
+def test_what_a_study_imports_of_itself_is_part_of_its_keys() -> None:
+    studies, followed = studies_folder(), 0
+    assert studies is not None
+    for file in studies.glob("*/*.py"):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module:
+                assert file.with_name(f"{node.module}.py") in code_digests.code_closure(file)[0], file
+                followed += 1
+    assert followed
+
+
 def test_every_plugin_of_the_package_is_told_apart() -> None:
     from surfexp.lab.registry import registry
 
     load_all(Path("/nonexistent"))
-    shipped = package_folder("surfexp.plugins")
-    own = [plugin for plugin in registry.PLUGINS.values() if plugin.file.is_relative_to(shipped)]
+    shipped = {*shipped_plugin_folders()}
+    own = [plugin for plugin in registry.PLUGINS.values() if shipped & {*plugin.file.parents}]
     assert len(own) > 100
     for plugin in own:
         assert source_code.needed_by(plugin.file, plugin.function.__qualname__) is not None, plugin.name

@@ -29,7 +29,13 @@ def test_every_folder_of_code_and_every_file_beside_it_is_in_the_wheel() -> None
     setup = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]
     package = ROOT / "surfexp"
     folders = {file.parent.relative_to(ROOT) for file in package.rglob("*.py")}
-    mapped = {"surfexp.plugins", "surfexp.conf", "surfexp.profiles", "snakemake_executor_plugin_surfexp"}
+    mapped = {
+        "surfexp.plugins",
+        "surfexp.conf",
+        "surfexp.profiles",
+        "surfexp_studies",
+        "snakemake_executor_plugin_surfexp",
+    }
     code = {".".join(folder.parts) for folder in folders if "templates" not in folder.parts}
     assert set(setup["packages"]) == code | mapped
     kept = [
@@ -91,6 +97,12 @@ def test_the_wheel_and_a_third_party_package_run_from_an_empty_folder(tmp_path: 
     assert "surface levels" in said and "holds" in said
     # what ships is there and is found: the experiments plan (solvers compile for a minute, so none runs)
     assert "configurations" in call(surfexp, "plan", "experiment=quickstart", cwd=empty)
+    studies = site / "surfexp_studies"
+    shipped, here = ({file.parent.name for file in top.glob("*/__init__.py")} for top in (studies, ROOT / "studies"))
+    assert shipped == here
+    assert list(studies.glob("*/plugins/*/*.py")) and list(studies.glob("*/README.md"))
+    assert not list(studies.glob("*/tests")) and not list(studies.glob("*/examples"))
+    assert "configurations" in call(surfexp, "plan", "experiment=isospectral_drums", cwd=empty)
     assert (empty / "results" / "sphere_distances" / "report.html").exists()
 
     # an edit in a compiled function that the plugin reaches through another module shows in the next run

@@ -88,7 +88,12 @@ def allowed_at_once(file: Path) -> frozenset[str]:
     return declared("") | (declared("figures") if folder in ("figures", "drawings") else frozenset())
 
 
-SOURCES = [*(ROOT / "surfexp").rglob("*.py"), *(ROOT / "plugins").rglob("*.py")]
+SOURCES = [
+    file
+    for folder in ("surfexp", "plugins", "studies")
+    for file in (ROOT / folder).rglob("*.py")
+    if "tests" not in file.relative_to(ROOT).parts
+]
 PICTURES = {"surfexp/tasks/pictures.py", "surfexp/variational/images/pictures.py"}
 
 

@@ -96,6 +96,7 @@ def changed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[list[st
     root = tmp_path_factory.mktemp("edited")
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(ROOT / "surfexp", root / "surfexp", ignore=ignored)
+    shutil.copytree(ROOT / "studies", root / "surfexp_studies", ignore=ignored)
     for part in ("plugins", "conf", "profiles"):
         shutil.copytree(ROOT / part, root / "surfexp" / part, ignore=ignored)
     edits = SHOWN | {file: (file, *edit) for file, edit in COMPUTING.items()}

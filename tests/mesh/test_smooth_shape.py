@@ -15,6 +15,7 @@ from surfexp.mesh.exact_spectra import lattice_spectrum, rectangle_spectrum
 from surfexp.mesh.flat_domain import boundary_angles
 from surfexp.mesh.flat_shapes import Disk, FlatTorus, Polygon, Rectangle
 from surfexp.mesh.noise import add_vertex_noise
+from surfexp.mesh.shapes.counterexamples import named_revolution
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.shapes.fibonacci_sphere import fibonacci_sphere
@@ -28,13 +29,10 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_periodic import periodic_operator, periodic_surface
 from surfexp.operators.fem import fem
 from surfexp.operators.manufactured import manufactured
+from surfexp.populations.atrophy import with_atrophy
+from surfexp.populations.disguise import disguise
+from surfexp.populations.synthetic_subject import synthetic_subject
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
-from surfexp.studies.distances.counterexamples import named_revolution
-from surfexp.studies.populations.atrophy import with_atrophy
-from surfexp.studies.populations.disguise import disguise
-from surfexp.studies.spectra.heat_expansion import heat_expansion
-from surfexp.studies.spectra.spectrum_error import spectrum_error
-from surfexp.studies.sulci.population import synthetic_subject
 
 SHAPED = {
     "sphere": icosphere(2, 1.5),
@@ -128,7 +126,7 @@ def test_renaming_a_surface_changes_no_number(name: str, which: str) -> None:
     for item in (surface, renamed):
         operator = periodic_operator(item) if which == "flat torus" else fem(item.mesh)
         system = surface_spectrum(item, operator, 40, order=2, curved=curved)
-        numbers = [*spectrum_error(item, system, 4, 8).metrics.values(), *heat_expansion(item, system).metrics.values()]
+        numbers = [*system.values, *system.metrics.values(), *item.shape.spectrum(8, "neumann")]
         copy = disguise(item, seed=1)
         rows = np.random.default_rng(0).integers(0, len(item.mesh.vertices), len(item.mesh.vertices))
         numbers += map_metrics(item, replace(copy, name=name + "?"), rows).values()

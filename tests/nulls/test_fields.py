@@ -7,14 +7,13 @@ from scipy.linalg import expm
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
-from surfexp.nulls.fields import field_variance, gaussian_fields
+from surfexp.nulls.fields import _metric_of, _variance, gaussian_fields
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
-from surfexp.studies.nulls.planted_length import widths_along
 
 BALL = fem(icosphere(3).mesh)
 PLACES = icosphere(3).mesh.vertices
-WIDTHS = widths_along(PLACES, 0.6, 3.0, axis=2)
+WIDTHS = 0.6 * 3.0 ** (0.5 * PLACES[:, 2])
 
 
 @pytest.mark.parametrize("width", [0.3, WIDTHS], ids=["stationary", "varying"])
@@ -25,7 +24,7 @@ def test_the_variance_is_that_of_dense_algebra(width: float | np.ndarray) -> Non
     time = 0.25 * (largest / np.sqrt(8 * np.log(2))) ** 2
     root = np.sqrt(mass)
     wanted = (expm(-2.0 * time * stiffness(BALL).toarray() / np.outer(root, root)) / np.outer(root, root)).diagonal()
-    np.testing.assert_allclose(field_variance(BALL, width), wanted, rtol=1e-4)
+    np.testing.assert_allclose(_variance(*_metric_of(BALL, width)), wanted, rtol=1e-4)
 
 
 def test_fields_are_independent_of_variance_1_at_each_vertex() -> None:
@@ -71,16 +70,6 @@ def test_a_varying_width_varies() -> None:
     ring = fem(torus(24, 10).mesh)
     same = gaussian_fields(ring, np.full(ring.vertex_count, 0.5), 2, 1)
     np.testing.assert_allclose(same, gaussian_fields(ring, 0.5, 2, 1), atol=1e-10)
-
-
-def test_widths_grow_as_a_geometric_sequence() -> None:
-    line = np.column_stack([np.zeros(3), [1.0, 2.0, 3.0], [5.0, 0.0, 2.0]])
-    np.testing.assert_allclose(widths_along(line, 10.0, 4.0), [5.0, 10.0, 20.0])
-    np.testing.assert_allclose(widths_along(line, 10.0, 4.0, axis=2)[:2], [20.0, 5.0])
-    np.testing.assert_array_equal(widths_along(line, 10.0, 1.0), 10.0)
-    for width, ratio, axis in ((0.0, 3.0, 1), (1.0, 0.5, 1), (1.0, 3.0, 0)):
-        with pytest.raises(ValueError, match="a positive width, a ratio of 1 or more"):
-            widths_along(line, width, ratio, axis)
 
 
 def test_bad_input_is_refused() -> None:

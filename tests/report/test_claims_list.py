@@ -16,7 +16,9 @@ ROOT = Path(__file__).resolve().parents[2]
 STATEMENTS: list[dict[str, Any]] = yaml.safe_load(
     files("surfexp.reproduction").joinpath("statements.yaml").read_text()
 )["statements"]
-FAULTS: list[dict[str, str]] = yaml.safe_load((ROOT / "mutation" / "claims.yaml").read_text(encoding="utf-8"))["faults"]
+FAULTS: list[dict[str, str]] = yaml.safe_load(
+    (ROOT / "audits" / "mutation" / "claims.yaml").read_text(encoding="utf-8")
+)["faults"]
 KINDS = ("table", "figure", "section", "equation", "theorem", "lemma", "remark", "definition")
 FIGURES = {"1": 3, "2": 8, "3": 1, "4": 8, "5": 10, "6": 8}
 NUMBERED = (

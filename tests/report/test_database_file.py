@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.commands import execution
 from surfexp.lab.plan.plan import Plan
 from surfexp.records import database_file, tracking

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.records.origin import read_origin, write_origin
 from surfexp.report.overview import FILE, is_ours, write_overview
 from surfexp.report.page import write_report

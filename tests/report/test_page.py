@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.contract.metric import Metric, find_metric
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Leaf

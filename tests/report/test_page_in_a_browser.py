@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.report.page import write_report
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from benchmarks.synthetic_results import fill, plan_of
+from audits.benchmarks.synthetic_results import fill, plan_of
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
 from surfexp.records.table import Comparison, Row

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.console import Console
 
-from benchmarks.synthetic_results import fill, plan_of
+from audits.benchmarks.synthetic_results import fill, plan_of
 from surfexp.commands.views import print_tables
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf

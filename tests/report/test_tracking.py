@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 import sqlalchemy
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.synthetic_results import fill, plan_of, sweep
+from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.figures.figure import Figure
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store

@@ -10,7 +10,6 @@ import pytest
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.rectangle import rectangle
-from surfexp.mesh.shapes.strip import strip
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
@@ -19,7 +18,6 @@ from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.level_selection import area_below, choose_levels
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton_length import skeleton_lengths
-from surfexp.studies.skeletons.skeleton_study import eigenmap_skeleton
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh
 COSINE = -np.cos(np.pi * FLAT.vertices[:, 0] / 5.0)
@@ -62,15 +60,6 @@ def test_critical_levels_separate_all_critical_values():
     assert len(levels) == 40
     wide = np.flatnonzero(np.diff(critical) > 0.05 * np.ptp(values))
     assert all(((levels > critical[i]) & (levels < critical[i + 1])).any() for i in wide) and len(wide) >= 3
-
-
-@pytest.mark.parametrize("bend", [0.0, 0.5, 1.2])
-def test_the_length_of_a_developable_strip(bend):
-    mesh = strip(bend=bend, jag=0.25).mesh
-    skeleton, _ = eigenmap_skeleton(mesh)
-    assert skeleton.is_chain
-    assert skeleton.metrics["mean_distance_length"] == pytest.approx(60.0, rel=5e-3)
-    assert skeleton.metrics["geodesic_length"] == pytest.approx(60.0, rel=2.5e-2)
 
 
 def test_unfit_choices_are_refused():

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.shapes.genus_surface import genus_surface
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.rectangle import rectangle
@@ -16,14 +17,14 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.fem import fem
 from surfexp.skeleton.contour_geometry import contour_lengths
-from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
+from surfexp.skeleton.exact_reeb_graph import ReebGraph, exact_reeb_graph
 from surfexp.skeleton.interlevel_components import slab_components
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.level_selection import choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.published_reeb_graph import published_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
-from surfexp.skeleton.simplification import contracted, simplified
+from surfexp.skeleton.simplification import simplified
 from surfexp.skeleton.skeleton import arc_components
 
 SURFACES = {
@@ -33,6 +34,43 @@ SURFACES = {
     3: genus_surface(3, 4500).mesh,
 }
 PATCH = rectangle(31, 21).mesh
+
+
+def contracted(graph: ReebGraph, levels: Floats) -> tuple[Integers, Integers]:
+    """The sampled graph that an exact one contracts to: crossings of arcs with levels, and the pieces between them.
+
+    Returns
+    -------
+    level : (N,) int64
+        The level of each node, -1 for a piece of a slab.
+    arcs : (A, 2) int64
+        One between each crossing and the pieces below and above it: the graph of contours and all slab components.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    # a vertex at a level counts as above it
+    slab = np.searchsorted(levels, graph.values, side="right")
+    low, high = slab[graph.arcs[:, 0]], slab[graph.arcs[:, 1]]
+    crossings = high - low
+    first = np.concatenate([[0], np.cumsum(crossings + 1)])
+    owner = np.repeat(np.arange(len(crossings)), crossings + 1)
+    place = np.arange(first[-1]) - first[owner]
+    count, nodes = int(first[-1]), len(graph.values)
+    # an arc's first and last piece hang on its end nodes
+    joins = [
+        np.stack([first[:-1], count + graph.arcs[:, 0]], axis=1),
+        np.stack([first[1:] - 1, count + graph.arcs[:, 1]], 1),
+    ]
+    pairs = np.concatenate(joins)
+    matrix = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count + nodes, count + nodes))
+    pieces, piece = connected_components(matrix, directed=False)
+    crossed = np.flatnonzero(place < crossings[owner])
+    level = np.concatenate([low[owner[crossed]] + place[crossed], np.full(pieces, -1)])
+    number = np.arange(len(crossed))
+    below = np.stack([len(crossed) + piece[crossed], number], axis=1)
+    above = np.stack([number, len(crossed) + piece[crossed + 1]], axis=1)
+    return level.astype(np.int64), np.concatenate([below, above]).astype(np.int64)
 
 
 def smooth_function(mesh: TriangleMesh, seed: int, waves: int = 4):

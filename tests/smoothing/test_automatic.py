@@ -12,10 +12,8 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, AutomaticSmoothing, automatic_smoothing
 from surfexp.smoothing.methods import MethodName, Methods
-from surfexp.studies.smoothing.automatic_trial import automatic_trial
 from surfexp.tasks import automatic_denoising
 from surfexp.tasks.denoising import denoise
-from surfexp.variational.image import Image
 
 BALL = icosphere(3).mesh
 OPERATOR = fem(BALL)
@@ -109,19 +107,3 @@ def test_an_end_of_the_grid_is_said(at_the_end: bool, monkeypatch: pytest.Monkey
     result = denoise(Surface(BALL), X, method="auto")
     assert any("an end of its grid" in note for note in result.notes) == at_the_end
     assert np.array_equal(result.values, X)
-
-
-def test_the_trial_is_that_of_the_automatic_choice() -> None:
-    truth = 3.0 * (X > 0)
-    rough = truth + np.random.default_rng(2).standard_normal(len(X))
-    trial = automatic_trial(BALL, OPERATOR, Image(np.column_stack([rough, -rough]), clean=np.column_stack([truth] * 2)))
-    found = automatic_smoothing(BALL, OPERATOR, rough)
-    error = np.sqrt(OPERATOR.mass @ (found.values - truth) ** 2 / OPERATOR.mass.sum())
-    assert trial.metrics["rmse"] == pytest.approx(error)
-    assert [trial.metrics[f"chosen {name}"] for name in CANDIDATES] == [
-        float(name == found.method) for name in CANDIDATES
-    ]
-    least = min(trial.metrics[f"rmse {name}"] for name in CANDIDATES)
-    assert trial.metrics["regret"] == pytest.approx(error / least) and trial.metrics["regret"] >= 1.0
-    with pytest.raises(ValueError, match="no truth"):
-        automatic_trial(BALL, OPERATOR, Image(rough))

@@ -9,7 +9,6 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.geodesic_gaussian import geodesic_gaussian, near_distances
 from surfexp.smoothing.methods import heat_time
-from surfexp.studies.smoothing.carried_over_mask import iterations_as_wide
 from surfexp.variational.surface_flows import heat_flow
 
 FLAT = rectangle(41, 41, 2.0, 2.0).mesh
@@ -61,20 +60,6 @@ def test_constants_stay_and_nothing_leaves_its_range() -> None:
     assert geodesic_gaussian(distances, operator.mass, np.ones((41 * 41, 2)), 0.3) == pytest.approx(1.0)
     values = np.random.default_rng(0).uniform(-1.0, 1.0, 41 * 41)
     assert np.abs(geodesic_gaussian(distances, operator.mass, values, 0.3)).max() < 1.0
-
-
-def test_iterations_of_the_neighbour_mean_are_as_wide_as_they_should() -> None:
-    """The variance of an impulse on a plane after that many means is that of the Gaussian, by its second moment."""
-    from surfexp.smoothing.neighbour_mean import neighbour_mean
-
-    width = 0.4
-    steps = iterations_as_wide(FLAT, width)
-    impulse = np.zeros(41 * 41)
-    centre = int(np.argmin(((FLAT.vertices[:, :2] - 1.0) ** 2).sum(axis=1)))
-    impulse[centre] = 1.0
-    spread = neighbour_mean(FLAT.faces, impulse, steps)
-    moment = float(spread @ ((FLAT.vertices - FLAT.vertices[centre]) ** 2).sum(axis=1) / spread.sum())
-    assert moment == pytest.approx(2.0 * width**2 / (8.0 * np.log(2.0)), rel=0.1)
 
 
 def test_refusals() -> None:

@@ -10,7 +10,7 @@ from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.spectrum.eigensolver import eigenpairs
-from surfexp.spectrum.heat_kernel import diffuse, heat_embedding, heat_kernel, heat_kernel_signature, heat_times
+from surfexp.spectrum.heat_kernel import diffuse, heat_kernel, heat_kernel_signature
 from surfexp.spectrum.heat_trace import (
     corner_constant,
     hear_geometry,
@@ -93,7 +93,7 @@ def test_trace_of_a_computed_spectrum_with_weyls_tail() -> None:
     assert abs(heat_trace(system.values, times)[0] / exact[0] - 1.0) > 0.05
 
 
-def test_kernel_diffusion_and_embedding() -> None:
+def test_kernel_diffusion_and_signature() -> None:
     mesh = icosphere(3).mesh
     elements = surface_elements(mesh)
     system = eigenpairs(elements.stiffness, elements.mass, 100)
@@ -111,16 +111,8 @@ def test_kernel_diffusion_and_embedding() -> None:
     # P_1 decays like exp(-2 t) on the sphere
     height = mesh.vertices[:, 2]
     assert np.allclose(diffuse(system, elements.mass, height, 0.5), np.exp(-1.0) * height, atol=5e-3)
-    # distances of the embedding are diffusion distances; the signature is the diagonal
-    points = heat_embedding(system, 0.3)
-    assert points.shape == (642, 99)
-    i, j = rng.integers(642, size=(2, 50))
-    squared = ((points[i] - points[j]) ** 2).sum(axis=1)
-    diagonal = kernel.diagonal()
-    assert np.allclose(squared, diagonal[i] + diagonal[j] - 2.0 * kernel[i, j], atol=1e-10)
-    assert np.allclose(heat_kernel_signature(system, np.array([0.3]))[:, 0], diagonal, atol=1e-12)
-    times = heat_times(system, 5)
-    assert times[-1] / times[0] == pytest.approx(system.values[-1] / system.values[1])
+    # the signature is the diagonal
+    assert np.allclose(heat_kernel_signature(system, np.array([0.3]))[:, 0], kernel.diagonal(), atol=1e-12)
 
 
 def test_unfit_times_and_conditions_are_refused() -> None:
@@ -134,14 +126,3 @@ def test_unfit_times_and_conditions_are_refused() -> None:
         hear_geometry(system.values)
     with pytest.raises(ValueError, match="choose closed"):
         heat_trace_expansion(np.ones(1), 1.0, condition="open")
-
-
-def test_times_of_the_signature_run_from_the_last_to_the_first_eigenvalue() -> None:
-    surface = icosphere(2)
-    elements = surface_elements(surface.mesh)
-    system = eigenpairs(elements.stiffness, elements.mass, 12)
-    times = heat_times(system, 5)
-    # the slowest mode has fallen to 10^-4 at the last time, the fastest at the first
-    assert np.exp(-system.values[1] * times[-1]) == pytest.approx(1e-4)
-    assert np.exp(-system.values[-1] * times[0]) == pytest.approx(1e-4)
-    assert np.ptp(np.diff(np.log(times))) < 1e-12

@@ -21,13 +21,10 @@ from surfexp.spectrum.nodal_domains import (
     courant_violations,
     filtered_nodal_counts,
     nodal_counts,
-    nodal_domain_labels,
     nodal_thresholds,
 )
 from surfexp.spectrum.nodal_graph import element_faces, nodal_graph
 from surfexp.spectrum.soft_nodal_counts import soft_nodal_counts
-from surfexp.studies.drums.isospectral_drums import RIGHT_ISOSCELES, drum_elements, glued_drum, tile_mesh
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 WIDTH = float(np.sqrt(2.1))
 
@@ -88,16 +85,6 @@ def system_is_radial(value: float) -> bool:
     return bool(np.isclose(np.sqrt(value), jn_zeros(0, 8), rtol=1e-12).any())
 
 
-def test_gordon_webb_wolpert_drums_are_told_apart_at_the_fourth_mode() -> None:
-    counts = []
-    for gluing in (GORDON_WEBB_WOLPERT.first, GORDON_WEBB_WOLPERT.second):
-        drum = glued_drum(gluing, RIGHT_ISOSCELES, *tile_mesh(14, 2.0))
-        counts.append(counted(drum_elements(drum, 2), 10)[2])
-    first, second = counts
-    assert first[:5].tolist() == [1, 2, 3, 3, 4] and second[:5].tolist() == [1, 2, 3, 4, 4]
-    assert first[8:].tolist() == second[8:].tolist() == [7, 4]
-
-
 def test_counts_and_labels_equal_scipy() -> None:
     mesh = icosphere(3).mesh
     graph = nodal_graph(mesh.faces, 642)
@@ -107,9 +94,8 @@ def test_counts_and_labels_equal_scipy() -> None:
         same = (functions[mesh.edges[:, 0], c] > 0) == (functions[mesh.edges[:, 1], c] > 0)
         kept = mesh.edges[same]
         adjacency = coo_array((np.ones(len(kept)), (kept[:, 0], kept[:, 1])), shape=(642, 642))
-        number, labels = connected_components(adjacency, directed=False)
+        number, _ = connected_components(adjacency, directed=False)
         assert counts[c] == number
-        assert np.array_equal(nodal_domain_labels(graph, functions[:, c]), labels)
 
 
 def test_courants_bound() -> None:

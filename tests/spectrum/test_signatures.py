@@ -15,7 +15,7 @@ from surfexp.operators.fem import fem
 from surfexp.spectrum.brainprint import brainprint
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.pointwise_signatures import global_point_signature, wave_kernel_signature
-from surfexp.spectrum.shape_dna import shape_dna, weighted_distance
+from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 
 
@@ -42,13 +42,6 @@ def test_weyl_limit_of_slope_and_area() -> None:
     sphere = np.array([degree * (degree + 1.0) for degree in range(40) for _ in range(2 * degree + 1)])
     assert shape_dna(sphere, "slope")[-1] == pytest.approx(len(sphere) - 1, rel=0.05)
     assert shape_dna(sphere, "area", 4.0 * np.pi, reweighted=True)[-1] == pytest.approx(4.0 * np.pi, rel=0.05)
-
-
-def test_weighted_distance_is_a_metric_with_the_published_weights() -> None:
-    a, b, c = np.random.default_rng(0).normal(size=(3, 30))
-    assert weighted_distance(a, b) <= weighted_distance(a, c) + weighted_distance(c, b)
-    assert weighted_distance(np.array([1.0, 4.0]), np.array([0.0, 0.0]), alpha=2.0) == pytest.approx(np.sqrt(2.0))
-    assert weighted_distance(a, b, alpha=0.0) == pytest.approx(np.linalg.norm(a - b))
 
 
 def test_point_signatures_keep_the_symmetry_of_the_ellipsoid() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp.contract.member import Member
 from surfexp.mesh.exact_spectra import disk_spectrum, lattice_spectrum, rectangle_spectrum, sphere_spectrum
 from surfexp.mesh.flat_shapes import Rectangle
 from surfexp.mesh.shapes.disk import disk
@@ -20,10 +19,6 @@ from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.nodal_signature import counted_domains, courant_report, trusted_modes, zero_modes
 from surfexp.spectrum.spectral_signature import spectral_signature, spectrum_part
 from surfexp.spectrum.surface_spectrum import elements_of, graph_of, surface_spectrum
-from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
-from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
-from surfexp.studies.spectra.heat_expansion import heat_expansion
-from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
 
 
 def spectrum(surface: Surface, count: int = 25, **options):
@@ -146,48 +141,6 @@ def test_counts_on_quadratic_elements_agree_with_linear_ones_at_low_modes() -> N
     assert trusted_modes(2500) == 25
     with pytest.raises(ValueError, match="choose one of raw"):
         counted_domains(system, graph_of(operator, system), "best")  # type: ignore[arg-type]
-
-
-def test_orders_of_convergence_are_fitted() -> None:
-    found = {}
-    for name, options in (("P1", {}), ("P2", {"order": 2}), ("P2 curved", {"order": 2, "curved": True})):
-        for level in (2, 3):
-            surface = icosphere(level)
-            found[Member(f"{name}, {level}", name, level=level)] = spectrum_error(surface, spectrum(surface, **options))
-    orders = convergence_orders(found).metrics
-    assert orders["order P1"] == pytest.approx(2.0, abs=0.2)
-    assert orders["order P2"] == pytest.approx(2.0, abs=0.2)
-    assert orders["order P2 curved"] == pytest.approx(4.0, abs=0.3)
-    assert convergence_orders(found).rows == ("2", "3")
-    one, two, three = list(found.values())[:3]
-    with pytest.raises(ValueError, match="'P1' has no level"):
-        convergence_orders({Member("P1"): one})
-    with pytest.raises(ValueError, match="the same for all"):
-        convergence_orders(
-            {Member("a", level=2): one, Member("b", "c", level=2): two, Member("d", "c", level=3): three}
-        )
-
-
-def test_heat_trace_tells_the_corrected_expansion_from_the_published_one() -> None:
-    sphere = icosphere(3)
-    closed = heat_expansion(sphere, spectrum(sphere, 120, order=2, curved=True)).metrics
-    assert closed["corrected_error"] < 0.01 < closed["published_error"]
-    assert closed["constant_heard"] == pytest.approx(1 / 3, abs=0.1)
-    free = heat_expansion(rectangle(25, 17), spectrum(rectangle(25, 17), 300, order=3)).metrics
-    assert free["corrected_error"] < 0.005 < 0.1 < free["published_error"]
-    assert free["boundary_ratio"] == pytest.approx(1.0, abs=0.05) and free["constant"] == pytest.approx(0.25)
-
-
-def test_drums_side_by_side() -> None:
-    found = compare_drums(GORDON_WEBB_WOLPERT, TILE_SHAPES["right_isosceles"], 10, 10)
-    assert found.spectral_difference < 1e-12 and found.differing_modes[0] == 4
-    assert found.outline_difference > 0.1
-    one, two = eigen_values(found.first), eigen_values(found.second)
-    assert np.array_equal(np.round(one, 9), np.round(two, 9))
-
-
-def eigen_values(system) -> np.ndarray:
-    return system.values
 
 
 def test_inertia_equals_dense_counts_at_random_shifts_on_a_clustered_spectrum() -> None:

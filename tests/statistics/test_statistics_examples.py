@@ -23,10 +23,3 @@ def test_classify_bodies(capsys: pytest.CaptureFixture[str]) -> None:
 def test_brain_structure(capsys: pytest.CaptureFixture[str]) -> None:
     first, second = printed("brain_structure", capsys)
     assert first.startswith("genus 0") and second.endswith("complete: True")
-
-
-def test_recognise_again(capsys: pytest.CaptureFixture[str]) -> None:
-    first, second = printed("recognise_again", capsys)
-    share, low = float(first.split()[0]), float(first.split()[6])
-    assert 0.1 < low < share < 1.0 and first.endswith("median reliability 0.86")
-    assert second.startswith("ARPACK differs by ") and float(second.split()[-1]) < 1e-8

@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.__main__ import SECTIONS
-from benchmarks.convex_problem import Excess, Recorded
-from benchmarks.line import Line, race
-from benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
-from benchmarks.record import Record, load, save
-from benchmarks.table import page
+from audits.benchmarks.__main__ import SECTIONS
+from audits.benchmarks.convex_problem import Excess, Recorded
+from audits.benchmarks.line import Line, race
+from audits.benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
+from audits.benchmarks.record import Record, load, save
+from audits.benchmarks.table import page
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
 from surfexp.variational.separable_quadratic import convex_chan_vese
@@ -80,7 +80,7 @@ def test_both_sides_run_in_turn_and_equally_often(monkeypatch: pytest.MonkeyPatc
     (ours, cost), (theirs, their_cost) = measure_both(lambda: order.append("ours"), lambda: order.append("theirs"), 3)
     assert order == ["theirs", "ours"] * 3 and cost.runs == their_cost.runs == 3
     assert ours is None and theirs is None
-    monkeypatch.setattr("benchmarks.measurement.LONG", -1.0)
+    monkeypatch.setattr("audits.benchmarks.measurement.LONG", -1.0)
     assert [side[1].runs for side in measure_both(lambda: 1, lambda: 2, 3)] == [1, 1]
     assert measure(lambda: 5, 3) == (5, measure(lambda: 5, 3)[1]) or measure(lambda: 5, 3)[1].runs == 1
 
@@ -154,7 +154,7 @@ def test_excess_of_a_half_sphere_on_every_scale() -> None:
 @pytest.mark.parametrize("group", GROUPS)
 def test_every_group_runs_at_small_sizes(group: str) -> None:
     """In a process of its own, which sets its threads before it imports; rivals that are not installed are said so."""
-    command = [sys.executable, "-m", "benchmarks", "--quick", group]
+    command = [sys.executable, "-m", "audits.benchmarks", "--quick", group]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr[-2000:]
     assert "asked" in run.stdout

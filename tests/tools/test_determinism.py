@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from torture.determinism import Run, compared
+from audits.torture.determinism import Run, compared
 
 ROW = {"comparison": "a", "leaf": "b", "solver.name": "pd", "operator.name": "fem", "energy": "100.0", "gap": "0.5",
        "converged": "1.0", "failure": "", "seconds": "3.0", "rmse": "2.0", "relative_gap": ""}  # fmt: skip

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from audits.torture.fuzzing import CORPUS, EXPERIMENT, judged, targets
+from audits.torture.laboratory import EXPERIMENT as SMALL
+from audits.torture.sound_files import write_sound_files
 from surfexp.lab.errors import UserError
-from torture.fuzzing import CORPUS, EXPERIMENT, judged, targets
-from torture.laboratory import EXPERIMENT as SMALL
-from torture.sound_files import write_sound_files
 
 INPUTS = sorted(file for file in CORPUS.glob("*/*") if file.is_file())
 

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from mutation import claims, claims_page
-from mutation.change import Change, source_of
-from mutation.import_graph import distances, imported_files, numeric_tests
-from mutation.places import changes
-from mutation.record import explanations, page
-from mutation.sample import numerics, sample
-from mutation.selection import selected
-from mutation.stale_functions import stale_functions
+from audits.mutation import claims, claims_page
+from audits.mutation.change import Change, source_of
+from audits.mutation.import_graph import distances, imported_files, numeric_tests
+from audits.mutation.places import changes
+from audits.mutation.record import explanations, page
+from audits.mutation.sample import numerics, sample
+from audits.mutation.selection import selected
+from audits.mutation.stale_functions import stale_functions
 
 ROOT = Path(__file__).resolve().parents[2]
 MODULE = b'''"""Text with 1 + 2."""
@@ -92,7 +92,7 @@ def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain
     compiled = first("surfexp/operators/fem.py", b"0.5 * twice_area", b"twice_area")
     stale = stale_functions(compiled)
     assert stale and {module for module, _ in stale} == {"surfexp.operators.fem"}
-    plain = first("surfexp/studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
+    plain = first("studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
     assert stale_functions(plain) == frozenset()
     heap = first("surfexp/skeleton/fast_marching.py", b"(i - 1) // 2", b"i // 2")
     assert {name for _, name in stale_functions(heap)} == {"_rise", "_march"}
@@ -100,15 +100,15 @@ def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain
 
 @pytest.mark.slow
 def test_tests_are_chosen_by_imports_and_seconds() -> None:
-    path = ROOT / "surfexp" / "studies" / "skeletons" / "positionwise_comparison.py"
-    near = ROOT / "tests" / "skeleton" / "test_width_test.py"
+    path = ROOT / "studies" / "skeletons" / "positionwise_comparison.py"
+    near = ROOT / "studies" / "skeletons" / "tests" / "test_width_test.py"
     assert near in numeric_tests() and distances(near)[path] == 1
     examples = imported_files(ROOT / "tests" / "mesh" / "test_mesh_examples.py")
     assert ROOT / "docs" / "inside" / "painted_cup.py" in examples
     name = near.relative_to(ROOT).as_posix()
     seconds = {f"{name}::slow": 5.0, f"{name}::quick": 0.1, f"{name}::red": 0.1, f"{name}::hours": 3000.0}
     baseline = {name: {"seconds": seconds, "failed": [f"{name}::red: assert"]}}
-    change = first("surfexp/studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
+    change = first("studies/skeletons/positionwise_comparison.py", b"ddof=1", b"ddof=0")
     assert list(selected(change, baseline, 30.0).seconds) == [f"{name}::quick", f"{name}::slow"]
     assert list(selected(change, baseline, 1.0).seconds) == [f"{name}::quick"]
 
@@ -179,7 +179,7 @@ def test_what_a_fault_did_to_each_claim(tmp_path: Path, monkeypatch: pytest.Monk
 @pytest.mark.slow
 def test_planted_faults_are_seen_by_tests_in_memory() -> None:
     """A module named *_test.py, which pytest would import itself, and a compiled function among them."""
-    command = [sys.executable, "-m", "mutation", "planted", "Welch", "area of the parallelogram"]
+    command = [sys.executable, "-m", "audits.mutation", "planted", "Welch", "area of the parallelogram"]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
     assert run.stdout.count("killed") == 2

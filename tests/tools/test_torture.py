@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from torture import groups as torture_page
-from torture.bad_files import contents, surfaces
-from torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear, in_a_child
-from torture.kills import _below
-from torture.sound_files import write_sound_files
+from audits.torture import groups as torture_page
+from audits.torture.bad_files import contents, surfaces
+from audits.torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear, in_a_child
+from audits.torture.kills import _below
+from audits.torture.sound_files import write_sound_files
 
 
 def refuse(text: str) -> tuple[str, str]:

@@ -14,9 +14,9 @@ from surfexp.commands.exporting import matrices as matrices
 from surfexp.commands.exporting import on_surfaces as on_surfaces
 from surfexp.commands.exporting import tables as tables
 from surfexp.commands.exporting.folder import ExportFolder
+from surfexp.commands.exporting.further_files import write_further_files
 from surfexp.commands.exporting.names import Named, names_of
 from surfexp.commands.exporting.selection import surfaces_of
-from surfexp.commands.exporting.sulci import TABLE, write_sulci
 from surfexp.commands.exporting.writers import Place, maps_of, write
 from surfexp.lab.errors import DamagedResult
 from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
@@ -86,11 +86,10 @@ class Export:
         place.surface = self.surface(on) if on else None
         write(result, place)
         self.carried.setdefault(on, {}).update({f"{place.stem} {part}".rstrip(): one for part, one in maps.items()})
-        if (node.kind, node.plugin) == TABLE:
-            try:
-                write_sulci(self.plan, node, self.results, place)
-            except DamagedResult as error:
-                missing = f"labels of sulci, {self._left_out(node, str(error))}"
+        try:
+            write_further_files(self.plan, node, self.results, place)
+        except DamagedResult as error:
+            missing = f"further files, {self._left_out(node, str(error))}"
         for file in place.files:
             self._certify(file, node, named, found, result, place.carried)
             facts = {"kind": node.kind, "plugin": node.plugin, "comparison": named.comparison, "label": named.label}

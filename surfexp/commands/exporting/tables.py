@@ -18,7 +18,6 @@ from surfexp.statistics.classification import Classification
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.point_embedding import PointEmbedding
 from surfexp.statistics.statistic import Statistic
-from surfexp.studies.sulci.length_table import KEYS
 
 MEMBER = ("label", "class", "group")
 
@@ -65,8 +64,7 @@ def _classification(found: Classification, place: Place) -> None:
 def _statistic(statistic: Statistic, place: Place) -> None:
     """Its table, a value with its interval in three columns; without a table its metrics."""
     columns: dict[str, Any] = {}
-    for name in sorted(statistic.columns, key=lambda name: name not in KEYS):
-        values = statistic.columns[name]
+    for name, values in statistic.columns.items():
         parts = np.asarray(values).reshape(len(values), -1).T
         columns |= {name + end: part for end, part in zip(("", ", low", ", high"), parts, strict=False)}
     if not columns:

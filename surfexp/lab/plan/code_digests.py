@@ -10,6 +10,7 @@ from pathlib import Path
 from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.plan.source_code import root_package
 from surfexp.lab.plan.source_facts import NOTHING, source_facts
+from surfexp.lab.registry.folders import STUDIES, shipped_sources
 from surfexp.lab.registry.installed import package_version
 
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
@@ -25,7 +26,7 @@ def code_closure(file: Path, function: str = "") -> tuple[frozenset[Path], froze
     With the name of a function, only what that function needs of the file counts; the file itself is then among the files only
     if all of it counts. The framework is left out (it moves results, it does not make them), and so is the standard library.
     """
-    own = frozenset({"surfexp", root_package(file)})
+    own = frozenset({PACKAGE.name, STUDIES, root_package(file)})
     facts = source_facts(file, function)
     start, packages = (frozenset({file}), frozenset[str]()) if facts.whole else _reached(facts.imports, own)
     files, waiting = set[Path](), set(start)
@@ -77,14 +78,14 @@ def data_digest(package: str) -> str:
 
 
 def edited_since(moment: float, file: Path) -> bool:
-    """Whether a plugin file or any module of this package is newer than a moment, and so the code may have changed."""
-    return any(path.stat().st_mtime > moment for path in (file, *PACKAGE.rglob("*.py")))
+    """Whether a plugin file or any module that ships beside it is newer than a moment, and so the code may have changed."""
+    return any(path.stat().st_mtime > moment for path in (file, *shipped_sources()))
 
 
 @cache
 def compiled_state(file: Path = PACKAGE / "__init__.py") -> str:
     """Name of the compilation cache of a plugin: digest of every module that compiles and of all that it imports."""
-    compiled = [path for path in (*PACKAGE.rglob("*.py"), *code_closure(file)[0]) if source_facts(path).compiles]
+    compiled = [path for path in (*shipped_sources(), *code_closure(file)[0]) if source_facts(path).compiles]
     meanings = sorted({source_facts(part).meaning for path in compiled for part in code_closure(path)[0]})
     return digest([meanings, package_version("numba"), sys.version_info[:2]])
 

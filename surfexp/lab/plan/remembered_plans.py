@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfexp.lab.registry.catalogue import code_state
-from surfexp.lab.registry.folders import installed_packages, package_folder
+from surfexp.lab.registry.folders import installed_packages, package_folder, shipped_plugin_folders
 from surfexp.lab.user_cache import fault, user_cache
 
 if TYPE_CHECKING:
@@ -102,10 +102,10 @@ def _unchanged(plan: Plan, kept: Mapping[str, Any]) -> bool:
     from surfexp.lab.digests import file_digest
     from surfexp.lab.plan.code_digests import code_digest, data_digest
 
-    own = package_folder("surfexp.plugins")
+    own = shipped_plugin_folders()
     codes = {(Path(node.file), node.function): node.code for node in plan.nodes.values()}
     return (
         all(file_digest(Path(path).resolve()) == known for path, known in kept["files"].items())
         and all(data_digest(package) == known for package, known in kept["packages"].items())
-        and all(code_digest(*method) == code for method, code in codes.items() if own not in method[0].parents)
+        and all(code_digest(*method) == code for method, code in codes.items() if not {*own} & {*method[0].parents})
     )

@@ -9,11 +9,13 @@ DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 SHOWING = {"__repr__", "_repr_html_", "_summary"}
 # calls whose arguments describe, but for those named here: a metric's bound decides what counts as converged
 DESCRIBING = {"Metric": {"bound"}}
+# what of a plugin's registration has no part in its result
+OF_EXPORTS = {"exports"}
 DESCRIPTIONS = {"description", "title", "examples"}
 
 
 def without_shown_text(tree: ast.Module) -> ast.Module:
-    """Leave out docstrings, descriptions of options and metrics, texts of errors, and how results show themselves.
+    """Leave out docstrings, descriptions of options and metrics, what is exported, texts of errors, how results show themselves.
 
     Parameters
     ----------
@@ -50,4 +52,6 @@ class _WithoutShownText(ast.NodeTransformer):
             node.keywords = [part for part in node.keywords if part.arg in DESCRIBING[name]]
         elif name == "Field":
             node.keywords = [part for part in node.keywords if part.arg not in DESCRIPTIONS]
+        elif name == "register":
+            node.keywords = [part for part in node.keywords if part.arg not in OF_EXPORTS]
         return self.generic_visit(node)

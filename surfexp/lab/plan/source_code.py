@@ -12,6 +12,7 @@ from pathlib import Path
 
 from surfexp.face import FACE
 from surfexp.lab.plan.shown_text import without_shown_text
+from surfexp.lab.registry.folders import STUDIES, studies_folder
 
 FUNCTION = ast.FunctionDef | ast.AsyncFunctionDef
 DEFINITION = FUNCTION | ast.ClassDef
@@ -209,6 +210,6 @@ def dotted(file: Path) -> list[str]:
     """The dotted name of a file's module, in parts."""
     parts, folder = ([] if file.name == "__init__.py" else [file.stem]), file.parent
     while (folder / "__init__.py").exists():
-        parts.insert(0, folder.name)
+        parts.insert(0, STUDIES if folder == studies_folder() else folder.name)
         folder = folder.parent
     return parts

@@ -11,7 +11,13 @@ from typing import Any
 
 from surfexp.lab.registry.contained import contained_description
 from surfexp.lab.registry.described import Described
-from surfexp.lab.registry.folders import entry_points_of_plugins, installed_packages, package_folder, plugin_files
+from surfexp.lab.registry.folders import (
+    entry_points_of_plugins,
+    installed_packages,
+    package_folder,
+    plugin_files,
+    shipped_sources,
+)
 from surfexp.lab.registry.installed import installed_state
 from surfexp.lab.store.kinds import stage_kind
 from surfexp.lab.user_cache import Memory
@@ -66,8 +72,8 @@ def _read(known: dict[str, Any]) -> Catalogue:
 @cache
 def code_state(working_folder: Path) -> str:
     """Digest of the names, sizes and times of all files that plugins are made of, and of what is installed."""
-    packages = [Path(__file__).resolve().parents[2], *map(package_folder, installed_packages())]
-    files = [*plugin_files(working_folder), *(file for package in packages for file in _python_files(str(package)))]
+    installed = (file for name in installed_packages() for file in _python_files(str(package_folder(name))))
+    files = [*plugin_files(working_folder), *shipped_sources(), *installed]
     facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
     points = sorted(f"{point.name}={point.value}" for point in entry_points_of_plugins())
     return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()

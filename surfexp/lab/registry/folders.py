@@ -1,4 +1,4 @@
-"""Where plugins and configurations lie: beside the package, in installed packages, in the working folder."""
+"""Where plugins and configurations lie: beside the package, in its studies, in installed packages, in the working folder."""
 
 from __future__ import annotations
 
@@ -7,12 +7,22 @@ from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 
+STUDIES = "surfexp_studies"
+
 
 def package_folder(name: str) -> Path:
     """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
     specification = importlib.util.find_spec(name)
     assert specification is not None and specification.submodule_search_locations  # noqa: S101, narrows a type
     return Path(next(iter(specification.submodule_search_locations))).resolve()
+
+
+@cache
+def studies_folder() -> Path | None:
+    """Folder of the studies that ship beside the code, one folder a study; None where they were left out."""
+    specification = importlib.util.find_spec(STUDIES)
+    places = list(specification.submodule_search_locations or ()) if specification else []
+    return Path(places[0]).resolve() if places and Path(places[0]).is_dir() else None
 
 
 @cache
@@ -26,9 +36,21 @@ def installed_packages() -> list[str]:
     return sorted({point.module.split(".")[0] for point in entry_points_of_plugins()})
 
 
+def shipped_plugin_folders() -> list[Path]:
+    """The folders of plugins that ship beside the code: the package's own, and one of each study that brings plugins."""
+    studies = studies_folder()
+    return [package_folder("surfexp.plugins"), *(sorted(studies.glob("*/plugins")) if studies else ())]
+
+
+def shipped_sources() -> list[Path]:
+    """Every Python file that ships beside the plugins: those of the package and of its studies."""
+    package, studies = Path(__file__).resolve().parents[2], studies_folder()
+    return sorted(file for folder in (package, studies) if folder for file in folder.rglob("*.py"))
+
+
 def plugin_files(working_folder: Path) -> list[Path]:
-    """Plugin files of the package and of `plugins/` in a working folder, one folder a kind."""
-    folders = dict.fromkeys((package_folder("surfexp.plugins"), (working_folder / "plugins").resolve()))
+    """Plugin files of the package, of its studies, and of `plugins/` in a working folder, one folder a kind."""
+    folders = dict.fromkeys((*shipped_plugin_folders(), (working_folder / "plugins").resolve()))
     files = (file for folder in folders for file in sorted(folder.glob("*/*.py")))
     return [file for file in files if file.name != "__init__.py"]
 

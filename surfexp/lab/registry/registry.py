@@ -33,6 +33,7 @@ class Plugin:
     file: Path
     accepts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     metrics: Mapping[str, Metric] = field(default_factory=dict)
+    exports: Callable[..., Iterable[tuple[str, Path]]] | None = None
 
     @cached_property
     def paths(self) -> frozenset[str]:
@@ -62,6 +63,7 @@ def register(
     accepts: Mapping[str, Iterable[str]] | None = None,
     metrics: Mapping[str, Metric] | None = None,
     defaults_of: Callable[..., Any] | Iterable[Callable[..., Any]] = (),
+    exports: Callable[..., Iterable[tuple[str, Path]]] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register a function as plugin `name` of stage `kind`.
 
@@ -71,6 +73,8 @@ def register(
     function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
+    `exports` writes further files when a result is exported: it is called with a folder and with what the function is
+    called with, and yields the name of each file, from which that in the export is made, and its path.
     """
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -86,7 +90,9 @@ def register(
             sources = (defaults_of,) if callable(defaults_of) else tuple(defaults_of)
             options, inputs = options_and_inputs(where, function, sources)
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
-            PLUGINS[kind, name] = Plugin(kind, name, function, options, inputs, file, restrictions, metrics or {})
+            PLUGINS[kind, name] = Plugin(
+                kind, name, function, options, inputs, file, restrictions, metrics or {}, exports
+            )
         return function
 
     return decorate

@@ -21,9 +21,11 @@ from numba.core.dispatcher import Dispatcher
 from numba.core.registry import cpu_target
 from numba.core.sigutils import normalize_signature
 
+from surfexp.lab.registry.folders import STUDIES
+
 LONGEST = 1 << 17
 # what starts no thread when it is imported: a process that forks has one
-PACKAGES = frozenset({"surfexp", "numpy", "scipy", "matplotlib", "PIL"})
+PACKAGES = frozenset({"surfexp", STUDIES, "numpy", "scipy", "matplotlib", "PIL"})
 
 
 class Recall:

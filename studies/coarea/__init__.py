@@ -1,0 +1,1 @@
+"""Do total variation and perimeters of a mesh converge? The theorems of section 2.2."""

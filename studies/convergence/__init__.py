@@ -1,0 +1,1 @@
+"""How fast do eigenvalues, eigenfunctions and spectral distances converge?"""

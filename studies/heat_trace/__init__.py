@@ -1,0 +1,1 @@
+"""What is heard in the heat trace? Area, boundary and topology from finitely many eigenvalues."""

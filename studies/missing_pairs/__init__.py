@@ -1,0 +1,1 @@
+"""Does the usual eigensolver return all the lowest eigenpairs?"""

@@ -1,0 +1,1 @@
+"""How do nodal counts grow, and are they the same on another mesh?"""

@@ -1,0 +1,1 @@
+"""What do eigenfunctions leave open? Signs, and the search over them."""

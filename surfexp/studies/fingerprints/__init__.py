@@ -1,1 +1,0 @@
-"""Which descriptors recognise a person again."""

@@ -1,1 +1,0 @@
-"""Whether modes are missing, and what they are good for."""

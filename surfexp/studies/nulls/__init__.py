@@ -1,1 +1,0 @@
-"""Do null models keep what they claim?"""

@@ -1,6 +1,0 @@
-"""`python -m torture [GROUP ...]`: run what goes wrong, print what came of it, and write docs/reliability.md."""
-
-from torture.groups import main
-
-# what a new process runs has to be found in a module with a name
-main()
