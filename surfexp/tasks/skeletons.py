@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, mask_array, whole_number
-from surfexp.mesh.validate import zero_area_faces
+from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import Choice, choose_levels
