@@ -505,11 +505,9 @@ def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (lambda v, f: (np.where(np.arange(len(v))[:, None] == 5, np.nan, v), f), "no repair is possible"),
         (lambda v, f: (v, f[:0]), "0 faces"),
         (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp repair"),
         (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp repair"),
-        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), "surfexp repair"),
         (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp repair"),
     ],
 )
@@ -523,6 +521,22 @@ def test_defective_meshes_are_refused_with_the_remedy(
     context = {**CONTEXT, "surface": {"name": "file", "path": str(tmp_path / "bad.obj")}, "target": "surface"}
     failure = solve(context, tmp_path / "results")
     assert message in failure or "nan" in failure.lower(), failure
+
+
+@pytest.mark.parametrize(
+    ("spoil", "kept"),
+    [
+        (lambda v, f: (np.where(np.arange(len(v))[:, None] == 5, np.nan, v), f), 641),
+        (lambda v, f: (np.vstack([v, [[9.0, 9, 9]]]), f), 642),
+    ],
+)
+def test_vertices_that_no_method_can_use_are_cut_away(spoil: typing.Any, kept: int, tmp_path: Path) -> None:
+    mesh = icosphere(3).mesh
+    vertices, faces = spoil(mesh.vertices.copy(), mesh.faces)
+    np.savez(tmp_path / "loose.npz", vertices=vertices, faces=faces)
+    plugin = registry.plugin("surface", "file")
+    surface = plugin.function(plugin.options(path=tmp_path / "loose.npz"))
+    assert len(surface.mesh.vertices) == kept and surface.part.whole_count == len(vertices) and surface.notes
 
 
 def test_a_truncated_file_is_refused_by_name(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from surfexp.lab.registry.registry import Options, register
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.files import read
+from surfexp.tasks.soundness import usable_vertices
 
 
 class File(Options):
@@ -47,4 +48,7 @@ def file_surface(options: File) -> Surface:
                 f"{options.finite} has {finite.size} values, the surface has {len(surface.mesh.vertices)} vertices"
             )
         inside = finite if inside is None else inside & finite
+    usable = usable_vertices(surface.mesh)
+    if not usable.all():
+        inside = usable if inside is None else inside & usable
     return cut_to_mask(surface, inside)

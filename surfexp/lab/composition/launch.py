@@ -26,6 +26,7 @@ from surfexp.lab.digests import file_digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.experiment.hydra_flags import ANSWERED_BY_HYDRA, Words, parted
+from surfexp.lab.experiment.interpolation import resolved
 from surfexp.lab.experiment.own_data import with_collections, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.outcome import outcome
@@ -222,7 +223,7 @@ def _leaves(composed: dict[str, Any], overrides: Sequence[str], request: Request
 
 def _plain(composed: DictConfig) -> dict[str, Any]:
     ours = OmegaConf.masked_copy(composed, [str(key) for key in composed if key != "hydra"])
-    configuration: Any = OmegaConf.to_container(ours, resolve=True, throw_on_missing=False)
+    configuration = resolved(ours)
     return named(configuration, OmegaConf.select(composed, "hydra.runtime.choices.experiment"))
 
 

@@ -11,10 +11,10 @@ from typing import Any
 from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.core.override_parser.types import Override
 from hydra.errors import OverrideParseException
-from omegaconf import OmegaConf
 
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.experiment.interpolation import resolved
 from surfexp.lab.experiment.own_data import collection
 from surfexp.lab.registry import registry
 from surfexp.lab.store.kinds import KINDS
@@ -106,7 +106,7 @@ def _plugin(kind: str, name: Any, repository: Any) -> Any:
     found = repository.load_config(f"{kind}/{name}")
     if found is None:
         raise registry.unknown_plugin(kind, kind, str(name))
-    return OmegaConf.to_container(found.config, resolve=True, throw_on_missing=False)
+    return resolved(found.config)
 
 
 def without(configuration: dict[str, Any], request: Request, dotted: bool) -> dict[str, Any]:

@@ -71,11 +71,11 @@ def collection(name: str, repository: Any) -> dict[str, Any]:
         If there is no such collection, or no member in it.
     """
     from hydra.core.object_type import ObjectType
-    from omegaconf import OmegaConf
+
+    from surfexp.lab.experiment.interpolation import resolved
 
     if found := repository.load_config(f"axes/{name}"):
-        axes: Any = OmegaConf.to_container(found.config, resolve=True)
-        return dict(axes)
+        return dict(resolved(found.config))
     if is_of_files(name):
         return {AXIS: collection_of_files(Path(name))}
     known = repository.get_group_options("axes", ObjectType.CONFIG)
