@@ -36,15 +36,12 @@ TINY_PLUGIN = """
 import numpy as np
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.lab.registry.registry import Options, register
-
-class Tiny(Options):
-    size: float = 1.0
+from surfexp.lab.registry.registry import register
 
 @register("surface", "tiny")
-def tiny(options: Tiny) -> Surface:
+def tiny(size: float = 1.0) -> Surface:
     \"\"\"One triangle.\"\"\"
-    return Surface(TriangleMesh(options.size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
+    return Surface(TriangleMesh(size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
 """
 SHORT_COMMANDS = (("list",), ("info", "solver/newton"), ("--help",), ("run", "--help"), ("plan", "--no-such-option"))
 

@@ -535,7 +535,7 @@ def test_vertices_that_no_method_can_use_are_cut_away(spoil: typing.Any, kept: i
     vertices, faces = spoil(mesh.vertices.copy(), mesh.faces)
     np.savez(tmp_path / "loose.npz", vertices=vertices, faces=faces)
     plugin = registry.plugin("surface", "file")
-    surface = plugin.function(plugin.options(path=tmp_path / "loose.npz"))
+    surface = plugin({"path": tmp_path / "loose.npz"})
     assert len(surface.mesh.vertices) == kept and surface.part.whole_count == len(vertices) and surface.notes
 
 

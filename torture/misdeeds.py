@@ -11,7 +11,7 @@ from surfexp.lab.registry.contained import contained_description
 from torture.case import HUNG, REFUSED, RIGHT, WRONG, Ended, clear
 from torture.laboratory import run, working_folder
 
-REGISTER = "from surfexp.lab.registry.registry import Options, register\n"
+REGISTER = "from surfexp.lab.registry.registry import register\n"
 IMPORT: dict[str, str | bytes] = {
     "exit 0": "import os\nos._exit(0)",
     "exit 3": "import os\nos._exit(3)",
@@ -43,13 +43,13 @@ IMPORT: dict[str, str | bytes] = {
     "a loop": "while True:\n    pass",
     "closed files": "import os\nos.closerange(0, 4096)",
     "closed files and a loop": "import os\nos.closerange(0, 4096)\nwhile True:\n    pass",
-    "no kind": REGISTER + "@register('surfaec', 'x')\ndef x(options: Options):\n    '''X.'''",
-    "a number for a name": REGISTER + "@register('surface', 3)\ndef x(options: Options):\n    '''X.'''",
-    "no options": REGISTER + "@register('surface', 'x1')\ndef x():\n    '''X.'''",
-    "no annotations": REGISTER + "@register('surface', 'x2')\ndef x(options, *, surface):\n    '''X.'''",
-    "no docstring": REGISTER + "@register('surface', 'x3')\ndef x(options: Options):\n    pass",
+    "no kind": REGISTER + "@register('surfaec', 'x')\ndef x():\n    '''X.'''",
+    "a number for a name": REGISTER + "@register('surface', 3)\ndef x():\n    '''X.'''",
+    "an option without a type": REGISTER + "@register('surface', 'x1')\ndef x(size=1.0):\n    '''X.'''",
+    "no annotations": REGISTER + "@register('surface', 'x2')\ndef x(surface):\n    '''X.'''",
+    "no docstring": REGISTER + "@register('surface', 'x3')\ndef x():\n    pass",
     "an unknown input": REGISTER
-    + "@register('surface', 'x4')\ndef x(options: Options, *, a: 'Nothing'):\n    '''X.'''",
+    + "@register('surface', 'x4')\ndef x(a: 'Nothing'):\n    '''X.'''",
     "output of a megabyte": "print('x' * 10**6)",
     "output like an answer": "import sys\nsys.stdout.write('{\"refused\": \"everything\"}\\n')\nsys.stdout.flush()",
     "a thread": "import threading, time\nthreading.Thread(target=time.sleep, args=(60,)).start()",
@@ -88,15 +88,11 @@ import numpy as np
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.lab.registry.registry import Options, register
-
-
-class Nothing(Options):
-    """No options."""
+from surfexp.lab.registry.registry import register
 
 
 @register("surface", "{name}")
-def plugin(options: Nothing) -> Surface:
+def plugin() -> Surface:
     """A surface."""
     {body}
 '''

@@ -1,47 +1,25 @@
 """The first eigenpairs of the Laplace-Beltrami operator, by four methods."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 
-
-class Eigenpairs(Options):
-    """What is asked for, whatever the method."""
-
-    count: int = Field(50, ge=1, le=5000, description="number of pairs, k")
-    order: Literal[1, 2, 3] = Field(1, description="order of the elements")
-    curved: bool = Field(False, description="nodes of order 2, 3 on the smooth surface: sphere, disk, torus")
-    patches: bool = Field(False, description="nodes of order 2, 3 on cubic patches through vertices and normals")
-    mass: Literal["consistent", "lumped", "averaged"] = Field("consistent", description="mass matrix")
-    boundary: Literal["neumann", "dirichlet"] = Field("neumann", description="condition on the boundary")
-    tolerance: float = Field(1e-8, ge=1e-12, le=1e-2, description="largest relative residual")
-    seed: int = Field(0, ge=0, description="seed of the starting vectors")
-
-
-class Sliced(Eigenpairs):
-    """Spectrum slicing."""
-
-
-class Arpack(Eigenpairs):
-    """Implicitly restarted Lanczos."""
-
-
-class Lobpcg(Eigenpairs):
-    """Preconditioned block iterations."""
-
-    tolerance: float = Field(1e-5, ge=1e-12, le=1e-2, description="largest relative residual")
-
-
-class Dense(Eigenpairs):
-    """Dense algebra."""
+Count = Annotated[int, Field(ge=1, le=5000, description="number of pairs, k")]
+Order = Annotated[Literal[1, 2, 3], Field(description="order of the elements")]
+Curved = Annotated[bool, Field(description="nodes of order 2, 3 on the smooth surface: sphere, disk, torus")]
+Patches = Annotated[bool, Field(description="nodes of order 2, 3 on cubic patches through vertices and normals")]
+Mass = Annotated[Literal["consistent", "lumped", "averaged"], Field(description="mass matrix")]
+Boundary = Annotated[Literal["neumann", "dirichlet"], Field(description="condition on the boundary")]
+Tolerance = Annotated[float, Field(ge=1e-12, le=0.01, description="largest relative residual")]
+Seed = Annotated[int, Field(ge=0, description="seed of the starting vectors")]
 
 
 METRICS = {
@@ -53,25 +31,122 @@ METRICS = {
 }
 
 
-@register("eigensolver", "slicing", metrics=METRICS)
-def slicing_eigensolver(options: Sliced, *, surface: Surface, operator: SurfaceOperator) -> EigenSystem:
+@register("eigensolver", "slicing", metrics=METRICS, defaults_of=surface_spectrum)
+def slicing_eigensolver(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    count: Count = 50,
+    order: Order,
+    curved: Curved,
+    patches: Patches,
+    mass: Mass,
+    boundary: Boundary,
+    tolerance: Tolerance,
+    seed: Seed,
+) -> EigenSystem:
     """Shifted LDL factors, block Lanczos and inertia counts: proved complete, the default."""
-    return surface_spectrum(surface, operator, **dict(options), method="auto", progress=report_progress)
+    return surface_spectrum(
+        surface,
+        operator,
+        count=count,
+        order=order,
+        curved=curved,
+        patches=patches,
+        mass=mass,
+        boundary=boundary,
+        tolerance=tolerance,
+        seed=seed,
+        method="auto",
+        progress=report_progress,
+    )
 
 
-@register("eigensolver", "arpack")
-def arpack_eigensolver(options: Arpack, *, surface: Surface, operator: SurfaceOperator) -> EigenSystem:
+@register("eigensolver", "arpack", defaults_of=surface_spectrum)
+def arpack_eigensolver(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    count: Count = 50,
+    order: Order,
+    curved: Curved,
+    patches: Patches,
+    mass: Mass,
+    boundary: Boundary,
+    tolerance: Tolerance,
+    seed: Seed,
+) -> EigenSystem:
     """Shift-invert Lanczos of ARPACK with our factorisation, the plain reference."""
-    return surface_spectrum(surface, operator, **dict(options), method="arpack")
+    return surface_spectrum(
+        surface,
+        operator,
+        count=count,
+        order=order,
+        curved=curved,
+        patches=patches,
+        mass=mass,
+        boundary=boundary,
+        tolerance=tolerance,
+        seed=seed,
+        method="arpack",
+    )
 
 
-@register("eigensolver", "lobpcg")
-def lobpcg_eigensolver(options: Lobpcg, *, surface: Surface, operator: SurfaceOperator) -> EigenSystem:
+@register("eigensolver", "lobpcg", defaults_of=surface_spectrum)
+def lobpcg_eigensolver(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    count: Count = 50,
+    order: Order,
+    curved: Curved,
+    patches: Patches,
+    mass: Mass,
+    boundary: Boundary,
+    tolerance: Tolerance = 1e-05,
+    seed: Seed,
+) -> EigenSystem:
     """Locally optimal block iterations with multigrid, without factorisation and without proof."""
-    return surface_spectrum(surface, operator, **dict(options), method="lobpcg")
+    return surface_spectrum(
+        surface,
+        operator,
+        count=count,
+        order=order,
+        curved=curved,
+        patches=patches,
+        mass=mass,
+        boundary=boundary,
+        tolerance=tolerance,
+        seed=seed,
+        method="lobpcg",
+    )
 
 
-@register("eigensolver", "dense")
-def dense_eigensolver(options: Dense, *, surface: Surface, operator: SurfaceOperator) -> EigenSystem:
+@register("eigensolver", "dense", defaults_of=surface_spectrum)
+def dense_eigensolver(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    count: Count = 50,
+    order: Order,
+    curved: Curved,
+    patches: Patches,
+    mass: Mass,
+    boundary: Boundary,
+    tolerance: Tolerance,
+    seed: Seed,
+) -> EigenSystem:
     """All eigenpairs by dense algebra, for meshes up to 6,000 unknowns."""
-    return surface_spectrum(surface, operator, **dict(options), method="dense")
+    return surface_spectrum(
+        surface,
+        operator,
+        count=count,
+        order=order,
+        curved=curved,
+        patches=patches,
+        mass=mass,
+        boundary=boundary,
+        tolerance=tolerance,
+        seed=seed,
+        method="dense",
+    )

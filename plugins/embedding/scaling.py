@@ -1,9 +1,11 @@
 """Embeddings of a collection in the plane or in space."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.multidimensional_scaling import (
     classical_scaling,
@@ -14,17 +16,8 @@ from surfexp.statistics.multidimensional_scaling import (
 )
 from surfexp.statistics.point_embedding import PointEmbedding
 
-
-class Scaling(Options):
-    """The dimension."""
-
-    dimensions: int = Field(2, ge=1, le=50, description="dimension of the embedding")
-
-
-class Seeded(Scaling):
-    """The dimension and the random start."""
-
-    seed: int = Field(0, ge=0, description="seed of the random starts")
+Dimensions = Annotated[int, Field(ge=1, le=50, description="dimension of the embedding")]
+Seed = Annotated[int, Field(ge=0, description="seed of the random starts")]
 
 
 METRICS = {
@@ -33,31 +26,36 @@ METRICS = {
 }
 
 
-@register("embedding", "classical", metrics=METRICS)
-def classical_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+@register("embedding", "classical", metrics=METRICS, defaults_of=classical_scaling)
+def classical_embedding(distance_matrix: DistanceMatrix, *, dimensions: Dimensions) -> PointEmbedding:
     """Classical multidimensional scaling, deterministic, the default."""
-    return classical_scaling(distance_matrix, options.dimensions)
+    return classical_scaling(distance_matrix, dimensions)
 
 
-@register("embedding", "smacof", metrics={"starts": Metric("starting configurations")})
-def smacof_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+@register("embedding", "smacof", metrics={"starts": Metric("starting configurations")}, defaults_of=stress_majorisation)
+def smacof_embedding(distance_matrix: DistanceMatrix, *, dimensions: Dimensions, seed: Seed) -> PointEmbedding:
     """Multidimensional scaling of least stress by majorisation, from seeded starts."""
-    return stress_majorisation(distance_matrix, options.dimensions, options.seed)
+    return stress_majorisation(distance_matrix, dimensions, seed)
 
 
-@register("embedding", "pca", metrics={"explained": Metric("share of the variance that is shown", better="higher")})
-def pca_embedding(options: Scaling, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+@register(
+    "embedding",
+    "pca",
+    metrics={"explained": Metric("share of the variance that is shown", better="higher")},
+    defaults_of=principal_components,
+)
+def pca_embedding(distance_matrix: DistanceMatrix, *, dimensions: Dimensions) -> PointEmbedding:
     """Principal components of the weighted signatures themselves."""
-    return principal_components(distance_matrix, options.dimensions)
+    return principal_components(distance_matrix, dimensions)
 
 
-@register("embedding", "tsne")
-def tsne_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+@register("embedding", "tsne", defaults_of=neighbour_embedding)
+def tsne_embedding(distance_matrix: DistanceMatrix, *, dimensions: Dimensions, seed: Seed) -> PointEmbedding:
     """Neighbour embedding t-SNE, which keeps neighbours but no distances."""
-    return neighbour_embedding(distance_matrix, options.dimensions, options.seed)
+    return neighbour_embedding(distance_matrix, dimensions, seed)
 
 
-@register("embedding", "umap")
-def umap_embedding(options: Seeded, *, distance_matrix: DistanceMatrix) -> PointEmbedding:
+@register("embedding", "umap", defaults_of=manifold_embedding)
+def umap_embedding(distance_matrix: DistanceMatrix, *, dimensions: Dimensions, seed: Seed) -> PointEmbedding:
     """Neighbour embedding UMAP, where umap-learn is installed; keeps neighbourhoods but no distances."""
-    return manifold_embedding(distance_matrix, options.dimensions, options.seed)
+    return manifold_embedding(distance_matrix, dimensions, seed)

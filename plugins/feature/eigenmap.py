@@ -1,20 +1,15 @@
 """The Laplace-Beltrami eigenmap as a feature."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.eigenmap import eigenmap
 from surfexp.skeleton.feature import Feature
-
-
-class Eigenmap(Options):
-    """Which eigenfunction."""
-
-    index: int = Field(1, ge=1, le=200, description="number of the eigenfunction, counted from the constant one, 0")
-
 
 METRICS = {
     "eigenvalue": Metric("its eigenvalue"),
@@ -23,7 +18,14 @@ METRICS = {
 }
 
 
-@register("feature", "eigenmap", metrics=METRICS)
-def eigenmap_feature(options: Eigenmap, *, surface: Surface, operator: SurfaceOperator) -> Feature:
+@register("feature", "eigenmap", metrics=METRICS, defaults_of=eigenmap)
+def eigenmap_feature(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    index: Annotated[
+        int, Field(ge=1, le=200, description="number of the eigenfunction, counted from the constant one, 0")
+    ],
+) -> Feature:
     """Eigenfunction of the operator, isotropic or weighted, with free boundary (5.4)."""
-    return eigenmap(operator, options.index)
+    return eigenmap(operator, index)

@@ -1,36 +1,36 @@
 """Accuracies of several classifications with their intervals."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import MetricName
 from surfexp.figures.figure import Figure
 from surfexp.figures.interval_plot import interval_plot
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.classification import Classification
 
 
-class Accuracies(Options):
-    """Which number is drawn, and what is written above and below."""
-
-    metric: MetricName = Field(
-        "accuracy", description="metric of the classifications; with _low and _high its interval"
-    )
-    title: str = Field("", description="heading in the figure; default: the method, if it is one")
-    caption: str = Field("", description="sentence below the figure")
-
-
-@register("figure", "accuracies")
-def accuracies_figure(options: Accuracies, *, classifiers: dict[str, Classification]) -> Figure:
+@register("figure", "accuracies", defaults_of=interval_plot)
+def accuracies_figure(
+    classifiers: dict[str, Classification],
+    *,
+    metric: Annotated[
+        MetricName, Field(description="metric of the classifications; with _low and _high its interval")
+    ] = "accuracy",
+    title: Annotated[str, Field(description="heading in the figure; default: the method, if it is one")],
+    caption: Annotated[str, Field(description="sentence below the figure")],
+) -> Figure:
     """Accuracy, or another share, of each member of an axis with its interval; chance as a dashed line."""
-    name = options.metric
+    name = metric
     intervals = {label: _interval(found.metrics, name, label) for label, found in classifiers.items()}
     chances = [found.metrics["chance"] for found in classifiers.values() if "chance" in found.metrics]
     reference = sum(chances) / len(chances) if chances and name == "accuracy" else None
-    caption = options.caption or "Share of members given their class, with 95 % bootstrap intervals over groups."
+    caption = caption or "Share of members given their class, with 95 % bootstrap intervals over groups."
     if name == "accuracy" and any(low == high for _, low, high in intervals.values()):
         caption += " Without an error in the sample an interval has no width; it does not prove that there is none."
     methods = {found.method.replace("_", " ") for found in classifiers.values()}
-    title = options.title or (methods.pop() if len(methods) == 1 else "")
+    title = title or (methods.pop() if len(methods) == 1 else "")
     shown = name.replace("_", " ")
     return interval_plot(
         intervals, x_label=shown, reference=reference, reference_name="chance", title=title, caption=caption

@@ -1,31 +1,31 @@
 """The confusion matrix of a classifier."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.figures.axes import FONT
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import INK, QUIET, canvas, drawn, points, vector
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.classification import Classification
 
 
-class Confusion(Options):
-    """What is written above and below."""
-
-    title: str = Field("", description="heading in the figure; default: the method and what is compared")
-    caption: str = Field("", description="sentence below the figure")
-    width: int = Field(900, ge=300, le=4000, description="pixels across")
-
-
 @register("figure", "confusion")
-def confusion_figure(options: Confusion, *, classifier: Classification) -> Figure:
+def confusion_figure(
+    classifier: Classification,
+    *,
+    title: Annotated[str, Field(description="heading in the figure; default: the method and what is compared")] = "",
+    caption: Annotated[str, Field(description="sentence below the figure")] = "",
+    width: Annotated[int, Field(ge=300, le=4000, description="pixels across")] = 900,
+) -> Figure:
     """How many members of each class were given which class, by a rule that never saw their group."""
     names, counts = classifier.names, classifier.confusion
     number = len(names)
-    title = options.title or f"{classifier.name} · {classifier.method}".replace("_", " ")
-    em = FONT * options.width
+    title = title or f"{classifier.name} · {classifier.method}".replace("_", " ")
+    em = FONT * width
     shares = counts / counts.sum(axis=1, keepdims=True)
-    with canvas(options.width, round(options.width * 0.78)) as figure:
+    with canvas(width, round(width * 0.78)) as figure:
         axes = figure.add_axes((0.24, 0.2, 0.7, 0.68))
         axes.grid(visible=False)
         axes.imshow(shares, cmap="Blues", vmin=0.0, vmax=1.0, aspect="auto")
@@ -42,7 +42,7 @@ def confusion_figure(options: Confusion, *, classifier: Classification) -> Figur
         axes.set_title(title, fontsize=points(1.1 * em), fontweight="bold", pad=points(0.9 * em))
         pixels, svg = drawn(figure), vector(figure)
     numbers = classifier.metrics
-    caption = options.caption or (
+    caption = caption or (
         f"Accuracy {numbers['accuracy']:.2f} (95 % interval {numbers['accuracy_low']:.2f} to "
         f"{numbers['accuracy_high']:.2f}); groups never stand in training and test sets at once."
     )

@@ -1,6 +1,7 @@
 """A denoised image as figure 2.2 shows one: clean, noisy, denoised, residual."""
 
 from dataclasses import replace
+from typing import Annotated
 
 from pydantic import Field
 
@@ -8,30 +9,31 @@ from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 
 
-class Denoising(Options):
-    """The viewpoint and the width of the figure."""
-
-    azimuth: float = Field(-80.0, ge=-360, le=360, description="direction of view about the vertical, degrees from x")
-    elevation: float = Field(12.0, ge=-90, le=90, description="height of view, degrees")
-    reference: str = Field("", description="figure of the dissertation that this one answers")
-    colormap: str = Field("gray", description="matplotlib's name of the colour map of the image")
-    width: int = Field(1800, ge=200, le=8000, description="pixels across")
-
-
 @register("figure", "denoising")
 def denoising_figure(
-    options: Denoising, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    solver: Solution,
+    *,
+    azimuth: Annotated[
+        float, Field(ge=-360, le=360, description="direction of view about the vertical, degrees from x")
+    ] = -80.0,
+    elevation: Annotated[float, Field(ge=-90, le=90, description="height of view, degrees")] = 12.0,
+    reference: Annotated[str, Field(description="figure of the dissertation that this one answers")] = "",
+    colormap: Annotated[str, Field(description="matplotlib's name of the colour map of the image")] = "gray",
+    width: Annotated[int, Field(ge=200, le=8000, description="pixels across")] = 1800,
 ) -> Figure:
     """Clean, noisy and denoised image and the residual, from one side, on the scale of the data."""
-    view = (options.azimuth, options.elevation)
-    shown = ColorScale(label=image.name, unit=image.unit, colormap=options.colormap, percentiles=(0.0, 100.0))
+    view = (azimuth, elevation)
+    shown = ColorScale(label=image.name, unit=image.unit, colormap=colormap, percentiles=(0.0, 100.0))
     # one scale for all panels, that of the least noisy image; noise beyond it is black and white
     shown = shown.fitted(solver.values if image.clean is None else image.clean)
     spread = 2.5 * image.noise if image.noise else None
@@ -44,7 +46,7 @@ def denoising_figure(
     noise = f"noise of standard deviation {image.noise:g} {image.unit}".rstrip() if image.noise else "noise unknown"
     caption = (
         f"{sentence(image.name)} on {noun(surface.name)}: {noise}, {operator.name.replace('_', ' ')} operator."
-        f"{compare(options.reference)}"
+        f"{compare(reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver))
-    return replace(surface_panel(views, width=options.width, caption=caption), title=title)
+    return replace(surface_panel(views, width=width, caption=caption), title=title)

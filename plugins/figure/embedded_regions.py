@@ -1,6 +1,7 @@
 """Sulcal regions of two cortices in space and in the optimal embedding, figures 6.4 to 6.6."""
 
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -10,7 +11,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.studies.sulci.sulcal_regions import OUTSIDE, names_by_majority
@@ -19,18 +20,16 @@ from surfexp.studies.sulci.sulcal_regions import OUTSIDE, names_by_majority
 EXTENTS = (1.0, 0.9)
 
 
-class EmbeddedRegions(Options):
-    """Size and views."""
-
-    source_view: str = Field("left", description="direction of view of the source")
-    target_view: str = Field("back", description="direction of view of the target, turned to its main axes")
-    view: str = Field("oblique", description="direction of view of the embeddings")
-    width: int = Field(1700, ge=400, le=6000, description="pixels across")
-
-
 @register("figure", "embedded_regions")
 def embedded_regions_figure(
-    options: EmbeddedRegions, *, source_surface: Surface, target_surface: Surface, distance: Distance
+    source_surface: Surface,
+    target_surface: Surface,
+    distance: Distance,
+    *,
+    source_view: Annotated[str, Field(description="direction of view of the source")] = "left",
+    target_view: Annotated[str, Field(description="direction of view of the target, turned to its main axes")] = "back",
+    view: Annotated[str, Field(description="direction of view of the embeddings")] = "oblique",
+    width: Annotated[int, Field(ge=400, le=6000, description="pixels across")] = 1700,
 ) -> Figure:
     """Regions of two surfaces, in space where poses differ, and in the embedding where like regions meet (6.5)."""
     surfaces = source_surface, target_surface
@@ -44,19 +43,19 @@ def embedded_regions_figure(
     for k, (side, surface) in enumerate(zip(("source", "target"), surfaces, strict=True)):
         vertices = surface.mesh.vertices if k == 0 else _principal(surface.mesh.vertices)
         mesh = _scaled(vertices, surface.mesh.faces, EXTENTS[0] / _extent(vertices))
-        view = (options.source_view, options.target_view)[k]
-        views.append(SurfaceView(mesh, colors[k], view, title=f"regions of the {side}"))
+        shown = (source_view, target_view)[k]
+        views.append(SurfaceView(mesh, colors[k], shown, title=f"regions of the {side}"))
     images = distance.source_points[:, :3], distance.target_points[:, :3]
     factor = EXTENTS[1] / max(map(_extent, images))
     for k, (side, points) in enumerate(zip(("source", "target"), images, strict=True)):
         image = _outward(_scaled(points, surfaces[k].mesh.faces, factor))
-        views.append(SurfaceView(image, colors[k], options.view, title=f"embedding of the {side}"))
+        views.append(SurfaceView(image, colors[k], view, title=f"embedding of the {side}"))
     caption = (
         f"Sulcal regions of {source_surface.name} and {target_surface.name}, which is turned and scaled: in space, the target "
         "along its main axes, and by the first three functions of the optimal embedding. Colours of the target are those of "
         "the source by majority vote of the nearest neighbours. Compare figures 6.4 to 6.6."
     )
-    return replace(surface_panel(views, width=options.width, caption=caption), title="sulcal regions")
+    return replace(surface_panel(views, width=width, caption=caption), title="sulcal regions")
 
 
 def _principal(vertices: Floats) -> Floats:

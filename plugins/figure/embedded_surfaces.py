@@ -1,5 +1,7 @@
 """Surfaces, their first eigenfunctions, and their images under three of them, figure 6.1."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
@@ -10,7 +12,7 @@ from surfexp.figures.colormap import ColorScale
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -18,17 +20,14 @@ from surfexp.spectrum.eigensystem import EigenSystem
 IMAGE_VIEW = "oblique"
 
 
-class EmbeddedSurfaces(Options):
-    """View and size."""
-
-    view: str = Field("left", description="direction of view of the surfaces")
-    reference: str = Field("", description="figure of the dissertation that this one answers")
-    width: int = Field(1700, ge=200, le=8000, description="pixels across")
-
-
 @register("figure", "embedded_surfaces")
 def embedded_surfaces_figure(
-    options: EmbeddedSurfaces, *, surfaces: dict[str, Surface], systems: dict[str, EigenSystem]
+    surfaces: dict[str, Surface],
+    systems: dict[str, EigenSystem],
+    *,
+    view: Annotated[str, Field(description="direction of view of the surfaces")] = "left",
+    reference: Annotated[str, Field(description="figure of the dissertation that this one answers")] = "",
+    width: Annotated[int, Field(ge=200, le=8000, description="pixels across")] = 1700,
 ) -> Figure:
     """The first three eigenfunctions on each surface and its image under them, all at one scale (figure 6.1)."""
     points = {
@@ -42,7 +41,7 @@ def embedded_surfaces_figure(
         mesh = TriangleMesh(surface.mesh.vertices / np.sqrt(surface.mesh.area), surface.mesh.faces)
         columns = [np.ascontiguousarray(points[label][:, k]) for k in range(3)]
         views = [
-            SurfaceView(mesh, values, options.view, scale, (), f"{label}, eigenfunction {k}")
+            SurfaceView(mesh, values, view, scale, (), f"{label}, eigenfunction {k}")
             for k, values in enumerate(columns, 1)
         ]
         image, kept = facing(TriangleMesh(points[label], mesh.faces), view_axes(*VIEWS[IMAGE_VIEW])[2])
@@ -50,9 +49,9 @@ def embedded_surfaces_figure(
     caption = (
         "The first three eigenfunctions over the square roots of their eigenvalues, on surfaces of area 1, and the images of "
         "the surfaces with these as coordinates (6.4), in the colours of the first; one scale for all lengths and colours."
-        f"{compare(options.reference)}"
+        f"{compare(reference)}"
     )
-    return surface_panel(rows, width=options.width, caption=caption)
+    return surface_panel(rows, width=width, caption=caption)
 
 
 def facing(mesh: TriangleMesh, toward: Floats) -> tuple[TriangleMesh, np.ndarray]:

@@ -1,6 +1,8 @@
 """The picture of figure 2.8: curvature in colour, the boundary of the regions in red."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Annotated
 
 from pydantic import Field
 
@@ -9,32 +11,31 @@ from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 
 
-class Parcellation(Options):
-    """The viewpoints, colours and lines."""
-
-    views: list[str] = Field(["lateral", "medial"], description="directions of view")
-    colormap: str = Field("PuOr_r", description="matplotlib's name of the colour map of the image")
-    line_width: float = Field(3.0, gt=0, le=20, description="width of the red line in pixels")
-    reference: str = Field("", description="figure of the dissertation that this one answers")
-    width: int = Field(1600, ge=200, le=8000, description="pixels across")
-
-
-@register("figure", "parcellation")
+@register("figure", "parcellation", defaults_of=surface_panel)
 def parcellation_figure(
-    options: Parcellation, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    solver: Solution,
+    *,
+    views: Annotated[Sequence[str], Field(description="directions of view")] = ["lateral", "medial"],
+    colormap: Annotated[str, Field(description="matplotlib's name of the colour map of the image")] = "PuOr_r",
+    line_width: Annotated[float, Field(gt=0, le=20, description="width of the red line in pixels")] = 3.0,
+    reference: Annotated[str, Field(description="figure of the dissertation that this one answers")] = "",
+    width: Annotated[int, Field(ge=200, le=8000, description="pixels across")],
 ) -> Figure:
     """The image in colour with the boundary of the segmented regions in red, from several sides (figure 2.8)."""
-    scale = ColorScale(label=image.name, unit=image.unit, colormap=options.colormap)
+    scale = ColorScale(label=image.name, unit=image.unit, colormap=colormap)
     field, level = solver.boundary
-    contours = (Contours(field, levels=(level,), width=options.line_width),)
-    views = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in options.views]
+    contours = (Contours(field, levels=(level,), width=line_width),)
+    panels = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in views]
     length = solver.metrics.get("perimeter")
     gap = solver.metrics.get("labelling_gap")
     proved = (
@@ -45,7 +46,7 @@ def parcellation_figure(
     )
     caption = (
         f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
-        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{proved}{compare(options.reference)}"
+        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{proved}{compare(reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
-    return replace(surface_panel(views, width=options.width, caption=caption), title=title)
+    return replace(surface_panel(panels, width=width, caption=caption), title=title)

@@ -1,25 +1,25 @@
 """Ratios of errors by data set and method."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.figures.figure import Figure
 from surfexp.figures.ratio_table import ratio_table
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 
 
-class RatioTable(Options):
-    """What is written above and below."""
-
-    title: str = Field("", description="heading in the figure; default: what was compared")
-    caption: str = Field("", description="sentence below the figure")
-    width: int = Field(1100, ge=300, le=4000, description="pixels across")
-
-
-@register("figure", "ratio_table")
-def ratio_table_figure(options: RatioTable, *, statistics: dict[Member, Statistic]) -> Figure:
+@register("figure", "ratio_table", defaults_of=ratio_table)
+def ratio_table_figure(
+    statistics: dict[Member, Statistic],
+    *,
+    title: Annotated[str, Field(description="heading in the figure; default: what was compared")],
+    caption: Annotated[str, Field(description="sentence below the figure")],
+    width: Annotated[int, Field(ge=300, le=4000, description="pixels across")],
+) -> Figure:
     """Median ratios of errors in colours, a row a data set; bold where the interval lies beyond 2 in a hundred."""
     first = next(iter(statistics.values()))
     for member, found in statistics.items():
@@ -33,7 +33,7 @@ def ratio_table_figure(options: RatioTable, *, statistics: dict[Member, Statisti
         verdicts,
         [member.label for member in statistics],
         names,
-        title=options.title or first.name,
-        caption=options.caption,
-        width=options.width,
+        title=title or first.name,
+        caption=caption,
+        width=width,
     )

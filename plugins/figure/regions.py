@@ -1,6 +1,8 @@
 """Segmentation into several regions: the image, its regions in their mean colours, and their boundaries."""
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -10,27 +12,26 @@ from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure, noun, sentence
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 
 
-class Regions(Options):
-    """The viewpoints and the lines."""
-
-    views: list[tuple[float, float]] = Field(
-        [(-100.0, 12.0), (-40.0, 12.0)], description="directions of view: azimuth and elevation, degrees"
-    )
-    line_width: float = Field(2.5, gt=0, le=20, description="width of the red lines in pixels")
-    colormap: str = Field("gray", description="matplotlib's name of the colour map of the image")
-    width: int = Field(1800, ge=200, le=8000, description="pixels across")
-
-
 @register("figure", "regions")
 def regions_figure(
-    options: Regions, *, surface: Surface, image: Image, operator: SurfaceOperator, solver: Solution
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    solver: Solution,
+    *,
+    views: Annotated[
+        Sequence[tuple[float, float]], Field(description="directions of view: azimuth and elevation, degrees")
+    ] = [(-100.0, 12.0), (-40.0, 12.0)],
+    line_width: Annotated[float, Field(gt=0, le=20, description="width of the red lines in pixels")] = 2.5,
+    colormap: Annotated[str, Field(description="matplotlib's name of the colour map of the image")] = "gray",
+    width: Annotated[int, Field(ge=200, le=8000, description="pixels across")] = 1800,
 ) -> Figure:
     """The image, each region in the mean colour of the image on it, and the boundaries in red, from each side."""
     if solver.segmentation is None:
@@ -42,9 +43,9 @@ def regions_figure(
         means[part] = np.average(image.values[part], axis=0, weights=operator.mass[part])
     colour = image.values.ndim == 2
     shown, flat = ((np.clip(a / 255.0, 0.0, 1.0) if colour else a) for a in (image.values, means))
-    scale = ColorScale(image.name, image.unit, options.colormap)
+    scale = ColorScale(image.name, image.unit, colormap)
     lines = tuple(
-        Contours((labels == label).astype(np.float64), levels=(0.5,), width=options.line_width)
+        Contours((labels == label).astype(np.float64), levels=(0.5,), width=line_width)
         for label in np.unique(labels)[1:]
     )
     rows = [
@@ -53,11 +54,11 @@ def regions_figure(
             SurfaceView(mesh, flat, view, scale, title="regions in their mean colours"),
             SurfaceView(mesh, shown, view, scale, lines, "boundaries on the image"),
         ]
-        for view in options.views
+        for view in views
     ]
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
     caption = (
         f"{sentence(image.name)} on {noun(surface.name)}, {len(mesh.vertices):,} vertices{noise}: "
         f"{len(np.unique(labels))} regions; in red their boundaries."
     )
-    return replace(surface_panel(rows, width=options.width, caption=caption), title=solver.solver.replace("_", " "))
+    return replace(surface_panel(rows, width=width, caption=caption), title=solver.solver.replace("_", " "))

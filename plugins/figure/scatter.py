@@ -1,6 +1,6 @@
 """A collection as points, figures 4.2, 4.6, 4.7 and 4.8."""
 
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -12,20 +12,11 @@ from surfexp.figures.axes import FONT, SPACING, add_axes, class_style, spread
 from surfexp.figures.figure import Figure
 from surfexp.figures.typography import canvas, drawn, vector
 from surfexp.figures.typography import points as text_size
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.point_embedding import PointEmbedding
 
 # right end of the axes, the classes stand beyond it
 LEGEND = 0.78
-
-
-class Scatter(Options):
-    """What is written beside the points."""
-
-    title: str = Field("", description="heading in the figure; default: the method and what is compared")
-    caption: str = Field("", description="sentence below the figure")
-    names: bool = Field(False, description="write the label of each member beside its point")
-    width: int = Field(1000, ge=300, le=4000, description="pixels across")
 
 
 METRICS = {
@@ -34,12 +25,19 @@ METRICS = {
 
 
 @register("figure", "scatter", metrics=METRICS)
-def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
+def scatter_figure(
+    embedding: PointEmbedding,
+    *,
+    title: Annotated[str, Field(description="heading in the figure; default: the method and what is compared")] = "",
+    caption: Annotated[str, Field(description="sentence below the figure")] = "",
+    names: Annotated[bool, Field(description="write the label of each member beside its point")] = False,
+    width: Annotated[int, Field(ge=300, le=4000, description="pixels across")] = 1000,
+) -> Figure:
     """The first two coordinates of an embedding, a colour and a marker for each class."""
     points = embedding.points[:, :2] if embedding.points.shape[1] > 1 else np.pad(embedding.points, [(0, 0), (0, 1)])
-    title = options.title or f"{embedding.method} of {embedding.name.replace('_', ' ')}"
-    classes, em = np.asarray(embedding.classes), FONT * options.width
-    with canvas(options.width, round(0.68 * options.width)) as figure:
+    title = title or f"{embedding.method} of {embedding.name.replace('_', ' ')}"
+    classes, em = np.asarray(embedding.classes), FONT * width
+    with canvas(width, round(0.68 * width)) as figure:
         axes = add_axes(figure, title, "first coordinate", "second coordinate")
         box = axes.get_position()
         axes.set_position([box.x0, box.y0, LEGEND - box.x0, box.height])
@@ -47,11 +45,11 @@ def scatter_figure(options: Scatter, *, embedding: PointEmbedding) -> Figure:
             color, marker = class_style(k)
             axes.scatter(*points[classes == name].T, s=42, c=color, marker=marker, alpha=0.85, linewidths=0, label=name)
         axes.set_aspect("equal", adjustable="datalim")
-        if options.names:
+        if names:
             _write_labels(axes, embedding, points)
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
         pixels, svg = drawn(figure), vector(figure)
-    caption = options.caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
+    caption = caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
     return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)}, svg=svg)
 
 

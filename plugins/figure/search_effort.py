@@ -1,5 +1,7 @@
 """Evaluations that a search over signs takes against the number of eigenfunctions."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
@@ -7,18 +9,16 @@ from surfexp.contract.member import Member
 from surfexp.embedding.distance import Distance
 from surfexp.figures.figure import Figure
 from surfexp.figures.sweep_plot import sweep_plot
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 
 
-class SearchEffort(Options):
-    """What is written above and below."""
-
-    title: str = Field("", description="heading in the figure")
-    caption: str = Field("", description="sentence below the figure")
-
-
-@register("figure", "search_effort")
-def search_effort_figure(options: SearchEffort, *, distances: dict[Member, Distance]) -> Figure:
+@register("figure", "search_effort", defaults_of=sweep_plot)
+def search_effort_figure(
+    distances: dict[Member, Distance],
+    *,
+    title: Annotated[str, Field(description="heading in the figure")],
+    caption: Annotated[str, Field(description="sentence below the figure")],
+) -> Figure:
     """Evaluations against n, a line for each class of members, beside the 2^n of enumeration."""
     sizes = {member: found.source_points.shape[1] for member, found in distances.items()}
     x = np.array(sorted(set(sizes.values())), dtype=np.float64)
@@ -32,6 +32,6 @@ def search_effort_figure(options: SearchEffort, *, distances: dict[Member, Dista
         x_label="number of eigenfunctions n",
         y_label="evaluations of the distance",
         log="y",
-        title=options.title,
-        caption=options.caption,
+        title=title,
+        caption=caption,
     )

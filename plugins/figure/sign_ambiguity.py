@@ -1,6 +1,7 @@
 """The embeddings that signs allow, figure 6.2."""
 
 from itertools import product
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -11,18 +12,8 @@ from surfexp.embedding.nearest import mutual_distances
 from surfexp.figures.axes import COLORS
 from surfexp.figures.figure import Figure, compare
 from surfexp.figures.typography import canvas, drawn, points
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-
-
-class SignAmbiguity(Options):
-    """How many functions, and how it is drawn."""
-
-    n: int = Field(3, ge=2, le=4, description="eigenfunctions; 2^n panels")
-    dots: int = Field(1500, ge=100, le=20000, description="points of each surface that are drawn")
-    reference: str = Field("", description="figure of the dissertation that this one answers")
-    width: int = Field(1600, ge=400, le=6000, description="pixels across")
-
 
 METRICS = {
     "least": Metric("least distance over all signs"),
@@ -32,16 +23,23 @@ METRICS = {
 
 @register("figure", "sign_ambiguity", metrics=METRICS)
 def sign_ambiguity_figure(
-    options: SignAmbiguity, *, source_surface: Surface, target_surface: Surface, distance: Distance
+    source_surface: Surface,
+    target_surface: Surface,
+    distance: Distance,
+    *,
+    n: Annotated[int, Field(ge=2, le=4, description="eigenfunctions; 2^n panels")] = 3,
+    dots: Annotated[int, Field(ge=100, le=20000, description="points of each surface that are drawn")] = 1500,
+    reference: Annotated[str, Field(description="figure of the dissertation that this one answers")] = "",
+    width: Annotated[int, Field(ge=400, le=6000, description="pixels across")] = 1600,
 ) -> Figure:
     """All 2^n embeddings of the target over the source, with their distances, the least one ringed (figure 6.2)."""
     from matplotlib.patches import Ellipse
 
-    n = min(options.n, distance.source_points.shape[1])
-    source = distance.source_points[:, :n]
-    target = (distance.target_points @ distance.basis.T)[:, :n]
+    count = min(n, distance.source_points.shape[1])
+    source = distance.source_points[:, :count]
+    target = (distance.target_points @ distance.basis.T)[:, :count]
     first, second = (s.mesh.vertex_areas / s.mesh.area for s in (source_surface, target_surface))
-    choices = list(product((1.0, -1.0), repeat=n))
+    choices = list(product((1.0, -1.0), repeat=count))
     values = []
     for signs in choices:
         forward, backward = mutual_distances(source, target * signs)
@@ -50,14 +48,14 @@ def sign_ambiguity_figure(
     columns = 4
     rows = -(-len(choices) // columns)
     rng = np.random.default_rng(0)
-    some = [rng.permutation(len(cloud))[: options.dots] for cloud in (source, target)]
-    em = 0.0125 * options.width
-    with canvas(options.width, round(options.width * (0.235 * rows))) as figure:
+    some = [rng.permutation(len(cloud))[:dots] for cloud in (source, target)]
+    em = 0.0125 * width
+    with canvas(width, round(width * (0.235 * rows))) as figure:
         for k, (signs, value) in enumerate(zip(choices, values, strict=True)):
-            axes = figure.add_subplot(rows, columns, k + 1, projection="3d" if n > 2 else None)
+            axes = figure.add_subplot(rows, columns, k + 1, projection="3d" if count > 2 else None)
             for cloud, picked, color in ((source, some[0], "#6e6e6e"), (target * signs, some[1], COLORS[0])):
                 axes.scatter(*cloud[picked, :3].T, s=6.0, c=color, linewidths=0, alpha=0.8)
-            if n > 2:
+            if count > 2:
                 axes.view_init(18, -55)
                 axes.set_box_aspect(np.ptp(source[:, :3], axis=0), zoom=1.38)
             axes.set_axis_off()
@@ -88,7 +86,8 @@ def sign_ambiguity_figure(
     least, following = (float(value) for value in np.sort(values)[:2])
     times = f", the next best is {following / least:.2f} times as far" if least > 1e-12 * following else ""
     caption = (
-        f"{target_surface.name} (blue) over {source_surface.name} (grey) in the first {n} eigenfunctions: all {2**n} choices of "
-        f"signs with their mean Hausdorff distances; the ringed one is the optimal embedding{times}.{compare(options.reference)}"
+        f"{target_surface.name} (blue) over {source_surface.name} (grey) in the first {count} eigenfunctions: "
+        f"all {2**count} choices of signs with their mean Hausdorff distances; "
+        f"the ringed one is the optimal embedding{times}.{compare(reference)}"
     )
-    return Figure(pixels, caption, f"{2**n} embeddings", {"least": least, "next": following})
+    return Figure(pixels, caption, f"{2**count} embeddings", {"least": least, "next": following})

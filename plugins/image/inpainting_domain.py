@@ -1,24 +1,15 @@
 """An image with lost parts."""
 
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
-
-
-class InpaintingDomain(Options):
-    """The discs and single vertices at which the image is lost."""
-
-    discs: int = Field(40, ge=1, le=10000, description="number of lost discs, balls in space about random vertices")
-    radius: float = Field(3.0, gt=0, description="radius of a disc in edge lengths")
-    share: float = Field(0.0, ge=0, lt=1, description="share of single vertices that are lost besides")
-    seed: int = Field(0, ge=0, description="seed of the lost places")
-
 
 METRICS = {
     "lost_share": Metric("share of the area that is lost"),
@@ -26,13 +17,23 @@ METRICS = {
 
 
 @register("image", "inpainting_domain", metrics=METRICS)
-def inpainting_domain_image(options: InpaintingDomain, *, surface: Surface, original: Image) -> Image:
+def inpainting_domain_image(
+    surface: Surface,
+    original: Image,
+    *,
+    discs: Annotated[
+        int, Field(ge=1, le=10000, description="number of lost discs, balls in space about random vertices")
+    ] = 40,
+    radius: Annotated[float, Field(gt=0, description="radius of a disc in edge lengths")] = 3.0,
+    share: Annotated[float, Field(ge=0, lt=1, description="share of single vertices that are lost besides")] = 0.0,
+    seed: Annotated[int, Field(ge=0, description="seed of the lost places")] = 0,
+) -> Image:
     """Another image with discs and single vertices lost; `known` says where it was kept."""
-    random = np.random.default_rng(options.seed)
+    random = np.random.default_rng(seed)
     vertices = surface.mesh.vertices
-    lost = random.random(len(vertices)) < options.share
-    for centre in vertices[random.choice(len(vertices), min(options.discs, len(vertices)), replace=False)]:
-        lost |= ((vertices - centre) ** 2).sum(axis=1) < (options.radius * surface.mesh.edge_length) ** 2
+    lost = random.random(len(vertices)) < share
+    for centre in vertices[random.choice(len(vertices), min(discs, len(vertices)), replace=False)]:
+        lost |= ((vertices - centre) ** 2).sum(axis=1) < (radius * surface.mesh.edge_length) ** 2
     known = ~lost
     clean = original.values if original.clean is None else original.clean
     metrics = {"lost_share": float(surface.mesh.vertex_areas @ lost / surface.mesh.area)}

@@ -1,7 +1,7 @@
 """How far a denoised surface is from the clean one."""
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
@@ -10,11 +10,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.normal_filtering import normal_deviation
 from surfexp.variational.solution import Solution
 from surfexp.variational.truth_metrics import restoration_metrics
-
-
-class GeometryError(Options):
-    """The comparison of two surfaces has no options."""
-
 
 METRICS = {
     "vertex_error_before": Metric(
@@ -28,7 +23,7 @@ METRICS = {
 
 
 @register("measurement", "geometry_error", metrics=METRICS)
-def geometry_error(options: GeometryError, *, solver: Solution, noisy: Surface, clean: Surface) -> Measurement:
+def geometry_error(solver: Solution, noisy: Surface, clean: Surface) -> Measurement:
     """Distance and normals of the vertices that a solver found, measured against the clean surface."""
     truth = clean.mesh
     moved, before = TriangleMesh(solver.values, truth.faces), TriangleMesh(noisy.mesh.vertices, truth.faces)

@@ -1,17 +1,12 @@
 """The errors of a discrete operator on a function whose derivatives are known, chapter 1."""
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.diagnostics import adjointness_defect, null_modes
 from surfexp.operators.manufactured import manufactured, operator_errors
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.measurement import Measurement
-
-
-class OperatorErrors(Options):
-    """The measurement of operator errors has no options."""
-
 
 METRICS = {
     "edge_length": Metric("mean length of the edges", "unit of length"),
@@ -26,7 +21,7 @@ METRICS = {
 
 
 @register("measurement", "operator_errors", metrics=METRICS, accepts={"surface": ("icosphere", "torus")})
-def operator_errors_measurement(options: OperatorErrors, *, surface: Surface, operator: SurfaceOperator) -> Measurement:
+def operator_errors_measurement(surface: Surface, operator: SurfaceOperator) -> Measurement:
     """Relative errors of gradient, divergence and Laplacian on a sphere or torus, adjointness defect and null modes."""
     metrics = {"edge_length": operator.edge_length, "adjointness_defect": adjointness_defect(operator)}
     metrics |= operator_errors(operator, manufactured(surface))

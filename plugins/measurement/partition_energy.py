@@ -1,22 +1,17 @@
 """The energy by which two-phase segmentations of any method compare."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.measurement import Measurement
 from surfexp.variational.image import Image
 from surfexp.variational.level_sets import perimeters
 from surfexp.variational.solution import Solution
-
-
-class PartitionEnergy(Options):
-    """The weight of the data in the energy."""
-
-    mu: float = Field(1e-3, gt=0, description="the published weight of the data term, as in the solver compared")
-
 
 METRICS = {
     "partition_energy": Metric("perimeter and data term of the region"),
@@ -27,7 +22,13 @@ METRICS = {
 
 @register("measurement", "partition_energy", metrics=METRICS)
 def partition_energy(
-    options: PartitionEnergy, *, solver: Solution, image: Image, operator: SurfaceOperator
+    solver: Solution,
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    mu: Annotated[
+        float, Field(gt=0, description="the published weight of the data term, as in the solver compared")
+    ] = 0.001,
 ) -> Measurement:
     """Boundary length between the vertices of any method's regions + mu times the squared misfit."""
     if solver.segmentation is None or not np.isin(solver.segmentation, (0.0, 1.0)).all():
@@ -39,7 +40,7 @@ def partition_energy(
         weights = operator.mass * part
         mean = float(weights @ image.values / weights.sum()) if weights.any() else 0.0
         misfit += float(weights @ (image.values - mean) ** 2)
-    energy = perimeter + options.mu * misfit
+    energy = perimeter + mu * misfit
     share = float(operator.mass @ inside / np.sum(operator.mass))
     metrics = {"partition_energy": energy, "inside_share": share, "perimeter": perimeter}
     return Measurement(solver.solver, solver.metrics | metrics, solver.notes)

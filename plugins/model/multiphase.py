@@ -1,20 +1,13 @@
 """Segmentation into several regions."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.variational.model import Model
 from surfexp.variational.models.multiphase import MultiphaseSegmentation
-
-
-class Multiphase(Options):
-    """The number of regions, and the weight of the data."""
-
-    regions: int = Field(3, ge=2, le=64, description="number of regions")
-    smoothness: float = Field(0.3, gt=0, description="weight of the length of the boundaries, without unit")
-    updates: int = Field(10, ge=1, le=1000, description="largest number of updates of the means")
-
 
 METRICS = {
     "c{region}": Metric("mean of a region, first channel", "unit of the image"),
@@ -26,7 +19,12 @@ METRICS = {
 }
 
 
-@register("model", "multiphase", metrics=METRICS)
-def multiphase_model(options: Multiphase) -> Model:
+@register("model", "multiphase", metrics=METRICS, defaults_of=MultiphaseSegmentation)
+def multiphase_model(
+    *,
+    regions: Annotated[int, Field(ge=2, le=64, description="number of regions")],
+    smoothness: Annotated[float, Field(gt=0, description="weight of the length of the boundaries, without unit")],
+    updates: Annotated[int, Field(ge=1, le=1000, description="largest number of updates of the means")],
+) -> Model:
     """Convex relaxation of the segmentation into k regions, grey or coloured, with updated means."""
-    return MultiphaseSegmentation(**dict(options))
+    return MultiphaseSegmentation(regions=regions, smoothness=smoothness, updates=updates)

@@ -1,16 +1,12 @@
 """Operators assembled by libigl."""
 
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.libigl_operator import libigl_operator
 from surfexp.operators.surface_operator import SurfaceOperator
 
 
-class Libigl(Options):
-    """The operators of libigl have no options."""
-
-
 @register("operator", "libigl")
-def libigl_backend(options: Libigl, *, surface: Surface) -> SurfaceOperator:
+def libigl_backend(surface: Surface) -> SurfaceOperator:
     """Gradient, cotangent weights and mass from libigl; agrees with fem to rounding."""
     return libigl_operator(surface.mesh)

@@ -1,20 +1,14 @@
 """The geometry of a surface taken away: edge lengths shuffled."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
-from surfexp.operators.shuffled_lengths import SWEEPS, shuffled_lengths
+from surfexp.operators.shuffled_lengths import shuffled_lengths
 from surfexp.operators.surface_operator import SurfaceOperator
-
-
-class ShuffledLengths(Options):
-    """How lengths change places."""
-
-    seed: int = Field(0, ge=0, description="seed of the exchanges")
-    sweeps: int = Field(SWEEPS, ge=1, le=10000, description="exchanges that are tried, over the number of edges")
-
 
 METRICS = {
     "accepted": Metric("share of tried exchanges that all triangles allowed"),
@@ -23,7 +17,12 @@ METRICS = {
 }
 
 
-@register("operator", "shuffled_lengths", metrics=METRICS)
-def shuffled_lengths_operator(options: ShuffledLengths, *, surface: Surface) -> SurfaceOperator:
+@register("operator", "shuffled_lengths", metrics=METRICS, defaults_of=shuffled_lengths)
+def shuffled_lengths_operator(
+    surface: Surface,
+    *,
+    seed: Annotated[int, Field(ge=0, description="seed of the exchanges")],
+    sweeps: Annotated[int, Field(ge=1, le=10000, description="exchanges that are tried, over the number of edges")],
+) -> SurfaceOperator:
     """Finite elements on the same triangles with edge lengths exchanged at random, every triangle inequality kept."""
-    return shuffled_lengths(surface.mesh, options.seed, options.sweeps)
+    return shuffled_lengths(surface.mesh, seed, sweeps)

@@ -3,14 +3,9 @@
 import numpy as np
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.signature import Signature
-
-
-class Area(Options):
-    """No option."""
-
 
 METRICS = {
     "area": Metric("area", "unit of length squared"),
@@ -18,6 +13,6 @@ METRICS = {
 
 
 @register("signature", "area", metrics=METRICS)
-def area_signature(options: Area, *, surface: Surface) -> Signature:
+def area_signature(surface: Surface) -> Signature:
     """The area alone: how far size gets without any shape."""
     return Signature(np.array([surface.mesh.area]), "area", metrics={"area": surface.mesh.area})

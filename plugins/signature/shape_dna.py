@@ -1,38 +1,16 @@
 """The spectrum as a signature, section 4.2."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.signature import Signature
-
-
-class ShapeDna(Options):
-    """How many eigenvalues, and how they become independent of size.
-
-    With weights 1/n any number from 20 to 100 finds the kinds of two collections equally well, and better than fewer or
-    unweighted ones (docs/defaults.md). Distances between signatures bring these weights along.
-    """
-
-    normalisation: Literal["raw", "area", "volume", "first", "slope"] = Field(
-        "area", description="what divides out size"
-    )
-    count: int = Field(
-        35,
-        ge=1,
-        le=5000,
-        description="most values that are kept; 35 with weights 1/n found kinds best, see docs/defaults.md",
-    )
-    reweighted: bool = Field(
-        False, description="divide the n-th value by n already here; distance_matrix/signatures does so by alpha = 1"
-    )
-
 
 METRICS = {
     "first": Metric("first entry"),
@@ -41,11 +19,30 @@ METRICS = {
 }
 
 
-@register("signature", "shape_dna", metrics=METRICS)
-def shape_dna_signature(options: ShapeDna, *, surface: Surface, eigensolver: EigenSystem) -> Signature:
+@register("signature", "shape_dna", metrics=METRICS, defaults_of=shape_dna)
+def shape_dna_signature(
+    surface: Surface,
+    eigensolver: EigenSystem,
+    *,
+    normalisation: Annotated[
+        Literal["raw", "area", "volume", "first", "slope"], Field(description="what divides out size")
+    ],
+    count: Annotated[
+        int,
+        Field(
+            ge=1,
+            le=5000,
+            description="most values that are kept; 35 with weights 1/n found kinds best, see docs/defaults.md",
+        ),
+    ] = 35,
+    reweighted: Annotated[
+        bool,
+        Field(description="divide the n-th value by n already here; distance_matrix/signatures does so by alpha = 1"),
+    ],
+) -> Signature:
     """The first eigenvalues after the zero ones, raw or independent of size (shape DNA)."""
     volume = abs(enclosed_volume(surface.mesh)) if surface.mesh.is_closed else None
-    values = shape_dna(eigensolver.values, options.normalisation, eigensolver.area, volume, options.reweighted)
-    values = values[: options.count]
+    values = shape_dna(eigensolver.values, normalisation, eigensolver.area, volume, reweighted)
+    values = values[:count]
     metrics = {"first": float(values[0]), "last": float(values[-1]), "complete": float(eigensolver.complete)}
     return Signature(values, "shape_dna", metrics=metrics, notes=eigensolver.notes)

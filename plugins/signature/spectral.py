@@ -1,11 +1,11 @@
 """All spectral signatures of a surface in one stage, for collections."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
@@ -13,15 +13,6 @@ from surfexp.spectrum.signature import Signature
 from surfexp.spectrum.spectral_signature import spectral_signature
 
 TRIANGULATIONS = {"fem": fem, "intrinsic_delaunay": intrinsic_delaunay}
-
-
-class Spectral(Options):
-    """How many modes, and with which elements."""
-
-    count: int = Field(100, ge=8, le=2000, description="modes after the constant one")
-    order: Literal[1, 2, 3] = Field(1, description="order of the elements")
-    triangulation: Literal["fem", "intrinsic_delaunay"] = Field("fem", description="triangles of the elements")
-    seed: int = Field(0, ge=0, description="seed of starting vectors and of drawn points")
 
 
 METRICS = {
@@ -35,8 +26,17 @@ METRICS = {
 }
 
 
-@register("signature", "spectral", metrics=METRICS)
-def spectral(options: Spectral, *, surface: Surface) -> Signature:
+@register("signature", "spectral", metrics=METRICS, defaults_of=spectral_signature)
+def spectral(
+    surface: Surface,
+    *,
+    count: Annotated[int, Field(ge=8, le=2000, description="modes after the constant one")],
+    order: Annotated[Literal[1, 2, 3], Field(description="order of the elements")],
+    triangulation: Annotated[
+        Literal["fem", "intrinsic_delaunay"], Field(description="triangles of the elements")
+    ] = "fem",
+    seed: Annotated[int, Field(ge=0, description="seed of starting vectors and of drawn points")],
+) -> Signature:
     """Shape DNA, nodal counts, heat trace, HKS, WKS, GPS distances and area in one stage, each a part by name."""
-    operator = TRIANGULATIONS[options.triangulation](surface.mesh)
-    return spectral_signature(surface, operator, options.count, options.order, options.seed)
+    operator = TRIANGULATIONS[triangulation](surface.mesh)
+    return spectral_signature(surface, operator, count, order, seed)

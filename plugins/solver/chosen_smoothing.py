@@ -1,10 +1,10 @@
 """Ways to smooth a map whose parameter the data choose."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.parameter_choice import Rule
@@ -25,33 +25,32 @@ Method = Literal[
 ]
 
 
-class ChosenModes(Options):
-    """By what their number is chosen."""
-
-    rule: Rule = Field("hold_out", description="what chooses the number of modes; stein if there is one repetition")
-    seed: int = Field(0, ge=0, description="seed of the probe of Stein's estimate")
+Seed = Annotated[int, Field(ge=0, description="seed of the probe of Stein's estimate")]
 
 
-class ChosenSmoothing(ChosenModes):
-    """Which method, and by what its parameter is chosen."""
-
-    method: Method = Field("heat_flow", description="how the map is smoothed")
-    rule: Rule = Field("hold_out", description="what chooses the parameter; stein if there is one repetition")
-
-
-@register("solver", "chosen_smoothing", metrics=SMOOTHING_METRICS)
+@register("solver", "chosen_smoothing", metrics=SMOOTHING_METRICS, defaults_of=chosen_smoothing)
 def chosen_smoothing_solver(
-    options: ChosenSmoothing, *, surface: Surface, image: Image, operator: SurfaceOperator
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    rule: Annotated[Rule, Field(description="what chooses the parameter; stein if there is one repetition")],
+    seed: Seed,
+    method: Annotated[Method, Field(description="how the map is smoothed")] = "heat_flow",
 ) -> Solution:
     """A map smoothed by a method with the parameter that the data choose; columns of the image are repetitions."""
-    return chosen_smoothing(surface.mesh, operator, image, options.method, options.rule, seed=options.seed)
+    return chosen_smoothing(surface.mesh, operator, image, method, rule, seed=seed)
 
 
-@register("solver", "chosen_modes", metrics=SMOOTHING_METRICS)
+@register("solver", "chosen_modes", metrics=SMOOTHING_METRICS, defaults_of=chosen_smoothing)
 def chosen_modes_solver(
-    options: ChosenModes, *, surface: Surface, image: Image, operator: SurfaceOperator, eigensolver: EigenSystem
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    eigensolver: EigenSystem,
+    *,
+    rule: Annotated[Rule, Field(description="what chooses the number of modes; stein if there is one repetition")],
+    seed: Seed,
 ) -> Solution:
     """What as many of the lowest modes see of a map as the data choose; columns of the image are repetitions."""
-    return chosen_smoothing(
-        surface.mesh, operator, image, "truncated_modes", options.rule, eigensystem=eigensolver, seed=options.seed
-    )
+    return chosen_smoothing(surface.mesh, operator, image, "truncated_modes", rule, eigensystem=eigensolver, seed=seed)

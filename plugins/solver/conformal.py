@@ -1,13 +1,14 @@
 """The parametrization baseline: the model solved on the sphere, with the conformal factor as weights."""
 
 from functools import partial
+from typing import Annotated
 
 from pydantic import Field
 
 from surfexp.baselines.parameter_domain import Parametrized, conformal_domain
 from surfexp.baselines.sphere_grid import sphere_grid_domain
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -15,15 +16,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
-
-
-class Conformal(Options):
-    """The parameter domain, and when to stop."""
-
-    columns: int = Field(0, ge=0, le=8192, description="points of a regular grid along the equator; 0: on the vertices")
-    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap on the parameter domain")
-    iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
-
 
 METRICS = {
     "relative_gap": Metric(
@@ -44,16 +36,32 @@ METRICS = {
 }
 
 
-@register("solver", "conformal", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
+@register(
+    "solver", "conformal", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")}, defaults_of=primal_dual
+)
 def conformal_solver(
-    options: Conformal, *, surface: Surface, spherical: Surface, image: Image, operator: SurfaceOperator, model: Model
+    surface: Surface,
+    spherical: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    model: Model,
+    *,
+    columns: Annotated[
+        int, Field(ge=0, le=8192, description="points of a regular grid along the equator; 0: on the vertices")
+    ] = 0,
+    tolerance: Annotated[
+        float, Field(gt=0, lt=1, description="bound of the relative gap on the parameter domain")
+    ] = 0.0001,
+    iteration_limit: Annotated[int, Field(ge=1, description="most iterations of one convex problem")],
 ) -> Solution:
     """Primal-dual steps on the spherical image of the surface, on its vertices or a grid of 2 : 1; measured on the surface."""
     mesh, positions = surface.mesh, spherical.mesh.vertices
-    columns = options.columns
+    grid_columns = columns
     domain = (
-        sphere_grid_domain(mesh, positions, columns, columns // 2) if columns else conformal_domain(mesh, positions)
+        sphere_grid_domain(mesh, positions, grid_columns, grid_columns // 2)
+        if grid_columns
+        else conformal_domain(mesh, positions)
     )
-    limits = {"tolerance": options.tolerance, "iteration_limit": options.iteration_limit}
+    limits = {"tolerance": tolerance, "iteration_limit": iteration_limit}
     method = partial(primal_dual, **limits, progress=report_progress)
     return model.run(image, operator, Parametrized(domain, method))

@@ -1,11 +1,11 @@
 """Split Bregman iterations for total generalised variation."""
 
 from functools import partial
-from typing import cast
+from typing import Annotated, cast
 
 from pydantic import Field
 
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
@@ -15,21 +15,27 @@ from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.generalised_splitting import generalised_splitting
 
 
-class GeneralisedSplitting(Options):
-    """When to stop, and the penalty."""
-
-    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
-    iteration_limit: int = Field(20000, ge=1, description="most iterations")
-    penalty: float | None = Field(
-        None, gt=0, description="of grad u - w; default: 9 over the mean length of the gradient of the image"
-    )
-    relaxation: float = Field(1.8, gt=0, lt=2, description="over-relaxation")
-
-
-@register("solver", "generalised_splitting", accepts={"model": ("tgv",)})
+@register("solver", "generalised_splitting", accepts={"model": ("tgv",)}, defaults_of=generalised_splitting)
 def generalised_splitting_solver(
-    options: GeneralisedSplitting, *, image: Image, operator: SurfaceOperator, model: Model
+    image: Image,
+    operator: SurfaceOperator,
+    model: Model,
+    *,
+    tolerance: Annotated[float, Field(gt=0, lt=1, description="bound of the relative gap")],
+    iteration_limit: Annotated[int, Field(ge=1, description="most iterations")],
+    penalty: Annotated[
+        float | None,
+        Field(gt=0, description="of grad u - w; default: 9 over the mean length of the gradient of the image"),
+    ],
+    relaxation: Annotated[float, Field(gt=0, lt=2, description="over-relaxation")],
 ) -> Solution:
     """Split Bregman iterations with one factorisation for u and w together, certified."""
-    method = partial(generalised_splitting, **dict(options), progress=report_progress)
+    method = partial(
+        generalised_splitting,
+        tolerance=tolerance,
+        iteration_limit=iteration_limit,
+        penalty=penalty,
+        relaxation=relaxation,
+        progress=report_progress,
+    )
     return cast(TGV, model).run(image, operator, method)

@@ -1,11 +1,12 @@
 """Heat flow on the surface."""
 
 from dataclasses import replace
+from typing import Annotated
 
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -13,14 +14,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 from surfexp.variational.surface_flows import heat_flow
 from surfexp.variational.truth_metrics import RESTORATION_METRICS, restoration_metrics
-
-
-class HeatFlow(Options):
-    """Duration and number of steps."""
-
-    width: float = Field(2.0, gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
-    steps: int = Field(10, ge=1, le=10000, description="implicit Euler steps")
-
 
 METRICS = {
     "time": Metric("end time", "unit of length squared"),
@@ -30,16 +23,24 @@ METRICS = {
 }
 
 
-@register("solver", "heat_flow", metrics=METRICS)
-def heat_flow_solver(options: HeatFlow, *, image: Image, operator: SurfaceOperator) -> Solution:
+@register("solver", "heat_flow", metrics=METRICS, defaults_of=heat_flow)
+def heat_flow_solver(
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    width: Annotated[
+        float, Field(gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
+    ] = 2.0,
+    steps: Annotated[int, Field(ge=1, le=10000, description="implicit Euler steps")],
+) -> Solution:
     """The image after diffusing for a time, by implicit Euler steps: the linear filter beside total variation."""
-    time = 0.5 * (options.width * operator.edge_length) ** 2
-    values = heat_flow(operator, image.values, time, options.steps)
+    time = 0.5 * (width * operator.edge_length) ** 2
+    values = heat_flow(operator, image.values, time, steps)
     flat = values.reshape(len(values), -1)
     solution = Solution(
         values,
         0.5 * float((flat * (stiffness(operator) @ flat)).sum()),
-        iterations=options.steps,
+        iterations=steps,
         reason="end time",
         model="heat flow",
         solver="implicit",

@@ -1,13 +1,14 @@
 """Linear filters of maps: what total variation is compared with."""
 
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.heat_polynomial import heat_polynomial
@@ -32,45 +33,39 @@ POLYNOMIAL_METRICS = {
 }
 
 
-class NeighbourMean(Options):
-    """How often."""
-
-    iterations: int = Field(10, ge=0, le=100000, description="means over each vertex and its neighbours")
-
-
 @register("solver", "neighbour_mean", metrics=METRICS)
-def neighbour_mean_solver(options: NeighbourMean, *, image: Image, operator: SurfaceOperator) -> Solution:
+def neighbour_mean_solver(
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    iterations: Annotated[int, Field(ge=0, le=100000, description="means over each vertex and its neighbours")] = 10,
+) -> Solution:
     """Means over each vertex and its neighbours, all of one weight, as imaging packages smooth maps."""
-    values = neighbour_mean(operator.faces, image.values, options.iterations)
-    return _filtered("neighbour mean", values, image, operator, options.iterations)
+    values = neighbour_mean(operator.faces, image.values, iterations)
+    return _filtered("neighbour mean", values, image, operator, iterations)
 
 
-class HeatPolynomial(Options):
-    """How wide, and how exactly."""
-
-    width: float = Field(2.0, gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
-    tolerance: float = Field(1e-8, gt=0, lt=1, description="bound of the relative error")
-
-
-@register("solver", "heat_polynomial", metrics=POLYNOMIAL_METRICS)
-def heat_polynomial_solver(options: HeatPolynomial, *, image: Image, operator: SurfaceOperator) -> Solution:
+@register("solver", "heat_polynomial", metrics=POLYNOMIAL_METRICS, defaults_of=heat_polynomial)
+def heat_polynomial_solver(
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    width: Annotated[
+        float, Field(gt=0, description="standard deviation sqrt(2 time) of the kernel in edge lengths")
+    ] = 2.0,
+    tolerance: Annotated[float, Field(gt=0, lt=1, description="bound of the relative error")],
+) -> Solution:
     """Heat flow by Chebyshev polynomials of the Laplacian, with a bound of the error and without a linear system."""
-    time = 0.5 * (options.width * operator.edge_length) ** 2
-    values, degree, bound = heat_polynomial(operator, image.values, time, options.tolerance)
+    time = 0.5 * (width * operator.edge_length) ** 2
+    values, degree, bound = heat_polynomial(operator, image.values, time, tolerance)
     solution = _filtered("heat kernel", values, image, operator, degree)
     return replace(
         solution, metrics=solution.metrics | {"time": time, "degree": float(degree), "filter_error_bound": bound}
     )
 
 
-class TruncatedModes(Options):
-    """Nothing to choose: the number of modes is that of the eigensolver."""
-
-
 @register("solver", "truncated_modes", metrics=METRICS)
-def truncated_modes_solver(
-    options: TruncatedModes, *, image: Image, operator: SurfaceOperator, eigensolver: EigenSystem
-) -> Solution:
+def truncated_modes_solver(image: Image, operator: SurfaceOperator, eigensolver: EigenSystem) -> Solution:
     """What the lowest eigenfunctions see of the image, without all above them."""
     values = diffuse(eigensolver, mass_matrix(operator), image.values, 0.0)
     return _filtered("truncated modes", values, image, operator, 1)

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from functools import partial
+from typing import Annotated
 
 from pydantic import Field
 
 from surfexp.baselines.parameter_domain import Parametrized
 from surfexp.baselines.patchwise import disk_patches, patchwise_domain, seam_error
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -16,15 +17,6 @@ from surfexp.variational.image import Image
 from surfexp.variational.model import Model
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.primal_dual import primal_dual
-
-
-class Patchwise(Options):
-    """The patches, and when to stop."""
-
-    patches: int = Field(8, ge=1, le=1000, description="patches to begin with; those that are no disks are halved")
-    tolerance: float = Field(1e-4, gt=0, lt=1, description="bound of the relative gap")
-    iteration_limit: int = Field(20000, ge=1, description="most iterations of one convex problem")
-
 
 METRICS = {
     "relative_gap": Metric(
@@ -49,14 +41,25 @@ METRICS = {
 }
 
 
-@register("solver", "patchwise", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")})
+@register(
+    "solver", "patchwise", metrics=METRICS, accepts={"model": ("rof", "convex_chan_vese")}, defaults_of=primal_dual
+)
 def patchwise_solver(
-    options: Patchwise, *, surface: Surface, image: Image, operator: SurfaceOperator, model: Model
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    model: Model,
+    *,
+    patches: Annotated[
+        int, Field(ge=1, le=1000, description="patches to begin with; those that are no disks are halved")
+    ] = 8,
+    tolerance: Annotated[float, Field(gt=0, lt=1, description="bound of the relative gap")] = 0.0001,
+    iteration_limit: Annotated[int, Field(ge=1, description="most iterations of one convex problem")],
 ) -> Solution:
     """Disks mapped to the plane and solved apart; their error at the seams against the intrinsic result (2.4.2)."""
-    limits = {"tolerance": options.tolerance, "iteration_limit": options.iteration_limit}
+    limits = {"tolerance": tolerance, "iteration_limit": iteration_limit}
     method = partial(primal_dual, **limits, progress=report_progress)
-    labels = disk_patches(surface.mesh, options.patches)
+    labels = disk_patches(surface.mesh, patches)
     result = model.run(image, operator, Parametrized(patchwise_domain(surface.mesh, labels), method))
     intrinsic = model.run(image, operator, method)
     errors = seam_error(surface.mesh, labels, result.values, intrinsic.values)

@@ -1,10 +1,12 @@
 """Signs of modes of people where two maps agree."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
@@ -16,15 +18,12 @@ METRICS = {
 }
 
 
-class AgreedSigns(Options):
-    """How many modes."""
-
-    count: int = Field(50, ge=5, le=500, description="modes after the constant")
-
-
-@register("statistic", "agreed_signs", metrics=METRICS)
+@register("statistic", "agreed_signs", metrics=METRICS, defaults_of=agreed_signs)
 def agreed_signs_statistic(
-    options: AgreedSigns, *, surfaces: dict[Member, Surface], systems: dict[Member, EigenSystem]
+    surfaces: dict[Member, Surface],
+    systems: dict[Member, EigenSystem],
+    *,
+    count: Annotated[int, Field(ge=5, le=500, description="modes after the constant")],
 ) -> Statistic:
     """Proved signs, and those by skewness and largest value, where functional map and map in space agree."""
-    return agreed_signs(surfaces, systems, options.count)
+    return agreed_signs(surfaces, systems, count)

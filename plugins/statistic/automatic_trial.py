@@ -1,9 +1,11 @@
 """The automatic choice of a method, held against the truth."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.statistics.statistic import Statistic
@@ -18,15 +20,13 @@ METRICS = {
 }
 
 
-class AutomaticTrial(Options):
-    """The probe."""
-
-    seed: int = Field(0, ge=0, description="seed of the probe of Stein's estimate")
-
-
-@register("statistic", "automatic_trial", metrics=METRICS)
+@register("statistic", "automatic_trial", metrics=METRICS, defaults_of=automatic_trial)
 def automatic_trial_statistic(
-    options: AutomaticTrial, *, surface: Surface, image: Image, operator: SurfaceOperator
+    surface: Surface,
+    image: Image,
+    operator: SurfaceOperator,
+    *,
+    seed: Annotated[int, Field(ge=0, description="seed of the probe of Stein's estimate")],
 ) -> Statistic:
     """The first column of an image smoothed by what promises the least error, beside each candidate."""
-    return automatic_trial(surface.mesh, operator, image, options.seed)
+    return automatic_trial(surface.mesh, operator, image, seed)

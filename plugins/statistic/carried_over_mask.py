@@ -1,11 +1,11 @@
 """What filters carry over the medial wall."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.smoothing.carried_over_mask import carried_over_mask
@@ -17,18 +17,18 @@ METRICS = {
 }
 
 
-class CarriedOverMask(Options):
-    """Which filter, and how wide."""
-
-    filter: Literal["neighbour_mean", "geodesic_gaussian", "heat_flow"] = Field("heat_flow", description="the filter")
-    width: float = Field(10.0, gt=0, le=1000, description="full width at half maximum, mm")
-    map: str = Field("thickness", min_length=1, description="map that is positive inside the mask")
-
-
 @register("statistic", "carried_over_mask", metrics=METRICS)
-def carried_over_mask_statistic(options: CarriedOverMask, *, surface: Surface) -> Statistic:
+def carried_over_mask_statistic(
+    surface: Surface,
+    *,
+    filter: Annotated[
+        Literal["neighbour_mean", "geodesic_gaussian", "heat_flow"], Field(description="the filter")
+    ] = "heat_flow",
+    width: Annotated[float, Field(gt=0, le=1000, description="full width at half maximum, mm")] = 10.0,
+    map: Annotated[str, Field(min_length=1, description="map that is positive inside the mask")] = "thickness",
+) -> Statistic:
     """A constant map with 0 over the mask, smoothed as packages do and on the part alone."""
-    if options.map not in surface.scalars:
+    if map not in surface.scalars:
         known = ", ".join(surface.scalars) or "none"
-        raise ValueError(f"map {options.map!r} is not on {surface.name}, which has {known}")
-    return carried_over_mask(surface.mesh, surface.scalars[options.map] > 0, options.filter, options.width)
+        raise ValueError(f"map {map!r} is not on {surface.name}, which has {known}")
+    return carried_over_mask(surface.mesh, surface.scalars[map] > 0, filter, width)

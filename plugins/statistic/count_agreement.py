@@ -1,18 +1,16 @@
 """How well signatures of one shape repeat."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.spectrum.signature import Signature
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.count_agreement import count_agreement, largest_change
 
-
-class Agreement(Options):
-    """What is compared."""
-
-    part: str = Field("", description="part of the signatures; empty: the signature itself")
+Part = Annotated[str, Field(description="part of the signatures; empty: the signature itself")]
 
 
 COUNT_AGREEMENT_METRICS = {
@@ -26,10 +24,10 @@ COUNT_AGREEMENT_METRICS = {
 }
 
 
-@register("statistic", "count_agreement", metrics=COUNT_AGREEMENT_METRICS)
-def agreement_statistic(options: Agreement, *, reference: Signature, others: dict[str, Signature]) -> Statistic:
+@register("statistic", "count_agreement", metrics=COUNT_AGREEMENT_METRICS, defaults_of=count_agreement)
+def agreement_statistic(reference: Signature, others: dict[str, Signature], *, part: Part) -> Statistic:
     """Share of nodal counts that agree with a reference mesh, by the number of the mode."""
-    return count_agreement(reference, others, options.part)
+    return count_agreement(reference, others, part)
 
 
 SIGNATURE_CHANGE_METRICS = {
@@ -38,7 +36,7 @@ SIGNATURE_CHANGE_METRICS = {
 }
 
 
-@register("statistic", "signature_change", metrics=SIGNATURE_CHANGE_METRICS)
-def change_statistic(options: Agreement, *, reference: Signature, others: dict[str, Signature]) -> Statistic:
+@register("statistic", "signature_change", metrics=SIGNATURE_CHANGE_METRICS, defaults_of=largest_change)
+def change_statistic(reference: Signature, others: dict[str, Signature], *, part: Part) -> Statistic:
     """Largest and mean relative change of a signature against a reference."""
-    return largest_change(reference, others, options.part)
+    return largest_change(reference, others, part)

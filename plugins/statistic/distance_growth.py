@@ -1,32 +1,15 @@
 """Growth of the spectral distance with the number of eigenfunctions, on analytic spectra, (6.19)."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.embedding.analytic_spectra import sphere_embedding, spheroid_embedding, torus_embedding
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.distances.distance_growth import distance_brackets, logarithmic_slope, squared_norms
-
-
-class DistanceGrowth(Options):
-    """The pair of surfaces and the sizes."""
-
-    family: Literal["torus", "spheroid", "sphere"] = Field(
-        "torus", description="flat tori, ellipsoids of revolution, or sphere against ellipsoid of revolution"
-    )
-    first: float = Field(
-        1.1, gt=0.1, lt=10, description="ratio of the torus's sides, or axis of the ellipsoid; first surface"
-    )
-    second: float = Field(1.15, gt=0.1, lt=10, description="the same of the second surface")
-    largest: int = Field(400, ge=20, le=2000, description="most eigenfunctions; sizes double up to it from the left")
-    weighting: Literal["global_point", "biharmonic"] = Field(
-        "global_point", description="1/sqrt(lambda) (6.4), or 1/lambda"
-    )
-
 
 METRICS = {
     "lower bound": Metric("proved lower bound of the distance at the largest n"),
@@ -37,19 +20,33 @@ METRICS = {
 }
 
 
-@register("statistic", "distance_growth", metrics=METRICS)
-def distance_growth_statistic(options: DistanceGrowth) -> Statistic:
+@register("statistic", "distance_growth", metrics=METRICS, defaults_of=torus_embedding)
+def distance_growth_statistic(
+    *,
+    family: Annotated[
+        Literal["torus", "spheroid", "sphere"],
+        Field(description="flat tori, ellipsoids of revolution, or sphere against ellipsoid of revolution"),
+    ] = "torus",
+    first: Annotated[
+        float, Field(gt=0.1, lt=10, description="ratio of the torus's sides, or axis of the ellipsoid; first surface")
+    ] = 1.1,
+    second: Annotated[float, Field(gt=0.1, lt=10, description="the same of the second surface")] = 1.15,
+    largest: Annotated[
+        int, Field(ge=20, le=2000, description="most eigenfunctions; sizes double up to it from the left")
+    ] = 400,
+    weighting: Annotated[Literal["global_point", "biharmonic"], Field(description="1/sqrt(lambda) (6.4), or 1/lambda")],
+) -> Statistic:
     """Bounds of d_n and the mean squared norm of the embedding for growing n, and their growth with ln n."""
-    sizes = sorted({round(options.largest / 2**k) for k in range(int(np.log2(options.largest / 4)) + 1)})
-    make = torus_embedding if options.family == "torus" else spheroid_embedding
-    second = make(options.second, options.largest, weighting=options.weighting)
-    if options.family == "sphere":
-        first = sphere_embedding((int(np.ceil(np.sqrt(options.largest + 1)))) ** 2 - 1, 3600, options.weighting)
-        first = first.truncated(options.largest)
+    sizes = sorted({round(largest / 2**k) for k in range(int(np.log2(largest / 4)) + 1)})
+    make = torus_embedding if family == "torus" else spheroid_embedding
+    second_error = make(second, largest, weighting=weighting)
+    if family == "sphere":
+        first_error = sphere_embedding((int(np.ceil(np.sqrt(largest + 1)))) ** 2 - 1, 3600, weighting)
+        first_error = first_error.truncated(largest)
     else:
-        first = make(options.first, options.largest, weighting=options.weighting)
-    lower, upper = distance_brackets(first, second, sizes)
-    norms = squared_norms(first, sizes)
+        first_error = make(first, largest, weighting=weighting)
+    lower, upper = distance_brackets(first_error, second_error, sizes)
+    norms = squared_norms(first_error, sizes)
     middle = len(sizes) // 2
     metrics = {
         "lower bound": float(lower[-1]),
@@ -59,4 +56,4 @@ def distance_growth_statistic(options: DistanceGrowth) -> Statistic:
         "growth of the upper bound, last doubling": float(upper[-1] / upper[-2] - 1.0),
     }
     columns = {"n": np.array(sizes, float), "lower bound": lower, "upper bound": upper, "squared norm": norms}
-    return Statistic(f"{options.family}, {options.weighting.replace('_', ' ')}", columns, metrics=metrics)
+    return Statistic(f"{family}, {weighting.replace('_', ' ')}", columns, metrics=metrics)

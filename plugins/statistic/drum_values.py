@@ -1,10 +1,13 @@
 """Eigenvalues of the drums of figure 4.1 to nine digits."""
 
+from collections.abc import Sequence
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.drums.drum_values import drum_values
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES
@@ -13,14 +16,6 @@ from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT
 
 # modes 9 and 21 are those of the tile itself, reflected: 5 pi^2 / 4 and twice that
 EXACT = {8: 1.25 * np.pi**2, 20: 2.5 * np.pi**2}
-
-
-class Values(Options):
-    """Meshes, and how many values."""
-
-    count: int = Field(25, ge=10, le=100, description="eigenvalues")
-    divisions: list[int] = Field([36, 48, 64], description="even divisions of a side of the tile, three meshes or more")
-    grading: float = Field(4.0, ge=1, le=6, description="exponent that draws nodes to the corners")
 
 
 METRICS = {
@@ -32,14 +27,21 @@ METRICS = {
 }
 
 
-@register("statistic", "drum_values", metrics=METRICS)
-def drum_values_statistic(options: Values) -> Statistic:
+@register("statistic", "drum_values", metrics=METRICS, defaults_of=drum_values)
+def drum_values_statistic(
+    *,
+    count: Annotated[int, Field(ge=10, le=100, description="eigenvalues")],
+    divisions: Annotated[
+        Sequence[int], Field(description="even divisions of a side of the tile, three meshes or more")
+    ],
+    grading: Annotated[float, Field(ge=1, le=6, description="exponent that draws nodes to the corners")],
+) -> Statistic:
     """First Dirichlet values of the Gordon-Webb-Wolpert drum by cubic elements on graded meshes, extrapolated."""
     tile = TILE_SHAPES["right_isosceles"]
-    found = drum_values(GORDON_WEBB_WOLPERT.first, tile, options.count, tuple(options.divisions), options.grading)
+    found = drum_values(GORDON_WEBB_WOLPERT.first, tile, count, tuple(divisions), grading)
     known = np.array(GORDON_WEBB_WOLPERT_VALUES)
     finest = np.abs(found.computed[-1] / found.values - 1.0)
-    exact = [abs(found.values[mode] / value - 1.0) for mode, value in EXACT.items() if mode < options.count]
+    exact = [abs(found.values[mode] / value - 1.0) for mode, value in EXACT.items() if mode < count]
     metrics = {
         "error_to_published": float(np.abs(found.values[: len(known)] / known - 1.0).max()),
         "error_to_exact": float(max(exact)) if exact else 0.0,
@@ -48,7 +50,7 @@ def drum_values_statistic(options: Values) -> Statistic:
         "degrees_of_freedom": float(found.degrees_of_freedom[-1]),
     }
     columns = {
-        "mode": np.arange(1.0, options.count + 1.0),
+        "mode": np.arange(1.0, count + 1.0),
         "value": found.values,
         "estimated error": found.estimates,
         "error of the finest mesh": finest,

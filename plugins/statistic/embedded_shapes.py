@@ -1,5 +1,8 @@
 """What the embedding by the first eigenfunctions makes of a sphere, and of regions of two cortices."""
 
+from collections.abc import Sequence
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
@@ -8,15 +11,10 @@ from surfexp.contract.metric import Metric
 from surfexp.embedding.region_separation import region_separation
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import spectral_embedding
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
-
-
-class EmbeddedRoundness(Options):
-    """The number of functions is that of figure 6.1, three."""
-
 
 ROUNDNESS_METRICS = {
     "mean_radius": Metric("mean distance from the origin"),
@@ -25,21 +23,13 @@ ROUNDNESS_METRICS = {
 
 
 @register("statistic", "embedded_roundness", metrics=ROUNDNESS_METRICS)
-def embedded_roundness_statistic(
-    options: EmbeddedRoundness, *, surface: Surface, eigensolver: EigenSystem
-) -> Statistic:
+def embedded_roundness_statistic(surface: Surface, eigensolver: EigenSystem) -> Statistic:
     """Mean and spread of the distance of a surface from the origin in its first three eigenfunctions (6.4)."""
     embedding = spectral_embedding(eigensolver, surface.mesh.vertex_areas, 3)
     radii = np.linalg.norm(embedding.points, axis=1)
     mean = float(radii @ embedding.weights)
     spread = float(np.sqrt((radii - mean) ** 2 @ embedding.weights)) / mean
     return Statistic(f"embedded {surface.name}", metrics={"mean_radius": mean, "radius_spread": spread})
-
-
-class RegionSeparation(Options):
-    """Numbers of eigenfunctions."""
-
-    sizes: list[int] = Field([1, 2, 3, 4, 6, 10], description="numbers n of eigenfunctions")
 
 
 SEPARATION_METRICS = {
@@ -56,19 +46,19 @@ SEPARATION_METRICS = {
 
 @register("statistic", "region_separation", metrics=SEPARATION_METRICS)
 def region_separation_statistic(
-    options: RegionSeparation,
-    *,
     source_surface: Surface,
     source: EigenSystem,
     target_surface: Surface,
     target: EigenSystem,
+    *,
+    sizes: Annotated[Sequence[int], Field(description="numbers n of eigenfunctions")] = [1, 2, 3, 4, 6, 10],
 ) -> Statistic:
     """Distances between labelled regions in the optimal embedding by n functions, and in space, against d_n (6.17)."""
     meshes = source_surface.mesh, target_surface.mesh
     labels = [_regions(item) for item in (source_surface, target_surface)]
     areas = [mesh.vertex_areas / mesh.area for mesh in meshes]
     rows = []
-    for n in options.sizes:
+    for n in sizes:
         first, second = (
             spectral_embedding(system, mesh.vertex_areas, n)
             for system, mesh in zip((source, target), meshes, strict=True)
@@ -82,8 +72,8 @@ def region_separation_statistic(
     table = np.array(rows)
     metrics = {"found, in space": space.found}
     for name, column in zip(("between over distance", "between over within", "found"), table.T, strict=True):
-        metrics |= {f"{name}, n = {n}": float(value) for n, value in zip(options.sizes, column, strict=True)}
-    columns = {"n": np.array(options.sizes, float), "between over distance": table[:, 0], "found": table[:, 2]}
+        metrics |= {f"{name}, n = {n}": float(value) for n, value in zip(sizes, column, strict=True)}
+    columns = {"n": np.array(sizes, float), "between over distance": table[:, 0], "found": table[:, 2]}
     return Statistic("regions in the optimal embedding", columns, metrics=metrics)
 
 

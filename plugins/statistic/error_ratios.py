@@ -1,10 +1,12 @@
 """Errors of methods over that of a reference."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric, MetricName
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.smoothing.error_ratios import error_ratios
 from surfexp.variational.solution import Solution
@@ -19,16 +21,14 @@ METRICS = {
 }
 
 
-class ErrorRatios(Options):
-    """Which error, and by what it is divided."""
-
-    error: MetricName = Field("rmse", description="metric of the solutions that is an error")
-    reference: str = Field("heat flow", min_length=1, description="class to divide by")
-    baseline: str = Field("none", min_length=1, description="class that stands for doing nothing")
-    seed: int = Field(0, ge=0, description="seed of the bootstrap")
-
-
-@register("statistic", "error_ratios", metrics=METRICS)
-def error_ratios_statistic(options: ErrorRatios, *, solutions: dict[Member, Solution]) -> Statistic:
+@register("statistic", "error_ratios", metrics=METRICS, defaults_of=error_ratios)
+def error_ratios_statistic(
+    solutions: dict[Member, Solution],
+    *,
+    error: Annotated[MetricName, Field(description="metric of the solutions that is an error")] = "rmse",
+    reference: Annotated[str, Field(min_length=1, description="class to divide by")] = "heat flow",
+    baseline: Annotated[str, Field(min_length=1, description="class that stands for doing nothing")] = "none",
+    seed: Annotated[int, Field(ge=0, description="seed of the bootstrap")],
+) -> Statistic:
     """Median ratio of each method's error to a reference's, with bootstrap intervals over groups of units."""
-    return error_ratios(solutions, options.error, options.reference, options.baseline, options.seed)
+    return error_ratios(solutions, error, reference, baseline, seed)

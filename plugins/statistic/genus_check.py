@@ -1,12 +1,13 @@
 """Loops of Reeb graphs against handles of surfaces."""
 
-from typing import Literal
+from collections.abc import Sequence
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.hidden_handles import hidden_handles
@@ -15,18 +16,6 @@ from surfexp.skeleton.published_reeb_graph import published_loops
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import arc_components
 from surfexp.statistics.statistic import Statistic
-
-
-class GenusCheck(Options):
-    """What is tried."""
-
-    directions: int = Field(8, ge=1, le=1000, description="random directions of height")
-    counts: list[int] = Field([10, 20, 50, 100, 200], min_length=1, description="numbers of levels")
-    levels: Literal["uniform", "area_quantile", "arc_length", "critical"] = Field(
-        "uniform", description="where the levels lie; critical ones separate all saddles"
-    )
-    seed: int = Field(0, ge=0, description="seed of the directions")
-
 
 METRICS = {
     "handles": Metric("handles of the surface"),
@@ -43,23 +32,36 @@ METRICS = {
 
 
 @register("statistic", "genus_check", metrics=METRICS)
-def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic:
+def genus_check_statistic(
+    surface: Surface,
+    *,
+    directions: Annotated[int, Field(ge=1, le=1000, description="random directions of height")] = 8,
+    counts: Annotated[Sequence[int], Field(min_length=1, description="numbers of levels")] = [10, 20, 50, 100, 200],
+    levels: Annotated[
+        Literal["uniform", "area_quantile", "arc_length", "critical"],
+        Field(description="where the levels lie; critical ones separate all saddles"),
+    ] = "uniform",
+    seed: Annotated[int, Field(ge=0, description="seed of the directions")] = 0,
+) -> Statistic:
     """Loops of the Reeb graphs of heights in random directions, sampled and exact, against the genus of a closed surface."""
     mesh = surface.mesh
     if not mesh.is_closed:
         raise ValueError(f"{surface.name} has a boundary, the number of loops is the genus on closed surfaces only")
-    directions = np.random.default_rng(options.seed).normal(size=(options.directions, 3))
+    sampled = np.random.default_rng(seed).normal(size=(directions, 3))
     rows = []
-    for number, direction in enumerate(directions):
+    for number, direction in enumerate(sampled):
         height = mesh.vertices @ (direction / np.linalg.norm(direction))
         exact = exact_reeb_graph(mesh, height)
         loops = len(exact.arcs) - len(exact.vertices) + arc_components(exact.arcs, len(exact.vertices))
-        for count in options.counts:
-            levels = choose_levels(mesh, height, count, options.levels)
-            found, hidden = reeb_graph(mesh, height, levels).metrics["b1"], hidden_handles(mesh, height, levels)
+        for count in counts:
+            chosen_levels = choose_levels(mesh, height, count, levels)
+            found, hidden = (
+                reeb_graph(mesh, height, chosen_levels).metrics["b1"],
+                hidden_handles(mesh, height, chosen_levels),
+            )
             said = sum(item.handles for item in hidden)
             largest = max((item.high - item.low for item in hidden), default=0.0) / float(np.ptp(height))
-            rows.append((number, count, found, said, largest, loops, published_loops(mesh, height, levels)))
+            rows.append((number, count, found, said, largest, loops, published_loops(mesh, height, chosen_levels)))
     columns = dict(
         zip(
             ("direction", "levels", "loops", "said", "hidden_extent", "exact_loops", "published_loops"),
@@ -68,7 +70,7 @@ def genus_check_statistic(options: GenusCheck, *, surface: Surface) -> Statistic
         )
     )
     right = columns["loops"] == mesh.genus
-    finest = columns["levels"] == max(options.counts)
+    finest = columns["levels"] == max(counts)
     metrics = {
         "handles": float(mesh.genus),
         "right": float(right.mean()),

@@ -1,24 +1,16 @@
 """Curves of the geodesic error of maps whose truth is known, as in the literature on functional maps."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
-
-
-class GeodesicErrors(Options):
-    """Where errors are measured."""
-
-    samples: int = Field(300, ge=1, le=100000, description="vertices of the target, drawn by area")
-    largest: float = Field(0.2, gt=0, le=10, description="end of the curves, in square roots of the area")
-    steps: int = Field(20, ge=1, le=1000, description="points of the curves after 0")
-    seed: int = Field(0, ge=0, description="seed of the draw")
-
 
 METRICS = {
     "mean, {map}": Metric("mean geodesic error over the root of the area", better="lower"),
@@ -26,9 +18,16 @@ METRICS = {
 }
 
 
-@register("statistic", "geodesic_errors", metrics=METRICS)
+@register("statistic", "geodesic_errors", metrics=METRICS, defaults_of=geodesic_errors)
 def geodesic_errors_statistic(
-    options: GeodesicErrors, *, source_surface: Surface, target_surface: Surface, maps: dict[str, Distance]
+    source_surface: Surface,
+    target_surface: Surface,
+    maps: dict[str, Distance],
+    *,
+    samples: Annotated[int, Field(ge=1, le=100000, description="vertices of the target, drawn by area")],
+    largest: Annotated[float, Field(gt=0, le=10, description="end of the curves, in square roots of the area")] = 0.2,
+    steps: Annotated[int, Field(ge=1, le=1000, description="points of the curves after 0")] = 20,
+    seed: Annotated[int, Field(ge=0, description="seed of the draw")],
 ) -> Statistic:
     """Share of the target that each map sends within a geodesic distance of the true place on the source."""
     truth = target_surface.truth
@@ -41,10 +40,10 @@ def geodesic_errors_statistic(
         target_surface.mesh.vertex_areas,
         truth.origin,
         {name: found.correspondence for name, found in maps.items()},
-        options.samples,
-        options.seed,
+        samples,
+        seed,
     )
-    bounds = np.linspace(0.0, options.largest, options.steps + 1)
+    bounds = np.linspace(0.0, largest, steps + 1)
     columns = {"error": bounds, **{name: share_within(values, bounds) for name, values in errors.items()}}
     metrics = {f"mean, {name}": float(values.mean()) for name, values in errors.items()}
     metrics |= {f"within .05, {name}": float((values <= 0.05).mean()) for name, values in errors.items()}

@@ -1,10 +1,12 @@
 """Maps rebuilt from modes of their own surface and of other geometries."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -22,39 +24,34 @@ DIFFERENCE_METRICS = {
 }
 
 
-class ModeReconstruction(Options):
-    """Which maps, and from how many modes."""
-
-    maps: tuple[str, ...] = Field((), description="maps of the surface")
-    twins: tuple[str, ...] = Field((), description="bases of whose modes random maps are made: own, or a class")
-    seeds: int = Field(20, ge=1, le=1000, description="random maps of each")
-    first: int = Field(10, ge=1, le=5000, description="fewest modes")
-    last: int = Field(400, ge=2, le=5000, description="most modes")
-
-
-@register("statistic", "mode_reconstruction", metrics=METRICS)
+@register("statistic", "mode_reconstruction", metrics=METRICS, defaults_of=mode_reconstruction)
 def mode_reconstruction_statistic(
-    options: ModeReconstruction,
-    *,
     surface: Surface,
     operator: SurfaceOperator,
     eigensolver: EigenSystem,
     bases: dict[Member, EigenSystem],
+    *,
+    maps: Annotated[tuple[str, ...], Field(description="maps of the surface")] = (),
+    twins: Annotated[tuple[str, ...], Field(description="bases of whose modes random maps are made: own, or a class")],
+    seeds: Annotated[int, Field(ge=1, le=1000, description="random maps of each")],
+    first: Annotated[int, Field(ge=1, le=5000, description="fewest modes")],
+    last: Annotated[int, Field(ge=2, le=5000, description="most modes")],
 ) -> Statistic:
     """Accuracy of maps rebuilt from k modes of the surface itself and of other geometries on its vertices."""
-    return mode_reconstruction(surface, operator, eigensolver, bases, **dict(options))
+    return mode_reconstruction(
+        surface, operator, eigensolver, bases, maps=maps, twins=twins, seeds=seeds, first=first, last=last
+    )
 
 
-class ReconstructionDifferences(Options):
-    """Over which maps."""
-
-    maps: tuple[str, ...] = Field(("thickness", "sulc"), min_length=2, description="maps, drawn with replacement")
-    seed: int = Field(0, ge=0, description="seed of the draws")
-
-
-@register("statistic", "reconstruction_differences", metrics=DIFFERENCE_METRICS)
+@register("statistic", "reconstruction_differences", metrics=DIFFERENCE_METRICS, defaults_of=reconstruction_differences)
 def reconstruction_differences_statistic(
-    options: ReconstructionDifferences, *, statistics: dict[Member, Statistic]
+    statistics: dict[Member, Statistic],
+    *,
+    maps: Annotated[tuple[str, ...], Field(min_length=2, description="maps, drawn with replacement")] = (
+        "thickness",
+        "sulc",
+    ),
+    seed: Annotated[int, Field(ge=0, description="seed of the draws")],
 ) -> Statistic:
     """Own modes against each other basis, paired by map, with intervals by bootstrap of maps."""
-    return reconstruction_differences(statistics, options.maps, seed=options.seed)
+    return reconstruction_differences(statistics, maps, seed=seed)

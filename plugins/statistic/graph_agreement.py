@@ -1,20 +1,15 @@
 """Whether one surface in several poses has one skeleton."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.skeleton.agreement import length_profile, same_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.statistics.statistic import Statistic
-
-
-class GraphAgreement(Options):
-    """What the graphs are of."""
-
-    label: str = Field("eigenmap", description="feature whose graphs are compared, for the name")
-
 
 METRICS = {
     "isomorphic": Metric("share of graphs isomorphic to the first, level by level", better="higher"),
@@ -25,7 +20,11 @@ METRICS = {
 
 
 @register("statistic", "graph_agreement", metrics=METRICS)
-def graph_agreement_statistic(options: GraphAgreement, *, skeletons: dict[str, Skeleton]) -> Statistic:
+def graph_agreement_statistic(
+    skeletons: dict[str, Skeleton],
+    *,
+    label: Annotated[str, Field(description="feature whose graphs are compared, for the name")] = "eigenmap",
+) -> Statistic:
     """Share of the graphs that are isomorphic to the first one, level by level, and the largest change of contour lengths."""
     first = next(iter(skeletons.values()))
     same = np.array([float(same_graph(first, skeleton)) for skeleton in skeletons.values()])
@@ -43,5 +42,5 @@ def graph_agreement_statistic(options: GraphAgreement, *, skeletons: dict[str, S
         "members": float(len(same)),
     }
     return Statistic(
-        f"agreement of graphs, {options.label}", {"same": same, "change": np.array(changes)}, tuple(skeletons), metrics
+        f"agreement of graphs, {label}", {"same": same, "change": np.array(changes)}, tuple(skeletons), metrics
     )

@@ -1,16 +1,11 @@
 """The heat trace and its expansion, theorem 3.1.2."""
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.heat_expansion import heat_expansion
-
-
-class HeatExpansion(Options):
-    """No option."""
-
 
 METRICS = {
     "corrected_error": Metric("mean relative error of the corrected expansion", better="lower"),
@@ -29,6 +24,6 @@ METRICS = {
 
 
 @register("statistic", "heat_expansion", metrics=METRICS)
-def heat_expansion_statistic(options: HeatExpansion, *, surface: Surface, eigensolver: EigenSystem) -> Statistic:
+def heat_expansion_statistic(surface: Surface, eigensolver: EigenSystem) -> Statistic:
     """Heat trace of a spectrum beside the published and the corrected expansion; what of the shape is heard in it."""
     return heat_expansion(surface, eigensolver)

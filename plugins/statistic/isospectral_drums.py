@@ -1,12 +1,12 @@
 """Isospectral drums, section 4.2 and figure 4.1."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.drums.isospectral_comparison import TILE_SHAPES, compare_drums
 from surfexp.studies.drums.isospectral_drums import GORDON_WEBB_WOLPERT_VALUES
@@ -14,21 +14,6 @@ from surfexp.studies.drums.isospectral_graphs import compare_graphs
 from surfexp.studies.drums.transplantation_pairs import GORDON_WEBB_WOLPERT, transplantation_pairs
 
 NAMED = {"gordon_webb_wolpert": "Gordon-Webb-Wolpert drums", "berard": "drums of Berard's transplantation"}
-
-
-class IsospectralDrums(Options):
-    """Which pair, which tile, and how it is meshed."""
-
-    pair: Literal["gordon_webb_wolpert", "berard", "0", "1", "2", "3", "4", "5", "6"] = Field(
-        "gordon_webb_wolpert",
-        description="by name (berard: the same gluing, for any tile), or the number of one of the seven pairs",
-    )
-    tile: Literal["right_isosceles", "scalene", "obtuse"] = Field("right_isosceles", description="shape of the tile")
-    divisions: int = Field(14, ge=2, le=100, description="divisions of a side of the tile")
-    grading: float = Field(2.0, ge=1, le=6, description="exponent that draws nodes to the corners; 1: uniform")
-    order: Literal[1, 2, 3] = Field(2, description="order of the elements")
-    count: int = Field(20, ge=2, le=500, description="eigenvalues")
-    boundary: Literal["dirichlet", "neumann"] = Field("dirichlet", description="condition on the boundary")
 
 
 ISOSPECTRAL_DRUMS_METRICS = {
@@ -43,19 +28,33 @@ ISOSPECTRAL_DRUMS_METRICS = {
 }
 
 
-@register("statistic", "isospectral_drums", metrics=ISOSPECTRAL_DRUMS_METRICS)
-def isospectral_drums(options: IsospectralDrums) -> Statistic:
+@register("statistic", "isospectral_drums", metrics=ISOSPECTRAL_DRUMS_METRICS, defaults_of=compare_drums)
+def isospectral_drums(
+    *,
+    pair: Annotated[
+        Literal["gordon_webb_wolpert", "berard", "0", "1", "2", "3", "4", "5", "6"],
+        Field(description="by name (berard: the same gluing, for any tile), or the number of one of the seven pairs"),
+    ] = "gordon_webb_wolpert",
+    tile: Annotated[
+        Literal["right_isosceles", "scalene", "obtuse"], Field(description="shape of the tile")
+    ] = "right_isosceles",
+    divisions: Annotated[int, Field(ge=2, le=100, description="divisions of a side of the tile")],
+    grading: Annotated[float, Field(ge=1, le=6, description="exponent that draws nodes to the corners; 1: uniform")],
+    order: Annotated[Literal[1, 2, 3], Field(description="order of the elements")],
+    count: Annotated[int, Field(ge=2, le=500, description="eigenvalues")],
+    boundary: Annotated[Literal["dirichlet", "neumann"], Field(description="condition on the boundary")],
+) -> Statistic:
     """Spectra and nodal counts of two drums of seven equal tiles that sound the same."""
-    named = options.pair in NAMED
-    pair = GORDON_WEBB_WOLPERT if named else transplantation_pairs()[int(options.pair)]
+    named = pair in NAMED
+    drums = GORDON_WEBB_WOLPERT if named else transplantation_pairs()[int(pair)]
     found = compare_drums(
-        pair,
-        TILE_SHAPES[options.tile],
-        options.divisions,
-        options.count,
-        options.order,
-        options.grading,
-        options.boundary,
+        drums,
+        TILE_SHAPES[tile],
+        divisions,
+        count,
+        order,
+        grading,
+        boundary,
     )
     differing = found.differing_modes
     metrics = {
@@ -67,22 +66,18 @@ def isospectral_drums(options: IsospectralDrums) -> Statistic:
         "congruent": float(found.outline_difference < 1e-6),
         "degrees_of_freedom": float(len(found.first.vectors)),
     }
-    if named and options.tile == "right_isosceles" and options.boundary == "dirichlet":
-        known = np.array(GORDON_WEBB_WOLPERT_VALUES)[: options.count]
+    if named and tile == "right_isosceles" and boundary == "dirichlet":
+        known = np.array(GORDON_WEBB_WOLPERT_VALUES)[:count]
         metrics["error_to_published"] = float(np.abs(found.first.values[: len(known)] / known - 1.0).max())
     columns = {
-        "mode": np.arange(1.0, options.count + 1.0),
+        "mode": np.arange(1.0, count + 1.0),
         "first spectrum": found.first.values,
         "second spectrum": found.second.values,
         "first counts": found.first_counts.astype(np.float64),
         "second counts": found.second_counts.astype(np.float64),
     }
-    name = NAMED.get(options.pair, f"drums of pair {options.pair}")
-    return Statistic(f"{name}, {options.tile.replace('_', ' ')} tile", columns, metrics=metrics)
-
-
-class IsospectralGraphs(Options):
-    """No option."""
+    name = NAMED.get(pair, f"drums of pair {pair}")
+    return Statistic(f"{name}, {tile.replace('_', ' ')} tile", columns, metrics=metrics)
 
 
 ISOSPECTRAL_GRAPHS_METRICS = {
@@ -95,7 +90,7 @@ ISOSPECTRAL_GRAPHS_METRICS = {
 
 
 @register("statistic", "isospectral_graphs", metrics=ISOSPECTRAL_GRAPHS_METRICS)
-def isospectral_graphs(options: IsospectralGraphs) -> Statistic:
+def isospectral_graphs() -> Statistic:
     """Graphs glued as the drums are: equal spectra of adjacency and Laplacian, and whether they are the same graph."""
     found = [compare_graphs(pair) for pair in transplantation_pairs()]
     columns = {

@@ -1,30 +1,16 @@
 """Section 5.6: maps over patches compared point by point, u along the skeleton and v along each contour."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.patch_grid import compare_on_grid, region_found
 from surfexp.studies.skeletons.positionwise_comparison import false_positive_share
-
-
-class LevelSetParametrization(Options):
-    """Which map, on which grid, and how the groups are compared."""
-
-    group: str = Field("", description="what the first group is, for the name")
-    map: str = Field("width", description='"width", "boundary_distance" or the name of a scalar map of the surfaces')
-    along: int = Field(40, ge=3, le=1000, description="contours along the skeleton, at equal distances")
-    across: int = Field(15, ge=2, le=1000, description="points along each contour")
-    alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
-    ahead: tuple[float, float, float] = Field((1.0, 0.0, 0.0), description="direction in which u rises, on the whole")
-    permutations: int = Field(1000, ge=20, le=100000, description="random exchanges of membership")
-    level: float = Field(0.05, gt=0, lt=1, description="level of the test, over all points together")
-    halvings: int = Field(100, ge=1, le=10000, description="random halvings of the second group, where nothing differs")
-    seed: int = Field(0, ge=0, description="seed of the exchanges")
-
 
 METRICS = {
     "points": Metric("points of the grid"),
@@ -44,21 +30,44 @@ METRICS = {
 }
 
 
-@register("statistic", "level_set_parametrization", metrics=METRICS)
+@register(
+    "statistic",
+    "level_set_parametrization",
+    metrics=METRICS,
+    defaults_of=(compare_on_grid, region_found, false_positive_share),
+)
 def level_set_parametrization_statistic(
-    options: LevelSetParametrization, *, first: dict[str, Surface], second: dict[str, Surface]
+    first: dict[str, Surface],
+    second: dict[str, Surface],
+    *,
+    group: Annotated[str, Field(description="what the first group is, for the name")] = "",
+    map: Annotated[
+        str, Field(description='"width", "boundary_distance" or the name of a scalar map of the surfaces')
+    ] = "width",
+    along: Annotated[int, Field(ge=3, le=1000, description="contours along the skeleton, at equal distances")],
+    across: Annotated[int, Field(ge=2, le=1000, description="points along each contour")],
+    alpha: Annotated[
+        float, Field(ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
+    ],
+    ahead: Annotated[tuple[float, float, float], Field(description="direction in which u rises, on the whole")],
+    permutations: Annotated[int, Field(ge=20, le=100000, description="random exchanges of membership")],
+    level: Annotated[float, Field(gt=0, lt=1, description="level of the test, over all points together")],
+    halvings: Annotated[
+        int, Field(ge=1, le=10000, description="random halvings of the second group, where nothing differs")
+    ] = 100,
+    seed: Annotated[int, Field(ge=0, description="seed of the exchanges")],
 ) -> Statistic:
     """A map compared between two groups of patches at every point (u, v) of their level sets, corrected for multiplicity."""
     found = compare_on_grid(
         first,
         second,
-        along=options.along,
-        across=options.across,
-        alpha=options.alpha,
-        chosen=options.map,
-        ahead=options.ahead,
-        permutations=options.permutations,
-        seed=options.seed,
+        along=along,
+        across=across,
+        alpha=alpha,
+        chosen=map,
+        ahead=ahead,
+        permutations=permutations,
+        seed=seed,
     )
     u, v = (places.ravel() for places in np.meshgrid(found.u, found.v, indexing="ij"))
     columns = {
@@ -70,12 +79,10 @@ def level_set_parametrization_statistic(
         "corrected_p": found.test.corrected,
         "uncorrected_p": found.test.uncorrected,
     }
-    metrics = region_found(found, options.level)
+    metrics = region_found(found, level)
     flat = found.second.reshape(len(found.second), -1)
-    metrics["false_positives"] = (
-        false_positive_share(flat, options.halvings, options.level, options.seed) if len(flat) >= 6 else 0.0
-    )
+    metrics["false_positives"] = false_positive_share(flat, halvings, level, seed) if len(flat) >= 6 else 0.0
     metrics["left_out"] = float(found.left_out)
     metrics["members"] = float(len(found.first) + len(found.second))
-    name = options.map.replace("_", " ")
-    return Statistic(f"{name}, {options.group}" if options.group else name, columns, metrics=metrics)
+    name = map.replace("_", " ")
+    return Statistic(f"{name}, {group}" if group else name, columns, metrics=metrics)

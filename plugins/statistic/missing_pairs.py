@@ -1,10 +1,12 @@
 """Eigenpairs that the usual solver leaves out."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
@@ -27,24 +29,19 @@ BY_KIND_METRICS = METRICS | {
 }
 
 
-class MissingPairs(Options):
-    """What is asked of the usual solver."""
-
-    counts: tuple[int, ...] = Field((50, 100), min_length=1, description="numbers of pairs")
-    seeds: int = Field(3, ge=1, le=1000, description="start vectors for each")
-
-
-@register("statistic", "missing_pairs", metrics=METRICS)
-def missing_pairs_statistic(options: MissingPairs, *, operator: SurfaceOperator, eigensolver: EigenSystem) -> Statistic:
+@register("statistic", "missing_pairs", metrics=METRICS, defaults_of=missing_pairs)
+def missing_pairs_statistic(
+    operator: SurfaceOperator,
+    eigensolver: EigenSystem,
+    *,
+    counts: Annotated[tuple[int, ...], Field(min_length=1, description="numbers of pairs")],
+    seeds: Annotated[int, Field(ge=1, le=1000, description="start vectors for each")],
+) -> Statistic:
     """ARPACK as LaPy and neuromodes call it, against a spectrum that is proved complete and longer."""
-    return missing_pairs(operator, eigensolver, options.counts, options.seeds)
-
-
-class ByKind(Options):
-    """Nothing to choose."""
+    return missing_pairs(operator, eigensolver, counts, seeds)
 
 
 @register("statistic", "missing_by_kind", metrics=BY_KIND_METRICS)
-def missing_by_kind_statistic(options: ByKind, *, statistics: dict[Member, Statistic]) -> Statistic:
+def missing_by_kind_statistic(statistics: dict[Member, Statistic]) -> Statistic:
     """Runs that leave an eigenpair out, by kind of mesh, with the interval of Clopper and Pearson."""
     return missing_by_kind(statistics)

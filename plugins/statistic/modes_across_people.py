@@ -1,10 +1,12 @@
 """Which modes of two people correspond."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
@@ -38,39 +40,32 @@ TWIN_METRICS = {
 }
 
 
-class ModesOfPeople(Options):
-    """How many modes."""
-
-    count: int = Field(50, ge=5, le=500, description="modes after the constant")
+Count = Annotated[int, Field(ge=5, le=500, description="modes after the constant")]
 
 
-@register("statistic", "modes_of_people", metrics=METRICS)
+@register("statistic", "modes_of_people", metrics=METRICS, defaults_of=modes_of_people)
 def modes_of_people_statistic(
-    options: ModesOfPeople, *, surfaces: dict[Member, Surface], systems: dict[Member, EigenSystem]
+    surfaces: dict[Member, Surface], systems: dict[Member, EigenSystem], *, count: Count
 ) -> Statistic:
     """Modes of all pairs of people by order, correlation in space and functional map, with proved signs of the first."""
-    return modes_of_people(surfaces, systems, options.count, report_progress)
+    return modes_of_people(surfaces, systems, count, report_progress)
 
 
-@register("statistic", "modes_of_twins", metrics=TWIN_METRICS)
+@register("statistic", "modes_of_twins", metrics=TWIN_METRICS, defaults_of=modes_of_twins)
 def modes_of_twins_statistic(
-    options: ModesOfPeople,
-    *,
     surface: Surface,
     eigensolver: EigenSystem,
     twins: dict[Member, Surface],
     systems: dict[Member, EigenSystem],
+    *,
+    count: Count,
 ) -> Statistic:
     """The same for deformed and disguised copies of one surface, against their true counterparts."""
     members = {member: (twin, systems[member]) for member, twin in twins.items()}
-    return modes_of_twins((surface, eigensolver), members, options.count, report_progress)
-
-
-class Pooled(Options):
-    """Nothing to choose."""
+    return modes_of_twins((surface, eigensolver), members, count, report_progress)
 
 
 @register("statistic", "modes_of_people_pooled", metrics=METRICS)
-def modes_of_people_pooled_statistic(options: Pooled, *, statistics: dict[Member, Statistic]) -> Statistic:
+def modes_of_people_pooled_statistic(statistics: dict[Member, Statistic]) -> Statistic:
     """Mean over structures of the shares of modes that are themselves, another one or none."""
     return pooled(statistics)

@@ -1,20 +1,15 @@
 """What an implicit method needs before it starts, tables 2.1 and 2.2."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.baselines.level_set import level_set
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
-
-
-class NarrowBandOptions(Options):
-    """The grid."""
-
-    points: int = Field(162, ge=16, le=2048, description="grid points along the longest side of the surface")
-
 
 METRICS = {
     "band_nodes": Metric("nodes of the narrow band"),
@@ -24,9 +19,15 @@ METRICS = {
 
 
 @register("statistic", "narrow_band", metrics=METRICS)
-def narrow_band_statistic(options: NarrowBandOptions, *, surface: Surface) -> Statistic:
+def narrow_band_statistic(
+    surface: Surface,
+    *,
+    points: Annotated[
+        int, Field(ge=16, le=2048, description="grid points along the longest side of the surface")
+    ] = 162,
+) -> Statistic:
     """Nodes of the narrow band of a grid around a surface with what extends data to it: the level set method's set-up."""
-    spacing = float(np.ptp(surface.mesh.vertices, axis=0).max()) / options.points
+    spacing = float(np.ptp(surface.mesh.vertices, axis=0).max()) / points
     method = level_set(surface.mesh, spacing, 3)
     nodes, vertices = method.energy.band.node_count, len(surface.mesh.vertices)
     metrics = {"band_nodes": float(nodes), "nodes_per_vertex": nodes / vertices, "memory_bytes": float(method.memory)}

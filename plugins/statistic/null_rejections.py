@@ -1,9 +1,11 @@
 """How often null models reject where there is nothing."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.nulls.variogram import variogram_pairs
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -26,32 +28,37 @@ METRICS = {
 }
 
 
-class NullRejections(Options):
-    """How many maps, nulls and partners."""
-
-    maps: int = Field(50, ge=2, le=10000, description="maps that get nulls; the other channels are their partners")
-    nulls: int = Field(199, ge=19, le=100000, description="nulls of each map")
-    planted: tuple[float, ...] = Field((0.1, 0.2, 0.4), min_length=1, description="planted correlations")
-    planted_partners: int = Field(20, ge=1, le=10000, description="partners of each map with a planted correlation")
-    examined: int = Field(10, ge=1, le=10000, description="maps of whose nulls it is measured what they have kept")
-    neighbours: int = Field(1000, ge=300, le=100000, description="vertices of the widest kernel, at most all")
-    reach: float = Field(50.0, gt=0, description="largest distance of the variogram, unit of the surface")
-    vertices: int = Field(1000, ge=2, le=100000, description="vertices by which the variogram is estimated")
-    seed: int = Field(0, ge=0, description="seed of the nulls")
-
-
-@register("statistic", "null_rejections", metrics=METRICS)
+@register("statistic", "null_rejections", metrics=METRICS, defaults_of=(variogram_pairs, OneSurface, Design))
 def null_rejections_statistic(
-    options: NullRejections,
-    *,
     surface: Surface,
     sphere: Surface,
     operator: SurfaceOperator,
     eigensolver: EigenSystem,
     image: Image,
+    *,
+    maps: Annotated[
+        int, Field(ge=2, le=10000, description="maps that get nulls; the other channels are their partners")
+    ],
+    nulls: Annotated[int, Field(ge=19, le=100000, description="nulls of each map")],
+    planted: Annotated[tuple[float, ...], Field(min_length=1, description="planted correlations")],
+    planted_partners: Annotated[
+        int, Field(ge=1, le=10000, description="partners of each map with a planted correlation")
+    ],
+    examined: Annotated[
+        int, Field(ge=1, le=10000, description="maps of whose nulls it is measured what they have kept")
+    ],
+    neighbours: Annotated[int, Field(ge=300, le=100000, description="vertices of the widest kernel, at most all")],
+    reach: Annotated[float, Field(gt=0, description="largest distance of the variogram, unit of the surface")] = 50.0,
+    vertices: Annotated[int, Field(ge=2, le=100000, description="vertices by which the variogram is estimated")],
+    seed: Annotated[int, Field(ge=0, description="seed of the nulls")],
 ) -> Statistic:
     """Independent maps tested against each other with eigenstrapping, spins, variogram-matched nulls, permutation, Student's t."""
-    pairs = variogram_pairs(surface.mesh, reach=options.reach, vertices=options.vertices, seed=options.seed)
-    of = OneSurface(surface, sphere, operator, eigensolver, pairs, options.neighbours)
-    counts = {name: getattr(options, name) for name in ("maps", "nulls", "planted", "planted_partners", "examined")}
-    return null_rejections(of, image.values, Design(**counts, seed=options.seed))
+    pairs = variogram_pairs(surface.mesh, reach=reach, vertices=vertices, seed=seed)
+    of = OneSurface(surface, sphere, operator, eigensolver, pairs, neighbours)
+    return null_rejections(
+        of,
+        image.values,
+        Design(
+            maps=maps, nulls=nulls, planted=planted, planted_partners=planted_partners, examined=examined, seed=seed
+        ),
+    )

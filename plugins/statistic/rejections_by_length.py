@@ -2,7 +2,7 @@
 
 from surfexp.contract.member import Member, levels_of
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.nulls.null_rejections import rejections_by_length
 
@@ -12,11 +12,7 @@ METRICS = {
 }
 
 
-class RejectionsByLength(Options):
-    """Nothing to choose."""
-
-
 @register("statistic", "rejections_by_length", metrics=METRICS)
-def rejections_by_length_statistic(options: RejectionsByLength, *, statistics: dict[Member, Statistic]) -> Statistic:
+def rejections_by_length_statistic(statistics: dict[Member, Statistic]) -> Statistic:
     """Rejections of null models against the correlation length, which is the level of each member."""
     return rejections_by_length(statistics, levels_of(statistics))

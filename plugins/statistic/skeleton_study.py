@@ -1,32 +1,16 @@
 """Figures 5.8 to 5.10: a group of patches by their eigenmap skeletons."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.skeletons.skeleton_study import compactness, group_skeletons, miss_metrics, topology_metrics
-
-
-class SkeletonStudy(Options):
-    """Weight and levels, the same for every member."""
-
-    group: str = Field("", description="what the members are, for the name")
-    alpha: float = Field(0.0, ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
-    contrast: float = Field(1.0, gt=0, le=20, description="factor in the exponent of the weights; 1 as published")
-    levels: Literal["uniform", "area_quantile", "arc_length"] = Field("arc_length", description="where the levels lie")
-    count: int = Field(50, ge=5, le=1000, description="number of levels")
-    persistence: float = Field(0.01, ge=0, le=0.5, description="branches below this share of the range are cut off")
-    resample: bool = Field(False, description="put points at equal arc length on every line first, whatever its levels")
-    scale: bool = Field(False, description="make sizes equal too; rotation and translation are always taken out")
-    draws: int = Field(200, ge=10, le=10000, description="bootstrap draws for the intervals of the shares")
-    seed: int = Field(0, ge=0, description="seed of the bootstrap")
-
 
 METRICS = {
     "chains": Metric("share of skeletons that are chains", better="higher"),
@@ -49,17 +33,34 @@ METRICS = {
 }
 
 
-@register("statistic", "skeleton_study", metrics=METRICS)
-def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surface]) -> Statistic:
+@register("statistic", "skeleton_study", metrics=METRICS, defaults_of=(group_skeletons, compactness))
+def skeleton_study_statistic(
+    surfaces: dict[str, Surface],
+    *,
+    group: Annotated[str, Field(description="what the members are, for the name")] = "",
+    alpha: Annotated[
+        float, Field(ge=0, le=10, description="exponent of the flux weights (5.10); at 0 the weight is 1")
+    ],
+    contrast: Annotated[float, Field(gt=0, le=20, description="factor in the exponent of the weights; 1 as published")],
+    levels: Annotated[Literal["uniform", "area_quantile", "arc_length"], Field(description="where the levels lie")],
+    count: Annotated[int, Field(ge=5, le=1000, description="number of levels")],
+    persistence: Annotated[
+        float, Field(ge=0, le=0.5, description="branches below this share of the range are cut off")
+    ],
+    resample: Annotated[
+        bool, Field(description="put points at equal arc length on every line first, whatever its levels")
+    ],
+    scale: Annotated[bool, Field(description="make sizes equal too; rotation and translation are always taken out")],
+    draws: Annotated[int, Field(ge=10, le=10000, description="bootstrap draws for the intervals of the shares")],
+    seed: Annotated[int, Field(ge=0, description="seed of the bootstrap")],
+) -> Statistic:
     """Chains, principal components with bootstrap intervals, and distance from known midlines, of a group's skeletons."""
-    skeletons = group_skeletons(
-        surfaces, options.alpha, options.contrast, options.levels, options.count, options.persistence
-    )
+    skeletons = group_skeletons(surfaces, alpha, contrast, levels, count, persistence)
     columns: dict[str, Floats] = {}
     metrics = {**topology_metrics(skeletons), **miss_metrics(surfaces, skeletons)}
     metrics["cut_branches"] = float(np.mean([item.metrics["cut_branches"] for item in skeletons.values()]))
     if len(skeletons) > 1:
-        found = compactness(skeletons, options.resample, options.scale, options.draws, options.seed)
+        found = compactness(skeletons, resample, scale, draws, seed)
         columns = {
             "component": np.arange(1.0, len(found.shares) + 1.0),
             "share": found.shares,
@@ -68,7 +69,7 @@ def skeleton_study_statistic(options: SkeletonStudy, *, surfaces: dict[str, Surf
             "variance": found.variances,
         }
         metrics |= found.metrics
-    weight = "weight 1" if not options.alpha else f"alpha {options.alpha:g}"
-    name = f"{weight}, {options.levels.replace('_', ' ')} levels"
+    weight = "weight 1" if not alpha else f"alpha {alpha:g}"
+    name = f"{weight}, {levels.replace('_', ' ')} levels"
     notes = () if columns else ("One member has no principal components.",)
-    return Statistic(f"{options.group}, {name}" if options.group else name, columns, metrics=metrics, notes=notes)
+    return Statistic(f"{group}, {name}" if group else name, columns, metrics=metrics, notes=notes)

@@ -1,24 +1,16 @@
 """Errors of spectra against exact ones, theorem 3.2.1."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.spectrum_error import convergence_orders, spectrum_error
-
-
-class SpectrumError(Options):
-    """Which values are looked at."""
-
-    low: int = Field(8, ge=1, le=1000, description="values that error_low looks at")
-    high: int = Field(24, ge=1, le=1000, description="values that error_high looks at")
-
 
 SPECTRUM_ERROR_METRICS = {
     "error_low": Metric("largest relative error of the lowest eigenvalues", better="lower"),
@@ -35,16 +27,17 @@ SPECTRUM_ERROR_METRICS = {
     "spectrum_error",
     metrics=SPECTRUM_ERROR_METRICS,
     accepts={"surface": ("icosphere", "disk", "rectangle", "flat_torus")},
+    defaults_of=spectrum_error,
 )
-def spectrum_error_statistic(options: SpectrumError, *, surface: Surface, eigensolver: EigenSystem) -> Statistic:
+def spectrum_error_statistic(
+    surface: Surface,
+    eigensolver: EigenSystem,
+    *,
+    low: Annotated[int, Field(ge=1, le=1000, description="values that error_low looks at")],
+    high: Annotated[int, Field(ge=1, le=1000, description="values that error_high looks at")],
+) -> Statistic:
     """Relative errors of the eigenvalues of a sphere, disk, rectangle or flat torus against the exact ones."""
-    return spectrum_error(surface, eigensolver, options.low, options.high)
-
-
-class Orders(Options):
-    """Which error is fitted."""
-
-    metric: Literal["error_low", "error_high"] = Field("error_high", description="metric that is fitted")
+    return spectrum_error(surface, eigensolver, low, high)
 
 
 CONVERGENCE_ORDERS_METRICS = {
@@ -53,7 +46,11 @@ CONVERGENCE_ORDERS_METRICS = {
 }
 
 
-@register("statistic", "convergence_orders", metrics=CONVERGENCE_ORDERS_METRICS)
-def orders_statistic(options: Orders, *, errors: dict[Member, Statistic]) -> Statistic:
+@register("statistic", "convergence_orders", metrics=CONVERGENCE_ORDERS_METRICS, defaults_of=convergence_orders)
+def orders_statistic(
+    errors: dict[Member, Statistic],
+    *,
+    metric: Annotated[Literal["error_low", "error_high"], Field(description="metric that is fitted")],
+) -> Statistic:
     """Orders of convergence in the edge length, fitted for each method of an axis "method @ level"."""
-    return convergence_orders(errors, options.metric)
+    return convergence_orders(errors, metric)

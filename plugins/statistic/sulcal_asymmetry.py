@@ -1,10 +1,13 @@
 """Left and right lengths of sulci in a synthetic population, table 6.1 and figure 6.8."""
 
+from collections.abc import Sequence
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
@@ -14,17 +17,11 @@ from surfexp.studies.sulci.length_table import chosen, length_columns, table_of
 from surfexp.studies.sulci.population_study import Table, measure_population
 from surfexp.studies.sulci.sulcal_template import make_template
 
-
-class SulcalPopulation(Options):
-    """A block of a synthetic population and what is planted in it."""
-
-    subjects: int = Field(10, ge=1, le=2000, description="subjects of this block, two hemispheres each")
-    first: int = Field(0, ge=0, le=1000000, description="number of the block's first subject")
-    regions: int = Field(3, ge=1, le=20, description="sulcal regions that are measured, longest extent first")
-    asymmetry: float = Field(0.06, ge=0, le=0.3, description="planted: share by which the first region is longer left")
-    strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
-    lines: bool = Field(True, description="measure the lines of regions too, or only geodesics between ends")
-    seed: int = Field(0, ge=0, description="seed of the population")
+Estimators = Annotated[
+    Sequence[str], Field(description="estimators of length, such as 'carried ends'; none: all of the table")
+]
+Draws = Annotated[int, Field(ge=10, le=100000, description="random halves of the subjects, and samples for the power")]
+Seed = Annotated[int, Field(ge=0, description="seed of exchanges and samples")]
 
 
 SULCAL_POPULATION_METRICS = {
@@ -33,35 +30,32 @@ SULCAL_POPULATION_METRICS = {
 }
 
 
-@register("statistic", "sulcal_population", metrics=SULCAL_POPULATION_METRICS)
-def sulcal_population_statistic(options: SulcalPopulation, *, template: Surface) -> Statistic:
+@register("statistic", "sulcal_population", metrics=SULCAL_POPULATION_METRICS, defaults_of=measure_population)
+def sulcal_population_statistic(
+    template: Surface,
+    *,
+    subjects: Annotated[int, Field(ge=1, le=2000, description="subjects of this block, two hemispheres each")] = 10,
+    first: Annotated[int, Field(ge=0, le=1000000, description="number of the block's first subject")] = 0,
+    regions: Annotated[
+        int, Field(ge=1, le=20, description="sulcal regions that are measured, longest extent first")
+    ] = 3,
+    asymmetry: Annotated[
+        float, Field(ge=0, le=0.3, description="planted: share by which the first region is longer left")
+    ],
+    strain: Annotated[float, Field(ge=0, le=0.3, description="root mean square strain of the random deformations")],
+    lines: Annotated[bool, Field(description="measure the lines of regions too, or only geodesics between ends")],
+    seed: Annotated[int, Field(ge=0, description="seed of the population")],
+) -> Statistic:
     """Lengths of sulci by every estimator for each subject and side of a block of a synthetic population."""
-    study, numbers = make_template(template, options.regions), range(options.first, options.first + options.subjects)
-    table = measure_population(
-        study, numbers, options.strain, options.asymmetry, 0, options.seed, report_progress, options.lines
-    )
+    study, numbers = make_template(template, regions), range(first, first + subjects)
+    table = measure_population(study, numbers, strain, asymmetry, 0, seed, report_progress, lines)
     rows, columns = length_columns(table, numbers)
     metrics = {f"found, {name}": float(np.isfinite(columns[name]).mean()) for name in table}
     notes = (
-        f"Synthetic: deformed copies of {template.name}, the right side mirrored, remeshed, strain {options.strain:g}, "
-        f"planted {100 * options.asymmetry:g} % in sulcus 1. Sides are 0 left, 1 right.",
+        f"Synthetic: deformed copies of {template.name}, the right side mirrored, remeshed, strain {strain:g}, "
+        f"planted {100 * asymmetry:g} % in sulcus 1. Sides are 0 left, 1 right.",
     )
-    return Statistic("sulcal lengths", columns, rows, {"subjects": float(options.subjects), **metrics}, notes)
-
-
-class Estimators(Options):
-    """What is compared."""
-
-    estimators: list[str] = Field(
-        [], description="estimators of length, such as 'carried ends'; none: all of the table"
-    )
-
-
-class SulcalAsymmetry(Estimators):
-    """How chance is measured, and of what."""
-
-    draws: int = Field(200, ge=10, le=100000, description="random halves of the subjects, and samples for the power")
-    seed: int = Field(0, ge=0, description="seed of exchanges and samples")
+    return Statistic("sulcal lengths", columns, rows, {"subjects": float(subjects), **metrics}, notes)
 
 
 SULCAL_ASYMMETRY_METRICS = {
@@ -77,18 +71,14 @@ SULCAL_ASYMMETRY_METRICS = {
 }
 
 
-@register("statistic", "sulcal_asymmetry", metrics=SULCAL_ASYMMETRY_METRICS)
-def sulcal_asymmetry_statistic(options: SulcalAsymmetry, *, lengths: dict[str, Statistic]) -> Statistic:
+@register("statistic", "sulcal_asymmetry", metrics=SULCAL_ASYMMETRY_METRICS, defaults_of=asymmetry_study)
+def sulcal_asymmetry_statistic(
+    lengths: dict[str, Statistic], *, estimators: Estimators = (), draws: Draws, seed: Seed
+) -> Statistic:
     """Paired tests of sulcal lengths left and right, by estimator and sulcus, corrected by Holm."""
-    table, missing = measured(_chosen(options, lengths))
-    rows, columns, metrics = asymmetry_study(table, options.draws, options.seed)
+    table, missing = measured(_chosen(estimators, lengths))
+    rows, columns, metrics = asymmetry_study(table, draws, seed)
     return Statistic("sulcal lengths, left and right", columns, rows, metrics, _notes(lengths) + missing)
-
-
-class SulcalPower(SulcalAsymmetry):
-    """Numbers of subjects."""
-
-    sizes: list[int] = Field([5, 10, 15, 20, 30, 40], description="numbers of subjects")
 
 
 SULCAL_POWER_METRICS = {
@@ -98,19 +88,20 @@ SULCAL_POWER_METRICS = {
 }
 
 
-@register("statistic", "sulcal_power", metrics=SULCAL_POWER_METRICS)
-def sulcal_power_statistic(options: SulcalPower, *, lengths: dict[str, Statistic]) -> Statistic:
+@register("statistic", "sulcal_power", metrics=SULCAL_POWER_METRICS, defaults_of=power_study)
+def sulcal_power_statistic(
+    lengths: dict[str, Statistic],
+    *,
+    estimators: Estimators = (),
+    draws: Draws,
+    seed: Seed,
+    sizes: Annotated[Sequence[int], Field(description="numbers of subjects")] = [5, 10, 15, 20, 30, 40],
+) -> Statistic:
     """Share of samples of so many subjects in which the planted difference is found, by estimator."""
-    table, missing = measured(_chosen(options, lengths), 1)
-    columns = power_study(table, options.sizes, options.draws, options.seed)
-    metrics = {f"{name}, {size}": float(columns[name][k]) for name in table for k, size in enumerate(options.sizes)}
+    table, missing = measured(_chosen(estimators, lengths), 1)
+    columns = power_study(table, sizes, draws, seed)
+    metrics = {f"{name}, {size}": float(columns[name][k]) for name in table for k, size in enumerate(sizes)}
     return Statistic("power to find the planted difference", columns, (), metrics, _notes(lengths) + missing)
-
-
-class SulcalFalsePositives(Estimators):
-    """Sizes of the populations into which subjects are divided."""
-
-    sizes: list[int] = Field([5, 10, 40], description="subjects of each population, none in two of one size")
 
 
 SULCAL_FALSE_POSITIVES_METRICS = {
@@ -123,15 +114,24 @@ SULCAL_FALSE_POSITIVES_METRICS = {
 
 
 @register("statistic", "sulcal_false_positives", metrics=SULCAL_FALSE_POSITIVES_METRICS)
-def sulcal_false_positives_statistic(options: SulcalFalsePositives, *, lengths: dict[str, Statistic]) -> Statistic:
+def sulcal_false_positives_statistic(
+    lengths: dict[str, Statistic],
+    *,
+    estimators: Estimators = (),
+    sizes: Annotated[Sequence[int], Field(description="subjects of each population, none in two of one size")] = [
+        5,
+        10,
+        40,
+    ],
+) -> Statistic:
     """Share of populations without a subject in common in which a t-test finds a difference at .05."""
-    table, missing = measured(_chosen(options, lengths))
-    columns, metrics = fresh_study(table, options.sizes)
+    table, missing = measured(_chosen(estimators, lengths))
+    columns, metrics = fresh_study(table, sizes)
     return Statistic("differences found in fresh populations", columns, (), metrics, _notes(lengths) + missing)
 
 
-def _chosen(options: Estimators, lengths: dict[str, Statistic]) -> Table:
-    return chosen(table_of(part.columns for part in lengths.values()), options.estimators)
+def _chosen(estimators: Sequence[str], lengths: dict[str, Statistic]) -> Table:
+    return chosen(table_of(part.columns for part in lengths.values()), estimators)
 
 
 def _notes(lengths: dict[str, Statistic]) -> tuple[str, ...]:

@@ -1,27 +1,19 @@
 """Sulcal regions of synthetic subjects named by a template, figure 6.7."""
 
+from collections.abc import Sequence
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.sulci.population import synthetic_subject
 from surfexp.studies.sulci.population_study import name_regions
 from surfexp.studies.sulci.sulcal_template import make_template
-
-
-class SulciNames(Options):
-    """The population and the numbers of eigenfunctions."""
-
-    subjects: int = Field(6, ge=1, le=2000, description="subjects, two hemispheres each")
-    sizes: list[int] = Field([3, 4, 10, 20], description="numbers n of eigenfunctions")
-    strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
-    remeshed: bool = Field(True, description="each subject with vertices of its own")
-    seed: int = Field(0, ge=0, description="seed of the population")
-
 
 METRICS = {
     "regions": Metric("mean number of sulcal regions"),
@@ -34,23 +26,27 @@ METRICS = {
 }
 
 
-@register("statistic", "sulci_names", metrics=METRICS)
-def sulci_names_statistic(options: SulciNames, *, template: Surface) -> Statistic:
+@register("statistic", "sulci_names", metrics=METRICS, defaults_of=(synthetic_subject, name_regions))
+def sulci_names_statistic(
+    template: Surface,
+    *,
+    subjects: Annotated[int, Field(ge=1, le=2000, description="subjects, two hemispheres each")] = 6,
+    sizes: Annotated[Sequence[int], Field(description="numbers n of eigenfunctions")],
+    strain: Annotated[float, Field(ge=0, le=0.3, description="root mean square strain of the random deformations")],
+    remeshed: Annotated[bool, Field(description="each subject with vertices of its own")],
+    seed: Annotated[int, Field(ge=0, description="seed of the population")],
+) -> Statistic:
     """Share of sulcal area named right, by the published rule, by majority vote, and by majority vote of ZoomOut."""
     study = make_template(template, 1)
     scores: list[dict[str, float]] = []
-    for subject in range(options.subjects):
+    for subject in range(subjects):
         for side in ("left", "right"):
-            target = synthetic_subject(
-                template, subject, side, options.strain, remeshed=options.remeshed, seed=options.seed
-            )
-            scores.append(name_regions(study, target, tuple(options.sizes)))
-        report_progress(subject + 1, 1.0 - (subject + 1) / options.subjects)
+            target = synthetic_subject(template, subject, side, strain, remeshed=remeshed, seed=seed)
+            scores.append(name_regions(study, target, tuple(sizes)))
+        report_progress(subject + 1, 1.0 - (subject + 1) / subjects)
     metrics = {name: float(np.mean([score[name] for score in scores])) for name in scores[0]}
-    columns = {"n": np.array(options.sizes, float)}
+    columns = {"n": np.array(sizes, float)}
     for rule in ("majority", "published rule", "distance"):
-        columns[rule] = np.array([metrics[f"{rule}, n = {n}"] for n in options.sizes])
-    notes = (
-        f"{2 * options.subjects} synthetic hemispheres, deformed copies of {template.name}, strain {options.strain:g}.",
-    )
-    return Statistic(f"sulcal regions named right, strain {options.strain:g}", columns, metrics=metrics, notes=notes)
+        columns[rule] = np.array([metrics[f"{rule}, n = {n}"] for n in sizes])
+    notes = (f"{2 * subjects} synthetic hemispheres, deformed copies of {template.name}, strain {strain:g}.",)
+    return Statistic(f"sulcal regions named right, strain {strain:g}", columns, metrics=metrics, notes=notes)

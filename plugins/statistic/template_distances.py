@@ -1,31 +1,19 @@
 """Spectral distances of a synthetic population to its template, in blocks."""
 
 from collections.abc import Iterator
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.lab.running.stage import report_progress
 from surfexp.mesh.surface import Surface
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.distances.template_distances import template_distances
 from surfexp.studies.sulci.population import synthetic_subject
 from surfexp.studies.sulci.population_study import SIDES
-
-
-class TemplateDistances(Options):
-    """A block of a synthetic population, and the distance."""
-
-    subjects: int = Field(5, ge=1, le=2000, description="subjects of this block, two hemispheres each")
-    first: int = Field(0, ge=0, le=1000000, description="number of the block's first subject")
-    n: int = Field(20, ge=1, le=200, description="number of eigenfunctions")
-    exact: bool = Field(False, description="prove the signs on all points, or take those of samples")
-    samples: int = Field(1500, ge=10, le=100000, description="points on which signs are searched, drawn by area")
-    strain: float = Field(0.03, ge=0, le=0.3, description="root mean square strain of the random deformations")
-    seed: int = Field(0, ge=0, description="seed of the population")
-
 
 METRICS = {
     "surfaces": Metric("number of surfaces"),
@@ -35,22 +23,34 @@ METRICS = {
 }
 
 
-@register("statistic", "template_distances", metrics=METRICS)
-def template_distances_statistic(options: TemplateDistances, *, template: Surface) -> Statistic:
+@register("statistic", "template_distances", metrics=METRICS, defaults_of=template_distances)
+def template_distances_statistic(
+    template: Surface,
+    *,
+    subjects: Annotated[int, Field(ge=1, le=2000, description="subjects of this block, two hemispheres each")] = 5,
+    first: Annotated[int, Field(ge=0, le=1000000, description="number of the block's first subject")] = 0,
+    n: Annotated[int, Field(ge=1, le=200, description="number of eigenfunctions")],
+    exact: Annotated[bool, Field(description="prove the signs on all points, or take those of samples")],
+    samples: Annotated[int, Field(ge=10, le=100000, description="points on which signs are searched, drawn by area")],
+    strain: Annotated[
+        float, Field(ge=0, le=0.3, description="root mean square strain of the random deformations")
+    ] = 0.03,
+    seed: Annotated[int, Field(ge=0, description="seed of the population")] = 0,
+) -> Statistic:
     """Spectral distance of each hemisphere of a block of a synthetic population to the template."""
-    numbers = [(options.first + k, side) for k in range(options.subjects) for side in SIDES]
+    numbers = [(first + k, side) for k in range(subjects) for side in SIDES]
 
     def surfaces() -> Iterator[Surface]:
         for number, side in numbers:
-            yield synthetic_subject(template, number, side, options.strain, seed=options.seed)
+            yield synthetic_subject(template, number, side, strain, seed=seed)
 
     count = len(numbers)
     columns = template_distances(
         template,
         surfaces(),
-        options.n,
-        options.exact,
-        options.samples,
+        n,
+        exact,
+        samples,
         lambda done: report_progress(done, 1.0 - done / count),
     )
     values = columns["distance"]

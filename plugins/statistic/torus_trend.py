@@ -1,21 +1,14 @@
 """Nodal counts of the torus by separation, section 4.5."""
 
+from typing import Annotated
+
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.spectrum.torus_modes import torus_modes
 from surfexp.statistics.statistic import Statistic
 from surfexp.studies.spectra.nodal_trend import nodal_trend
-
-
-class TorusTrend(Options):
-    """The torus, and how many of its modes."""
-
-    count: int = Field(300, ge=20, le=20000, description="modes after the constant one")
-    major_radius: float = Field(1.0, gt=0, description="radius of the centre line")
-    minor_radius: float = Field(0.4, gt=0, description="radius of the tube, less than that of the centre line")
-
 
 METRICS = {
     "mean_ratio": Metric("mean of count over number, upper half of the modes"),
@@ -29,8 +22,13 @@ METRICS = {
 }
 
 
-@register("statistic", "torus_trend", metrics=METRICS)
-def torus_trend_statistic(options: TorusTrend) -> Statistic:
+@register("statistic", "torus_trend", metrics=METRICS, defaults_of=torus_modes)
+def torus_trend_statistic(
+    *,
+    count: Annotated[int, Field(ge=20, le=20000, description="modes after the constant one")] = 300,
+    major_radius: Annotated[float, Field(gt=0, description="radius of the centre line")],
+    minor_radius: Annotated[float, Field(gt=0, description="radius of the tube, less than that of the centre line")],
+) -> Statistic:
     """Trend of the exact nodal counts of the separated eigenfunctions of a torus of revolution."""
-    counts = torus_modes(options.count + 1, options.major_radius, options.minor_radius)[1]
+    counts = torus_modes(count + 1, major_radius, minor_radius)[1]
     return nodal_trend(counts[1:], "torus, separated modes")

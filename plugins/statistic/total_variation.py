@@ -1,10 +1,12 @@
 """Total variation and perimeters, theorems 2.2.1 to 2.2.3."""
 
+from typing import Annotated
+
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.operators.calculus import total_variation
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -15,15 +17,6 @@ from surfexp.variational.coarea import (
     jump_variation,
     level_line_length,
 )
-
-
-class Coarea(Options):
-    """The set, a cap of the unit sphere, and the functions."""
-
-    angle: float = Field(63.0, gt=0, lt=180, description="degrees from the pole to the edge of the cap")
-    values: int = Field(40, ge=2, le=1000, description="different values of the function constant on faces")
-    seed: int = Field(0, ge=0, description="seed of the function constant on faces")
-
 
 METRICS = {
     "level_line_over_length": Metric("length of the level line over the exact one"),
@@ -37,13 +30,20 @@ METRICS = {
 
 
 @register("statistic", "coarea", accepts={"surface": ("icosphere",), "operator": ("fem",)}, metrics=METRICS)
-def coarea_statistic(options: Coarea, *, surface: Surface, operator: SurfaceOperator) -> Statistic:
+def coarea_statistic(
+    surface: Surface,
+    operator: SurfaceOperator,
+    *,
+    angle: Annotated[float, Field(gt=0, lt=180, description="degrees from the pole to the edge of the cap")] = 63.0,
+    values: Annotated[int, Field(ge=2, le=1000, description="different values of the function constant on faces")] = 40,
+    seed: Annotated[int, Field(ge=0, description="seed of the function constant on faces")] = 0,
+) -> Statistic:
     """Perimeter of a cap by total variation and by its level line, and both sides of the co-area formula."""
     mesh = surface.mesh
-    height, level = mesh.vertices[:, 2], float(np.cos(np.radians(options.angle)))
-    exact = 2.0 * np.pi * float(np.sin(np.radians(options.angle)))
+    height, level = mesh.vertices[:, 2], float(np.cos(np.radians(angle)))
+    exact = 2.0 * np.pi * float(np.sin(np.radians(angle)))
     smooth = height**3 + mesh.vertices[:, 0] * mesh.vertices[:, 1]
-    steps = np.random.default_rng(options.seed).integers(0, options.values, len(mesh.faces)).astype(np.float64)
+    steps = np.random.default_rng(seed).integers(0, values, len(mesh.faces)).astype(np.float64)
     variations = total_variation(operator, smooth), jump_variation(mesh, steps)
     metrics = {
         "level_line_over_length": level_line_length(mesh, height, level) / exact,
@@ -52,4 +52,4 @@ def coarea_statistic(options: Coarea, *, surface: Surface, operator: SurfaceOper
         "coarea_defect_jumps": abs(integral_of_face_perimeters(mesh, steps) / variations[1] - 1.0),
         "edge_length": operator.edge_length,
     }
-    return Statistic(f"perimeter of a cap of {options.angle:g} degrees", metrics=metrics)
+    return Statistic(f"perimeter of a cap of {angle:g} degrees", metrics=metrics)

@@ -1,48 +1,44 @@
 """Meshes on which eigensolvers are tried."""
 
+from typing import Annotated
+
 from pydantic import Field
 
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.studies.modes.adversarial_meshes import coarse, side_by_side, with_slivers
 
 
-class Coarse(Options):
-    """How many vertices stay, and of what."""
-
-    count: int = Field(1600, ge=20, le=1000000, description="vertices that stay")
-    seed: int = Field(0, ge=0, description="seed of what is shaken before edges are contracted")
-    thinnest: float | None = Field(None, ge=0, description="cut away where the map 'thickness' is less, mm")
-
-
-@register("surface", "coarse")
-def coarse_surface(options: Coarse, *, original: Surface) -> Surface:
+@register("surface", "coarse", defaults_of=coarse)
+def coarse_surface(
+    original: Surface,
+    *,
+    count: Annotated[int, Field(ge=20, le=1000000, description="vertices that stay")] = 1600,
+    seed: Annotated[int, Field(ge=0, description="seed of what is shaken before edges are contracted")],
+    thinnest: Annotated[float | None, Field(ge=0, description="cut away where the map 'thickness' is less, mm")],
+) -> Surface:
     """Another surface with fewer vertices, each seed another mesh; of a cortex without its medial wall, if asked."""
-    return coarse(original, **dict(options))
+    return coarse(original, count=count, seed=seed, thinnest=thinnest)
 
 
-class SideBySide(Options):
-    """How equal the two are."""
-
-    perturbation: float = Field(0.0, ge=0, le=1, description="noise on the copy, in diameters")
-    seed: int = Field(0, ge=0, description="seed of the noise")
-
-
-@register("surface", "side_by_side")
-def side_by_side_surface(options: SideBySide, *, original: Surface) -> Surface:
+@register("surface", "side_by_side", defaults_of=side_by_side)
+def side_by_side_surface(
+    original: Surface,
+    *,
+    perturbation: Annotated[float, Field(ge=0, le=1, description="noise on the copy, in diameters")],
+    seed: Annotated[int, Field(ge=0, description="seed of the noise")],
+) -> Surface:
     """Another surface and its mirror image beside it as one mesh: every eigenvalue is double, or nearly."""
-    return side_by_side(original, **dict(options))
+    return side_by_side(original, perturbation=perturbation, seed=seed)
 
 
-class Slivers(Options):
-    """How flat, and how many."""
-
-    angle: float = Field(1e-3, gt=0, le=30, description="least angle of a sliver, degrees")
-    share: float = Field(0.02, gt=0, le=1, description="share of the triangles that are flattened")
-    seed: int = Field(0, ge=0, description="seed of the choice")
-
-
-@register("surface", "slivers")
-def slivers_surface(options: Slivers, *, original: Surface) -> Surface:
+@register("surface", "slivers", defaults_of=with_slivers)
+def slivers_surface(
+    original: Surface,
+    *,
+    angle: Annotated[float, Field(gt=0, le=30, description="least angle of a sliver, degrees")] = 0.001,
+    share: Annotated[float, Field(gt=0, le=1, description="share of the triangles that are flattened")],
+    seed: Annotated[int, Field(ge=0, description="seed of the choice")],
+) -> Surface:
     """Another surface on which some triangles are nearly lines."""
-    return with_slivers(original, **dict(options))
+    return with_slivers(original, angle=angle, share=share, seed=seed)

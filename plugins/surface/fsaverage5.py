@@ -1,24 +1,21 @@
 """The average human cortex, with FreeSurfer's maps."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from surfexp.anatomy.fsaverage5 import fsaverage5
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 
 
-class Fsaverage5(Options):
-    """Which hemisphere and which of its surfaces."""
-
-    hemisphere: Literal["left", "right"] = Field("left", description="hemisphere of the brain")
-    sheet: Literal["pial", "white", "inflated", "sphere"] = Field(
-        "white", description="which of the four nested surfaces"
-    )
-
-
-@register("surface", "fsaverage5")
-def fsaverage5_surface(options: Fsaverage5) -> Surface:
+@register("surface", "fsaverage5", defaults_of=fsaverage5)
+def fsaverage5_surface(
+    *,
+    hemisphere: Annotated[Literal["left", "right"], Field(description="hemisphere of the brain")],
+    sheet: Annotated[
+        Literal["pial", "white", "inflated", "sphere"], Field(description="which of the four nested surfaces")
+    ] = "white",
+) -> Surface:
     """One hemisphere of the fsaverage5 cortex: 10,242 vertices, closed, genus 0, in mm."""
-    return fsaverage5(options.hemisphere, options.sheet)
+    return fsaverage5(hemisphere, sheet)

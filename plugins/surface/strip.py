@@ -1,25 +1,24 @@
 """A developable strip, for lengths and poses that are known."""
 
+from typing import Annotated
+
 from pydantic import Field
 
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.shapes.strip import strip
 from surfexp.mesh.surface import Surface
 
 
-class Strip(Options):
-    """A jagged strip rolled onto a cylinder."""
-
-    length: float = Field(60.0, gt=0, le=1e6, description="length of the flat strip")
-    width: float = Field(12.0, gt=0, le=1e6, description="width of the flat strip")
-    edge_length: float = Field(0.63, gt=0, le=1e5, description="side of the triangles")
-    jag: float = Field(0.25, ge=0, le=0.5, description="deviation of the edge's vertices, in edge lengths")
-    bend: float = Field(0.5, ge=0, le=1.5, description="largest turning angle of the bent strip, radians")
-    arch: float = Field(0.0, ge=0, le=3, description="turning of the middle line within the flat strip, radians")
-    seed: int = Field(0, ge=0, description="seed of the jagged edge")
-
-
-@register("surface", "strip")
-def strip_surface(options: Strip) -> Surface:
+@register("surface", "strip", defaults_of=strip)
+def strip_surface(
+    *,
+    length: Annotated[float, Field(gt=0, le=1000000.0, description="length of the flat strip")],
+    width: Annotated[float, Field(gt=0, le=1000000.0, description="width of the flat strip")],
+    edge_length: Annotated[float, Field(gt=0, le=100000.0, description="side of the triangles")],
+    jag: Annotated[float, Field(ge=0, le=0.5, description="deviation of the edge's vertices, in edge lengths")],
+    bend: Annotated[float, Field(ge=0, le=1.5, description="largest turning angle of the bent strip, radians")],
+    arch: Annotated[float, Field(ge=0, le=3, description="turning of the middle line within the flat strip, radians")],
+    seed: Annotated[int, Field(ge=0, description="seed of the jagged edge")],
+) -> Surface:
     """A strip of known length with jagged edges, bent in space without stretching."""
-    return strip(**dict(options))
+    return strip(length=length, width=width, edge_length=edge_length, jag=jag, bend=bend, arch=arch, seed=seed)

@@ -1,22 +1,15 @@
 """A cortex with its sulcal regions, figure 6.4."""
 
 from dataclasses import replace
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.studies.sulci.sulcal_regions import sulcal_regions
-
-
-class SulcalRegions(Options):
-    """Of the segmentation."""
-
-    smoothness: float = Field(0.3, gt=0, le=100, description="weight of the boundary, without unit")
-    smallest_share: float = Field(1.5e-3, ge=0, lt=1, description="smallest region as a share of the surface's area")
-
 
 METRICS = {
     "regions": Metric("number of sulcal regions"),
@@ -24,10 +17,15 @@ METRICS = {
 }
 
 
-@register("surface", "sulcal_regions", metrics=METRICS)
-def sulcal_regions_surface(options: SulcalRegions, *, original: Surface) -> Surface:
+@register("surface", "sulcal_regions", metrics=METRICS, defaults_of=sulcal_regions)
+def sulcal_regions_surface(
+    original: Surface,
+    *,
+    smoothness: Annotated[float, Field(gt=0, le=100, description="weight of the boundary, without unit")],
+    smallest_share: Annotated[float, Field(ge=0, lt=1, description="smallest region as a share of the surface's area")],
+) -> Surface:
     """Another surface with its sulcal regions as labels from 1, largest first, and 0 on gyri."""
-    regions = sulcal_regions(original.mesh, options.smoothness, options.smallest_share)
+    regions = sulcal_regions(original.mesh, smoothness, smallest_share)
     inside = regions >= 0
     areas = original.mesh.vertex_areas
     metrics = {"regions": float(regions.max() + 1), "sulcal share": float(areas[inside].sum() / areas.sum())}

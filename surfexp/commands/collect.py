@@ -90,7 +90,7 @@ def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Mem
     for label, member in shown:
         options = {key: value for key, value in member["surface"].items() if key != "name"}
         try:
-            method.function(method.options(**options))
+            method(options)
             readable[label] = member
         except (ValueError, OSError) as error:
             refused[Path(options["path"])] = " ".join(str(error).split())

@@ -93,7 +93,7 @@ def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
     signature = [f"    {ROLES.get(one, one)}: {KINDS[one].result.__name__},\n" for one in roles]
     values |= {
         "imports": "\n".join(f"from {item.__module__} import {item.__name__}" for item in classes),
-        "parameters": "".join(["    *,\n", *signature] if signature else []),
+        "parameters": "".join(signature),
         "result": KINDS[kind].result.__name__,
     }
     return _filled("plugin", values), _filled("plugin_test", values)

@@ -14,7 +14,7 @@ from surfexp.contract.arrays import Floats, Integers
 LARGEST_WHOLE = 2.0**53
 
 
-def real_array(given: ArrayLike, what: str) -> Floats:
+def real_array(given: ArrayLike, what: str, infinite: bool = False) -> Floats:
     """Return real numbers as float64, those that a masked array hides as NaN.
 
     Parameters
@@ -23,6 +23,8 @@ def real_array(given: ArrayLike, what: str) -> Floats:
         Of booleans, whole numbers or floating-point numbers.
     what : str
         What the array is, for the message.
+    infinite : bool
+        Whether infinite values are left to the caller.
 
     Returns
     -------
@@ -31,12 +33,12 @@ def real_array(given: ArrayLike, what: str) -> Floats:
     Raises
     ------
     ValueError
-        If it is ragged, complex, a date, text, structured or of objects, or a value is infinite.
+        If it is ragged, complex, a date, text, structured or of objects, or a value is infinite and may not be.
     """
     values = _numbers(given, what, "buif", "real numbers are needed")
-    infinite = int(np.isinf(values).sum())
-    if infinite:
-        raise ValueError(f"{what} has {infinite} infinite values of {values.size}; write NaN where nothing is known")
+    count = 0 if infinite else int(np.isinf(values).sum())
+    if count:
+        raise ValueError(f"{what} has {count} infinite values of {values.size}; write NaN where nothing is known")
     return values
 
 

@@ -41,7 +41,7 @@ class TriangleMesh:
         return f"<TriangleMesh: {len(self.vertices):,} vertices, {len(self.faces):,} faces>"
 
     def __post_init__(self) -> None:
-        vertices = np.ascontiguousarray(real_array(self.vertices, "vertices"))
+        vertices = np.ascontiguousarray(real_array(self.vertices, "vertices", infinite=True))
         faces = np.ascontiguousarray(index_array(self.faces, "faces"))
         for name, array in (("vertices", vertices), ("faces", faces)):
             if array.ndim != 2 or array.shape[1] != 3:

@@ -53,7 +53,7 @@ def arrays_of(given: SurfaceLike) -> tuple[Floats, Integers]:
         If it is nothing that `as_surface` takes, or an array does not hold real or whole numbers.
     """
     vertices, faces = _pair(given)
-    return real_array(vertices, "vertices"), index_array(faces, "faces")
+    return real_array(vertices, "vertices", infinite=True), index_array(faces, "faces")
 
 
 def _pair(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:

@@ -38,7 +38,7 @@ def heat_flow(operator: SurfaceOperator, values: Floats, time: float, steps: int
 
 
 def geodesic_curvature_flow(
-    operator: SurfaceOperator, values: Floats, time: float, steps: int = 50, smoothing: float = 0.05
+    operator: SurfaceOperator, values: Floats, time: float, steps: int = 40, smoothing: float = 0.05
 ) -> Floats:
     """Return the solution of df/dt = |grad f| div(grad f / |grad f|): every level line moves by its geodesic curvature.
 

@@ -18,7 +18,7 @@ PLUGIN = Path(__file__).resolve().parents[2] / "plugins" / "surface" / "tosca.py
 def read(path: Path) -> Surface:
     registry.load_file(PLUGIN)
     method = registry.plugin("surface", "tosca")
-    return method.function(method.options(path=path))
+    return method({"path": path})
 
 
 def test_mat_and_text_agree(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ def figure(name: str, image: Image, **options: Any) -> Any:
     method = registry.plugin("figure", name)
     solution = Solution(image.values if image.clean is None else image.clean, 0.0, model="rof", solver="primal_dual")
     inputs = {"surface": SURFACE, "image": image, "operator": fem(SURFACE.mesh), "solver": solution}
-    return method.function(method.options(width=600, **options), **inputs)
+    return method(dict(width=600, **options), **inputs)
 
 
 @pytest.mark.parametrize("name", ["denoising", "restoration"])
@@ -53,6 +53,6 @@ def test_an_experiment_may_name_the_figure_that_it_answers() -> None:
 def test_a_map_as_it_came_is_not_called_clean(tmp_path: Path) -> None:
     np.save(tmp_path / "thickness.npy", MAP.values)
     method = registry.plugin("image", "file")
-    given = method.function(method.options(path=tmp_path / "thickness.npy", unit="mm"), surface=SURFACE)
-    noisy = method.function(method.options(path=tmp_path / "thickness.npy", noise=0.1), surface=SURFACE)
+    given = method({"path": tmp_path / "thickness.npy", "unit": "mm"}, surface=SURFACE)
+    noisy = method({"path": tmp_path / "thickness.npy", "noise": 0.1}, surface=SURFACE)
     assert given.clean is None and np.array_equal(noisy.clean, MAP.values) and noisy.noise == 0.1

@@ -222,12 +222,12 @@ def test_where_clocks_matter_the_median_of_calls_after_the_first_counts(
     for timing, lengths, expected, seconds in ((False, long, 1, 0.2), (True, long, 10, 0.01), (True, short, 4, 0.45)):
         calls = []
 
-        def busy(options, calls=calls, lengths=lengths):
+        def busy(calls=calls, lengths=lengths, **options):
             calls.append(None)
             begin = time.process_time()
             while time.process_time() - begin < lengths[min(len(calls), len(lengths)) - 1]:
                 pass
-            return method.function(options)
+            return method.function(**options)
 
         monkeypatch.setitem(registry.PLUGINS, ("surface", "toy_triangle"), replace(method, function=busy))
         folder = tmp_path / f"{timing} {len(lengths)}"

@@ -16,15 +16,11 @@ GOOD = '''"""A plugin that works."""
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
-from surfexp.lab.registry.registry import Options, register
-
-
-class Well(Options):
-    """No options."""
+from surfexp.lab.registry.registry import register
 
 
 @register("surface", "well")
-def well(options: Well) -> Surface:
+def well() -> Surface:
     """A sphere."""
     return icosphere(2)
 '''

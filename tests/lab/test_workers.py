@@ -26,7 +26,7 @@ ENDS = """
 import os, signal, sys
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.lab.registry.registry import Options, register
+from surfexp.lab.registry.registry import register
 import numba
 import numpy as np
 
@@ -34,33 +34,29 @@ import numpy as np
 def twice(size):
     return 2.0 * size
 
-class End(Options):
-    how: str = "well"
-    size: float = 1.0
-
 @register("surface", "ending")
-def ending(options: End) -> Surface:
-    print("hello from", options.how, flush=True)
-    if options.how == "signal":
-        os.kill(os.getpid(), int(options.size))
-    if options.how == "exit":
-        os._exit(int(options.size))
-    if options.how == "sys.exit":
+def ending(how: str = "well", size: float = 1.0) -> Surface:
+    print("hello from", how, flush=True)
+    if how == "signal":
+        os.kill(os.getpid(), int(size))
+    if how == "exit":
+        os._exit(int(size))
+    if how == "sys.exit":
         sys.exit(0)
-    if options.how == "loop":
+    if how == "loop":
         while True:
             pass
-    if options.how == "memory":
-        np.ones(int(options.size * 2**17))
-    if options.how == "threads":
+    if how == "memory":
+        np.ones(int(size * 2**17))
+    if how == "threads":
         threads = open("/proc/self/status").read().split("Threads:")[1].split()[0]
         raise ValueError(f"threads {threads}, loaded {'numba' in sys.modules}, parent {os.getppid()}")
-    if options.how == "compiled":
+    if how == "compiled":
         before = len(twice.overloads)
-        twice(options.size)
+        twice(size)
         compiled, read = (sum(count.values()) for count in (twice.stats.cache_misses, twice.stats.cache_hits))
-        raise ValueError(f"{before} before, {compiled} compiled, {read} read, by {twice(options.size):g}")
-    return Surface(TriangleMesh(options.size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
+        raise ValueError(f"{before} before, {compiled} compiled, {read} read, by {twice(size):g}")
+    return Surface(TriangleMesh(size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))
 """
 
 

@@ -48,12 +48,12 @@ def files(working_folder: Path) -> Path:
 
 def surface(**options: Any) -> Surface:
     method = registry.plugin("surface", "file")
-    return method.function(method.options(path="ball.surf.gii", **options))
+    return method(dict(path="ball.surf.gii", **options))
 
 
 def image(on: Surface, path: str) -> Any:
     method = registry.plugin("image", "file")
-    return method.function(method.options(path=path), surface=on)
+    return method({"path": path}, surface=on)
 
 
 def test_a_file_is_cut_by_names_of_labels_and_by_what_is_known_of_a_map(files: Path) -> None:

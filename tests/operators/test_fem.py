@@ -37,7 +37,7 @@ def test_defect_and_null_modes_of_the_adjoint_pair() -> None:
 
 
 def test_gradient_in_space_is_that_of_a_linear_function() -> None:
-    mesh = rectangle(9, 7).mesh
+    mesh = rectangle(9, 7, 1.5, 1.0).mesh
     operator = fem(mesh)
     slope = np.array([0.7, -2.0, 0.0])
     assert operator.frames is not None

@@ -217,5 +217,5 @@ def measured() -> Row:
     surface = icosphere(2)
     load_all(Path("/nonexistent"))
     method = registry.plugin("measurement", "operator_errors")
-    metrics = method.function(method.options(), surface=surface, operator=fem(surface.mesh)).metrics
+    metrics = method({}, surface=surface, operator=fem(surface.mesh)).metrics
     return Row(Leaf("key", "fem", {}), {"operator.name": "fem"}, metrics, 0.0)

@@ -250,10 +250,10 @@ def test_widths_planted_and_not_planted():
 def test_a_study_of_one_member_tells_its_skeleton_and_has_no_components():
     load_all(Path("/nonexistent"))
     study = registry.plugin("statistic", "skeleton_study")
-    one = study.function(study.options(count=20), surfaces={"only": strip()})
+    one = study({"count": 20}, surfaces={"only": strip()})
     assert one.metrics["chains"] == 1.0 and one.metrics["members"] == 1.0
     assert one.columns == {} and "first_share" not in one.metrics and "no principal components" in one.notes[0]
-    two = study.function(study.options(count=20), surfaces={"a": strip(), "b": strip(bend=0.5)})
+    two = study({"count": 20}, surfaces={"a": strip(), "b": strip(bend=0.5)})
     assert two.notes == () and len(two.columns["share"]) == 1
 
 

@@ -91,8 +91,8 @@ def test_a_flat_feature_gives_fewer_levels_and_says_so():
     flat = np.clip(FLAT.vertices[:, 0], 1.0, 2.0)
     load_all(Path("/nonexistent"))
     method = registry.plugin("skeleton", "reeb_graph")
-    found = method.function(method.options(levels="area_quantile"), surface=Surface(FLAT), feature=Feature(flat))
+    found = method({"levels": "area_quantile"}, surface=Surface(FLAT), feature=Feature(flat))
     assert found.is_chain and len(found.levels) < 50
     assert f"{len(found.levels)} of 50 levels" in found.notes[0]
-    whole = method.function(method.options(), surface=Surface(FLAT), feature=Feature(COSINE))
+    whole = method({}, surface=Surface(FLAT), feature=Feature(COSINE))
     assert len(whole.levels) == 50 and whole.notes == ()

@@ -33,13 +33,10 @@ from pathlib import Path
 import numpy as np
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.lab.registry.registry import Options, register
-
-class Nothing(Options):
-    pass
+from surfexp.lab.registry.registry import register
 
 @register("surface", "sleeping")
-def sleeping(options: Nothing) -> Surface:
+def sleeping() -> Surface:
     while not Path("awake").exists():
         time.sleep(0.1)
     return Surface(TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])))

@@ -1,4 +1,8 @@
-"""YAML files of people, read with a line for every mistake: nothing is taken twice, nothing unfolds without end."""
+"""YAML files of people, read with a line for every mistake: nothing is taken twice, nothing unfolds without end.
+
+ruamel.yaml has lines and refuses repeated keys too, but lets an alias stand inside of itself and bounds no aliases, so
+that the check below would stay.
+"""
 
 from __future__ import annotations
 

@@ -55,7 +55,9 @@ def domain(field: Any) -> str:
     """The values that an option (a field of pydantic) takes: its choices, or its type and bounds."""
     annotation: Any = field.annotation
     text = getattr(annotation, "__name__", None) if isinstance(annotation, type) else None
-    text = text or str(annotation).replace("typing.", "").replace("pathlib.", "").replace("Literal", "one of ")
+    text = text or str(annotation).replace("typing.", "").replace("pathlib.", "").replace(
+        "collections.abc.Sequence", "list"
+    ).replace("collections.abc.Mapping", "dict").replace("Literal", "one of ")
     signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "min_length": "length ≥", "max_length": "length ≤"}
     bounds = [
         f"{sign} {getattr(rule, name)}"

@@ -10,29 +10,15 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.store.kinds import KINDS, kind_of
-
-
-class Options(BaseModel):
-    """Base class of plugin options: unknown names are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-@dataclass(frozen=True)
-class Input:
-    """One input of a plugin: the kind it asks for, and how it takes results: one, a list, or a dict by label or by member."""
-
-    kind: str
-    shape: str
+from surfexp.lab.registry.signature import Input, options_and_inputs
+from surfexp.lab.store.kinds import KINDS
 
 
 @dataclass(frozen=True)
@@ -58,6 +44,10 @@ class Plugin:
         """First line of the function's docstring."""
         return (inspect.getdoc(self.function) or "").split("\n", 1)[0]
 
+    def __call__(self, options: Mapping[str, Any], **inputs: Any) -> Any:
+        """Call the function on checked options, with defaults for those that are not given, and on results by role."""
+        return self.function(**inputs, **dict(self.options(**options)))
+
 
 PLUGINS: dict[tuple[str, str], Plugin] = {}
 BROKEN: dict[Path, str] = {}
@@ -71,11 +61,14 @@ def register(
     *,
     accepts: Mapping[str, Iterable[str]] | None = None,
     metrics: Mapping[str, Metric] | None = None,
+    defaults_of: Callable[..., Any] | Iterable[Callable[..., Any]] = (),
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register a function as plugin `name` of stage `kind`.
 
-    Its first argument is annotated with a pydantic model of options; each keyword-only argument is an input, named by
-    its role and annotated with the result type of a kind (or a list of it, or a dict of it by label or by `Member`).
+    A parameter annotated with the result type of a kind (or a list of it, or a dict of it by label or by `Member`) is an
+    input, named by its role. Every other parameter is an option: `tolerance: Annotated[float, Field(gt=0,
+    description="...")] = 1e-4`. An option without default has the one of the parameter of its name in `defaults_of`, the first
+    function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
     """
@@ -86,37 +79,17 @@ def register(
         if known is not None and known.file != file and known.file.read_bytes() != file.read_bytes():
             raise UserError(f"plugin {kind}/{name} is defined twice: {known.file} and {file}")
         if known is None:
+            where = f"plugin {kind}/{name}"
+            if not (isinstance(name, str) and name.isidentifier()):
+                raise UserError(f"{where}: a name is a word of letters, digits and underscores, e.g. 'split_bregman'")
+            check_known("stage kind", [kind], KINDS)
+            sources = (defaults_of,) if callable(defaults_of) else tuple(defaults_of)
+            options, inputs = options_and_inputs(where, function, sources)
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
-            options, inputs = _signature(kind, name, function)
             PLUGINS[kind, name] = Plugin(kind, name, function, options, inputs, file, restrictions, metrics or {})
         return function
 
     return decorate
-
-
-def _signature(kind: str, name: str, function: Callable[..., Any]) -> tuple[type[BaseModel], dict[str, Input]]:
-    where = f"plugin {kind}/{name}"
-    if not (isinstance(name, str) and name.isidentifier()):
-        raise UserError(f"{where}: a name is a word of letters, digits and underscores, e.g. 'split_bregman'")
-    check_known("stage kind", [kind], KINDS)
-    hints = get_type_hints(function)
-    parameters = list(inspect.signature(function).parameters.values())
-    options = hints.get(parameters[0].name) if parameters else None
-    if not (isinstance(options, type) and issubclass(options, BaseModel)):
-        raise UserError(f"{where}: its first argument must be annotated with a pydantic model of options")
-    clash = set(options.model_fields) & (set(KINDS) | {"name", "inputs"})
-    if clash:
-        raise UserError(f"{where}: option {min(clash)!r} has the name of a stage kind or of a setting")
-    inputs = {}
-    for parameter in parameters[1:]:
-        hint = hints[parameter.name]
-        shapes = {list: "list", dict: "members" if Member in get_args(hint) else "dict"}
-        shape = shapes.get(get_origin(hint) or hint, "one")
-        try:
-            inputs[parameter.name] = Input(kind_of(get_args(hint)[-1] if shape != "one" else hint), shape)
-        except KeyError:
-            raise UserError(f"{where}: input {parameter.name!r} is annotated {hint}, which is no stage kind") from None
-    return options, inputs
 
 
 def plugin(kind: str, name: str) -> Plugin:

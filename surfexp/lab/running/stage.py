@@ -98,10 +98,10 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
         names = [Member(**facts) for facts in node.members[role]] if role in node.members else list(keys)
         return dict(zip(names, map(one, keys.values()), strict=True))
 
-    options, inputs = method.options(**node.options), {role: some(role, keys) for role, keys in node.inputs.items()}
+    options, inputs = node.options, {role: some(role, keys) for role, keys in node.inputs.items()}
     _check_files(node)
     started = time.process_time()
-    result = method.function(options, **inputs)
+    result = method(options, **inputs)
     _progress["seconds"] = time.process_time() - started
     _check_files(node)
     check_result(result, KINDS[node.kind].result)

@@ -21,7 +21,7 @@ def grid_faces(rows: int, columns: int) -> Integers:
     return np.where(even, falling, rising).reshape(-1, 3)
 
 
-def rectangle(n_x: int = 61, n_y: int = 41, width: float = 1.5, height: float = 1.0) -> Surface:
+def rectangle(n_x: int = 61, n_y: int = 41, width: float = 2.1**0.5, height: float = 1.0) -> Surface:
     """Rectangle [0, width] x [0, height] in the plane z = 0, normal +z, of n_x * n_y vertices.
 
     Returns

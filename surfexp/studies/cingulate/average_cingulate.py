@@ -24,7 +24,7 @@ PARCELS = {"left": (2, 9, 22, 25), "right": (43, 50, 63, 66)}
 def cingulate(
     hemisphere: Hemisphere = "left",
     sheet: str = "white",
-    refine: int = 0,
+    refine: int = 1,
     jag: float = 0.0,
     seed: int = 0,
     mirror: bool = False,

@@ -45,7 +45,7 @@ def named_revolution(profile: str, rows: int = 120, columns: int = 32) -> Surfac
     return Surface(surface.mesh, profile.replace("_", " "), coordinates=surface.coordinates, metrics=surface.metrics)
 
 
-def clover(levels: int = 3, lobes: int = 3, depth: float = 0.35, squeeze: float = 0.0, angle: float = 0.0) -> Surface:
+def clover(levels: int = 4, lobes: int = 3, depth: float = 0.35, squeeze: float = 0.0, angle: float = 0.0) -> Surface:
     """A flat body with `lobes` equal lobes, whose first eigenvalue is double, squeezed a little in one direction.
 
     Squeezed, the double eigenvalue splits, and the direction decides which two functions are left: surfaces that are

@@ -44,7 +44,7 @@ class Drum:
     tiles: Floats
 
 
-def tile_mesh(divisions: int, grading: float = 1.0) -> tuple[Floats, Integers]:
+def tile_mesh(divisions: int, grading: float = 2.0) -> tuple[Floats, Integers]:
     """Barycentric coordinates and faces of a triangle cut into divisions^2 smaller ones.
 
     Parameters

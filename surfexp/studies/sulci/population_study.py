@@ -19,7 +19,7 @@ SIDES: tuple[Side, ...] = ("left", "right")
 Table = dict[str, dict[Side, Floats]]
 
 
-def name_regions(template: Template, target: Surface, sizes: tuple[int, ...] = (4, 10)) -> dict[str, float]:
+def name_regions(template: Template, target: Surface, sizes: tuple[int, ...] = (3, 4, 10, 20)) -> dict[str, float]:
     """Return the share of the target's sulcal area that is named right, by rule and number n of eigenfunctions."""
     regions, system = sulcal_regions(target.mesh), sulcal_system(target.mesh)
     areas = target.mesh.vertex_areas

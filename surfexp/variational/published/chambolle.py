@@ -26,7 +26,7 @@ def published_chambolle(
     start: Solution | None = None,
     *,
     tolerance: float | None = None,
-    iteration_limit: int = 3000,
+    iteration_limit: int = 20000,
     tau: float | None = None,
     theta: float | None = None,
     inner_steps: int = 10,

@@ -34,7 +34,7 @@ def published_split_bregman(
     start: Solution | None = None,
     *,
     tolerance: float | None = None,
-    iteration_limit: int = 500,
+    iteration_limit: int = 5000,
     penalty: float | None = None,
     inner: Inner = "gauss_seidel",
     sweeps: int = 1,

@@ -1,0 +1,112 @@
+"""What a plugin takes, read from its signature: inputs by their types, everything else is an option."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, create_model
+from pydantic.errors import PydanticUserError
+
+from surfexp.contract.member import Member
+from surfexp.lab.errors import UserError
+from surfexp.lab.store.kinds import KINDS, kind_of
+
+NEW_FORM = "def f(surface: Surface, *, radius: Annotated[float, Field(gt=0, description='...')] = 1.0) -> Surface"
+SHAPES = {list: "list", dict: "dict"}
+
+
+class Options(BaseModel):
+    """Base class of plugin options: unknown names are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input of a plugin: the kind it asks for, and how it takes results: one, a list, or a dict by label or by member."""
+
+    kind: str
+    shape: str
+
+
+def options_and_inputs(
+    where: str, function: Callable[..., Any], defaults_of: Sequence[Callable[..., Any]]
+) -> tuple[type[BaseModel], dict[str, Input]]:
+    """Options and inputs of a plugin, from the signature of its function.
+
+    Parameters
+    ----------
+    where : str
+        What the function is called in errors.
+    function : callable
+        A parameter whose annotation is the result type of a stage kind, or a list or dict of it, is an input; every other one
+        is an option. Its bounds and description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
+    defaults_of : sequence of callable
+        Functions that hold the defaults of options without a default here, under the same name; the first that has one counts.
+
+    Returns
+    -------
+    options : type of BaseModel
+    inputs : dict of str to Input
+        By the name of the parameter, its role.
+
+    Raises
+    ------
+    UserError
+        If a parameter is neither, or the same default stands twice.
+    """
+    hints = get_type_hints(function, include_extras=True)
+    described = _described(inspect.getdoc(function) or "")
+    inputs, fields = dict[str, Input](), dict[str, Any]()
+    for name, parameter in inspect.signature(function).parameters.items():
+        if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or name not in hints:
+            raise UserError(f"{where}: parameter {name!r} must be one input or option with its type, as in {NEW_FORM}")
+        hint = hints[name]
+        if isinstance(hint, type) and issubclass(hint, BaseModel):
+            raise UserError(
+                f"{where}: options are parameters of the function, not the model {hint.__name__}: {NEW_FORM}"
+            )
+        if (found := _input(hint)) is not None:
+            inputs[name] = found
+            continue
+        if name in (*KINDS, "name", "inputs"):
+            raise UserError(f"{where}: option {name!r} has the name of a stage kind or of a setting")
+        default = _default(where, name, parameter, defaults_of)
+        fields[name] = (Annotated[hint, Field(description=described[name])] if name in described else hint, default)
+    try:
+        return create_model(function.__name__, __base__=Options, **fields), inputs
+    except PydanticUserError as error:
+        names = ", ".join(fields)
+        raise UserError(f"{where}: {names}: a parameter is a stage's result or a plain value ({error})") from None
+
+
+def _input(hint: Any) -> Input | None:
+    origin, parts = get_origin(hint), get_args(hint)
+    shape = "members" if origin is dict and Member in parts else SHAPES.get(origin, "one")
+    result = hint if shape == "one" else parts[-1]
+    try:
+        return Input(kind_of(result), shape)
+    except (AttributeError, KeyError):
+        return None
+
+
+def _default(where: str, name: str, parameter: inspect.Parameter, defaults_of: Sequence[Callable[..., Any]]) -> Any:
+    """The one default of an option; `...` where it is required."""
+    known = {one.__name__: inspect.signature(one).parameters.get(name) for one in defaults_of}
+    found = {one: other.default for one, other in known.items() if other and other.default is not other.empty}
+    if parameter.default is not parameter.empty:
+        if twice := [one for one, value in found.items() if value == parameter.default]:
+            raise UserError(f"{where}: the default of {name!r} stands here and in {twice[0]}; leave it out here")
+        return parameter.default
+    return next(iter(found.values()), ...)
+
+
+def _described(docstring: str) -> dict[str, str]:
+    """What the section Parameters of a numpydoc docstring says of each parameter."""
+    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[^\n]*\n-{3,}$|\Z)", docstring, re.DOTALL | re.MULTILINE)
+    found = re.findall(r"^(\w+)(?: :[^\n]*)?\n((?:[ ]+\S[^\n]*\n?)+)", section[1] if section else "", re.MULTILINE)
+    return {name: " ".join(text.split()) for name, text in found}
