@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from surfexp.contract.arrays import Floats, Integers
 
 # beyond it float64 does not hold every whole number
 LARGEST_WHOLE = 2.0**53
+# characters of what was given, in a message
+LONGEST_SHOWN = 60
 
 
 def real_array(given: ArrayLike, what: str, infinite: bool = False) -> Floats:
@@ -126,12 +129,38 @@ def whole_number(given: Any, what: str, least: int, most: int | None = None) -> 
     try:
         if isinstance(given, bool | np.bool_):
             raise TypeError
-        number = int(given) if isinstance(given, float | np.floating) and given == int(given) else operator.index(given)
+        is_float = isinstance(given, float | np.floating) and abs(float(given)) < LARGEST_WHOLE
+        number = int(given) if is_float and given == int(given) else operator.index(given)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{what} = {given!r} is no whole number, {bounds} is needed") from None
+        raise ValueError(f"{what} = {_shown(given)} is no whole number, {bounds} is needed") from None
     if number < least or (most is not None and number > most):
-        raise ValueError(f"{what} = {number}, {bounds} is needed")
+        raise ValueError(f"{what} = {_shown(number)}, {bounds} is needed")
     return number
+
+
+def one_of(given: Any, what: str, known: Iterable[str]) -> str:
+    """Return one of some words.
+
+    Parameters
+    ----------
+    given : str
+    what : str
+        Name of the argument.
+    known : iterable of str
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        If it is none of them.
+    """
+    words = tuple(known)
+    if not isinstance(given, str) or given not in words:
+        raise ValueError(f"{what} = {_shown(given)}, choose one of {', '.join(words)}")
+    return given
 
 
 def real_number(given: Any, what: str, above: float | None = None, below: float | None = None) -> float:
@@ -158,11 +187,11 @@ def real_number(given: Any, what: str, above: float | None = None, below: float 
     )
     needed = f"a number {bounds}".rstrip()
     if isinstance(given, bool | np.bool_ | str | bytes | complex | np.complexfloating) or np.ndim(given):
-        raise ValueError(f"{what} = {given!r}, {needed} is needed")
+        raise ValueError(f"{what} = {_shown(given)}, {needed} is needed")
     try:
         number = float(given)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{what} = {given!r}, {needed} is needed") from None
+        raise ValueError(f"{what} = {_shown(given)}, {needed} is needed") from None
     outside = (above is not None and number <= above) or (below is not None and number >= below)
     if not np.isfinite(number) or outside:
         raise ValueError(f"{what} = {number:g}, {needed} is needed")
@@ -197,7 +226,18 @@ def _is_writable(array: Any) -> bool:
     return False
 
 
+def _shown(given: Any) -> str:
+    """What was given, on one line of bounded length."""
+    try:
+        text = " ".join(repr(given).split())
+    except ValueError:  # a whole number of more digits than Python prints
+        text = f"a {type(given).__name__}"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
 def _array(given: ArrayLike, what: str) -> NDArray[Any]:
+    if given is None:
+        raise ValueError(f"{what} is None, an array of numbers is needed")
     try:
         return np.asarray(given)
     except (ValueError, TypeError) as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import get_args
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
+from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -74,6 +76,9 @@ def distance(
     >>> round(found.value, 9), found.optimal
     (0.0, True)
     """
+    n = whole_number(n, "n", 1)
+    limit = None if limit is None else whole_number(limit, "limit", 1)
+    one_of(weighting, "weighting", get_args(Weighting))
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
     most = search_limit(first, second) if limit is None else limit
     found = spectral_distance(first, second, limit=most, progress=progress)
@@ -180,6 +185,10 @@ def align(
     >>> sx.align(body, body, 5).basis.round(3).diagonal().tolist()
     [1.0, 1.0, 1.0, 1.0, 1.0]
     """
+    count = whole_number(count, "count", 1)
+    limit = None if limit is None else whole_number(limit, "limit", 1)
+    relative_gap = real_number(relative_gap, "relative_gap")
+    one_of(weighting, "weighting", get_args(Weighting))
     (longer, _), (other, part) = embedded(source, count + 1, weighting), embedded(target, count + 1, weighting)
     notes = _cut_block(eigenvalue_blocks(longer.values, other.values, gap=relative_gap))
     first, second = longer.truncated(count), other.truncated(count)

@@ -9,6 +9,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
@@ -105,6 +106,10 @@ def null_maps(
     >>> nulls.values.shape, bool(nulls.certificate["share_in_modes"] > 0.999)
     ((642, 99), True)
     """
+    count, modes = whole_number(count, "count", 1), whole_number(modes, "modes", 1)
+    seed = whole_number(seed, "seed", 0)
+    makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
+    chosen = makers[one_of(method, "method", makers)]
     owner = as_surface(surface)
     rough = as_map(owner, values)
     part = part_for(owner, rough)
@@ -112,10 +117,7 @@ def null_maps(
     if inside.ndim > 1 or not np.ptp(inside) > 0:
         shape = f"has {inside.shape[1]} channels" if inside.ndim > 1 else "is constant"
         raise ValueError(f"the map {shape}: null models take one that varies")
-    makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
-    if method not in makers:
-        raise ValueError(f"method is {method!r}, choose {' or '.join(makers)}")
-    made, certificate = makers[method](owner, part, inside, count, modes, seed)
+    made, certificate = chosen(owner, part, inside, count, modes, seed)
     return NullMaps(part.extend(made), method, certificate, part.notes)
 
 

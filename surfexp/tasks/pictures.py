@@ -18,8 +18,11 @@ from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
+from surfexp.mesh.given_arrays import whole_number
 from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
 
+# pixels
+NARROWEST, WIDEST = 200, 20_000
 SUFFIXES = (".png", ".svg")
 
 
@@ -121,6 +124,7 @@ def plot(
     >>> sx.plot(sphere, sphere.mesh.vertices[:, 2], width=400).figure.pixels.shape[1]
     400
     """
+    width = whole_number(width, "width", NARROWEST, WIDEST)
     require_installed("sx.plot", "matplotlib", "PIL")
     owner = as_surface(surface)
     field = None if values is None else as_map(owner, getattr(values, "values", values))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.mesh.given_arrays import index_array, mask_array, whole_number
+from surfexp.mesh.given_arrays import index_array, mask_array, real_number, whole_number
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.fast_marching import fast_marching
@@ -62,11 +62,12 @@ def reeb_graph(
     >>> int(sx.reeb_graph(torus, torus.mesh.vertices[:, 0]).metrics["b1"])
     1
     """
+    count = whole_number(count, "count", 1)
+    persistence = real_number(persistence, "persistence")
     owner = as_surface(surface)
     heights = as_map(owner, values)
     part = part_for(owner, heights)
     inside = np.asarray(part.restrict(heights), dtype=np.float64)
-    count = whole_number(count, "count", 1)
     chosen = choose_levels(part.mesh, inside, count, levels)
     skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
     return replace(skeleton, notes=part.notes + skeleton.notes)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from collections import Counter, defaultdict
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -18,11 +19,15 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.thin_faces import sharp_faces, zero_area_faces
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.validate import SLIVER_DEGREES
+from surfexp.mesh.validate import SLIVER_DEGREES, validate
 from surfexp.mesh.welding import weld
 
 SOUND = [icosphere(1).mesh, icosphere(2).mesh, torus(9, 7).mesh, disk(rings=3).mesh]
 MESHES = 1000
+KINDS = {
+    *("faces with a repeated index", "duplicate faces", "duplicate vertices", "unreferenced vertices"),
+    *("non-manifold edges", "non-manifold vertices"),
+}
 
 
 def random_mesh(seed: int) -> TriangleMesh:
@@ -76,6 +81,33 @@ def copies_by_sets(rows: NDArray[np.generic]) -> list[bool]:
     return copies
 
 
+def defects_by_dictionaries(mesh: TriangleMesh) -> Counter[str]:
+    faces = mesh.faces.tolist()
+    found: Counter[str] = Counter()
+    found["faces with a repeated index"] = sum(len(set(face)) < 3 for face in faces)
+    found["duplicate faces"] = len(faces) - len({tuple(sorted(face)) for face in faces})
+    found["duplicate vertices"] = len(mesh.vertices) - len(set(map(tuple, (mesh.vertices + 0.0).tolist())))
+    found["unreferenced vertices"] = len(mesh.vertices) - len({vertex for face in faces for vertex in face})
+    proper = [face for face in faces if len(set(face)) == 3]
+    around: defaultdict[frozenset[int], list[int]] = defaultdict(list)
+    at: defaultdict[int, list[int]] = defaultdict(list)
+    for number, face in enumerate(proper):
+        for pair in combinations(face, 2):
+            around[frozenset(pair)].append(number)
+        for vertex in face:
+            at[vertex].append(number)
+    found["non-manifold edges"] = sum(len(there) > 2 for there in around.values())
+    for vertex, there in at.items():
+        reached, front = {there[0]}, [there[0]]
+        while front:
+            sides = [pair for pair in combinations(proper[front.pop()], 2) if vertex in pair]
+            near = {other for pair in sides for other in around[frozenset(pair)]} - reached
+            reached |= near
+            front += near
+        found["non-manifold vertices"] += len(reached) < len(there)
+    return +found
+
+
 @pytest.mark.parametrize("part", range(10))
 def test_every_answer_equals_the_one_by_sorting_rows(part: int) -> None:
     for seed in range(part * MESHES // 10, (part + 1) * MESHES // 10):
@@ -94,6 +126,17 @@ def test_every_answer_equals_the_one_by_sorting_rows(part: int) -> None:
             assert np.array_equal(corner_fans(mesh, crossable), fans_by_scipy(mesh, crossable))
         assert later_copies(mesh.vertices).tolist() == copies_by_sets(mesh.vertices)
         assert later_copies(np.sort(mesh.faces, axis=1)).tolist() == copies_by_sets(np.sort(mesh.faces, axis=1))
+
+
+def test_a_mesh_is_judged_as_by_dictionaries() -> None:
+    seen: Counter[str] = Counter()
+    for seed in range(MESHES // 4):
+        mesh = random_mesh(seed)
+        report, expected = validate(mesh.vertices, mesh.faces), defects_by_dictionaries(mesh)
+        judged = Counter({defect.kind: defect.count for defect in report.defects if defect.kind in KINDS})
+        assert judged == expected, seed
+        seen += expected
+    assert set(seen) == KINDS and min(seen.values()) > 30
 
 
 def test_thin_faces_are_those_of_the_plain_formulas() -> None:
