@@ -63,7 +63,7 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     report = validate(vertices, faces)
     fatal = [str(defect) for defect in report.defects if defect.severity == "refuse"]
     if fatal:
-        raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible")
+        raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible: give a mesh without")
     mesh = TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces))
     origin = np.arange(len(mesh.vertices))
     changes: list[str] = []
@@ -86,7 +86,7 @@ def _one_round(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tupl
     faces = flip_zero_area_faces(TriangleMesh(mesh.vertices, faces), changes)
     faces = drop_faces_at_crowded_edges(TriangleMesh(mesh.vertices, faces), changes)
     if not len(faces):
-        raise ValueError("mesh has no face of positive area; nothing is left after repair")
+        raise ValueError("mesh has no face of positive area; nothing is left after repair, give a mesh that has one")
     mesh = TriangleMesh(mesh.vertices, _orient(TriangleMesh(mesh.vertices, faces), changes))
     mesh, origin = _split_fans(mesh, origin, changes)
     mesh, origin = _drop_unreferenced(mesh, origin, changes)

@@ -142,7 +142,7 @@ def require_valid(
     defects = tuple(_array_defects(mesh.vertices, mesh.faces)) or tuple(_mesh_defects(mesh))
     fatal = [defect for defect in defects if defect.severity == "refuse"]
     if fatal:
-        raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible")
+        raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible: give a mesh without")
     found = [defect for defect in defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
         way_out = repair or f"surfexp repair {name} --to repaired.ply"

@@ -104,4 +104,4 @@ class SpectralDistance(SurfaceTransformer):
         return matrix
 
     def _embedding(self, given: SurfaceLike) -> SpectralEmbedding:
-        return embedded(given, self.n, self.weighting)[0]
+        return embedded(given, int(self.n), self.weighting)[0]

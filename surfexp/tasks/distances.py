@@ -22,7 +22,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for, require_connected
 
 # pairs of points that a search compares at most where no limit is given: about a minute
 LARGEST_SEARCH, FEWEST, MOST = 2e10, 100, 2000
@@ -189,7 +189,7 @@ def align(
     limit = None if limit is None else whole_number(limit, "limit", 1)
     relative_gap = real_number(relative_gap, "relative_gap")
     one_of(weighting, "weighting", get_args(Weighting))
-    (longer, _), (other, part) = embedded(source, count + 1, weighting), embedded(target, count + 1, weighting)
+    (longer, _), (other, part) = (embedded(one, count, weighting, name="count", more=1) for one in (source, target))
     notes = _cut_block(eigenvalue_blocks(longer.values, other.values, gap=relative_gap))
     first, second = longer.truncated(count), other.truncated(count)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
@@ -224,9 +224,16 @@ def search_limit(first: SpectralEmbedding, second: SpectralEmbedding) -> int:
     return int(min(max(LARGEST_SEARCH / pairs, FEWEST), MOST))
 
 
-def embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[SpectralEmbedding, SurfacePart]:
-    """Return the embedding of a surface by n eigenfunctions, scaled to area 1, and the part inside its mask."""
+def embedded(
+    given: SurfaceLike, n: int, weighting: Weighting, *, name: str = "n", more: int = 0
+) -> tuple[SpectralEmbedding, SurfacePart]:
+    """Return the embedding of a surface by `n + more` eigenfunctions, scaled to area 1, and the part inside its mask.
+
+    `name` is what the user calls n.
+    """
     owner = as_surface(given)
     part = part_for(owner)
+    require_connected(part, "spectral distances")
+    n = whole_number(n, name, 1, len(part.vertices) - 1 - more) + more
     system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)
     return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part

@@ -10,6 +10,7 @@ import numpy as np
 
 from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.validate import LARGEST_COORDINATE, SMALLEST_EXTENT
 
 SHAPES = {
     "icosphere": "surfexp.mesh.shapes.icosphere",
@@ -64,7 +65,11 @@ def _taken(given: Any, what: str, kind: Any) -> Any:
     if kind is int:
         return whole_number(given, what, 0)
     if kind is float:
-        return real_number(given, what)
+        number = real_number(given, what)
+        if number and not SMALLEST_EXTENT < abs(number) < LARGEST_COORDINATE:
+            sizes = f"{SMALLEST_EXTENT:g} to {LARGEST_COORDINATE:g}"
+            raise ValueError(f"{what} = {number:g}, 0 or a number of size {sizes} is needed")
+        return number
     if get_origin(kind) is tuple:
         needed = len(get_args(kind))
         if np.shape(given) != (needed,):

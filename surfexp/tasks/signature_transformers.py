@@ -6,7 +6,7 @@ from typing import get_args
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import one_of
+from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -90,5 +90,6 @@ def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]
     """Return the part inside the mask and its first `count` pairs above 0, with the zero modes."""
     owner = as_surface(given)
     part = part_for(owner)
+    whole_number(count, "n", 1, len(part.vertices) - part.mesh.component_count)
     cut = Surface(part.mesh, owner.name, owner.unit)
     return part, surface_spectrum(cut, fem(part.mesh), count + part.mesh.component_count)

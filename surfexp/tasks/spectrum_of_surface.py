@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from typing import get_args
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import real_number, whole_number
+from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
@@ -54,6 +55,8 @@ class Spectrum:
         boundary: Boundary = "neumann",
     ) -> None:
         self.tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+        one_of(mass, "mass", get_args(Mass))
+        one_of(boundary, "boundary", get_args(Boundary))
         self.surface = as_surface(surface)
         self.mass = mass
         self.boundary = boundary
