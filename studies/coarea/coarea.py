@@ -82,8 +82,8 @@ def integral_of_face_perimeters(mesh: TriangleMesh, values: Floats) -> float:
 
 def _inner_edges(mesh: TriangleMesh) -> tuple[Floats, np.ndarray]:
     """(e,) lengths of the edges between two faces, and (e, 2) these faces."""
-    order = np.argsort(mesh.face_edges.ravel(), kind="stable")
-    edges, faces = mesh.face_edges.ravel()[order], order // 3
+    order = mesh.edge_table.half_edges
+    edges, faces = mesh.edge_table.edge_of[order], order // 3
     first = np.flatnonzero(edges[1:] == edges[:-1])
     ends = mesh.vertices[mesh.edges[edges[first]]]
     return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), np.stack([faces[first], faces[first + 1]], axis=1)

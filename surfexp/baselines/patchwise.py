@@ -10,6 +10,7 @@ from surfexp.baselines.disk_map import disk_map
 from surfexp.baselines.distortion import distortion
 from surfexp.baselines.parameter_domain import ParameterDomain, conformal_operator, image_mesh
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import half_edge_table
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
@@ -121,8 +122,8 @@ def seam_error(mesh: TriangleMesh, labels: Integers, values: Floats, reference: 
 
 def _face_graph(mesh: TriangleMesh) -> csr_array:
     """Adjacent faces with the distance of their centroids."""
-    order = np.argsort(mesh.face_edges.ravel(), kind="stable")
-    edge, face = mesh.face_edges.ravel()[order], order // 3
+    order = mesh.edge_table.half_edges
+    edge, face = mesh.edge_table.edge_of[order], order // 3
     pair = edge[1:] == edge[:-1]
     a, b = face[:-1][pair], face[1:][pair]
     centroids = mesh.vertices[mesh.faces].mean(axis=1)
@@ -146,5 +147,5 @@ def _nearest_seed(graph: csr_array, count: int) -> Integers:
 
 
 def _euler_characteristic(faces: Integers) -> int:
-    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return len(np.unique(faces)) - len(np.unique(sides, axis=0)) + len(faces)
+    vertices = np.bincount(faces.ravel())
+    return int(np.count_nonzero(vertices)) - len(half_edge_table(faces, len(vertices)).edges) + len(faces)

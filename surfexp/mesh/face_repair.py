@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.contract.arrays import Integers
+from surfexp.mesh.equal_rows import later_copies
+from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.mesh.validate import later_copies, repeated_index_faces, zero_area_faces
+from surfexp.mesh.validate import repeated_index_faces
 
 
 def drop_bad_faces(mesh: TriangleMesh, changes: list[str]) -> Integers:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Iterable
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,10 @@ from surfexp.contract.arrays import Floats, Integers
 
 # beyond it float64 does not hold every whole number
 LARGEST_WHOLE = 2.0**53
+# characters of what was given, in a message
+LONGEST_SHOWN = 60
+# that a message lists
+MOST_WORDS = 20
 
 
 def real_array(given: ArrayLike, what: str, infinite: bool = False) -> Floats:
@@ -112,6 +118,7 @@ def whole_number(given: Any, what: str, least: int, most: int | None = None) -> 
         Name of the argument.
     least : int
     most : int, optional
+        2^63 - 1 if not given.
 
     Returns
     -------
@@ -123,15 +130,68 @@ def whole_number(given: Any, what: str, least: int, most: int | None = None) -> 
         If it is no whole number, or lies outside of its bounds.
     """
     bounds = f"at least {least}" if most is None else f"{least} to {most}"
+    most = np.iinfo(np.int64).max if most is None else most
     try:
         if isinstance(given, bool | np.bool_):
             raise TypeError
-        number = int(given) if isinstance(given, float | np.floating) and given == int(given) else operator.index(given)
+        is_float = isinstance(given, float | np.floating) and abs(float(given)) < LARGEST_WHOLE
+        number = int(given) if is_float and given == int(given) else operator.index(given)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{what} = {given!r} is no whole number, {bounds} is needed") from None
-    if number < least or (most is not None and number > most):
-        raise ValueError(f"{what} = {number}, {bounds} is needed")
+        raise ValueError(f"{what} = {_shown(given)} is no whole number, {bounds} is needed") from None
+    if not least <= number <= most:
+        raise ValueError(f"{what} = {_shown(number)}, {bounds} is needed")
     return number
+
+
+def one_of(given: Any, what: str, known: Iterable[str]) -> str:
+    """Return one of some words.
+
+    Parameters
+    ----------
+    given : str
+    what : str
+        Name of the argument.
+    known : iterable of str
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        If it is none of them.
+    """
+    words = tuple(known)
+    if not isinstance(given, str) or given not in words:
+        # of many the nearest
+        near = words if len(words) <= MOST_WORDS else get_close_matches(str(given)[:LONGEST_SHOWN], words, 3, 0.0)
+        others = "" if near is words else f" or another of {len(words)} names"
+        raise ValueError(f"{what} = {_shown(given)}, choose one of {', '.join(near)}{others}")
+    return given
+
+
+def real_pair(given: Any, what: str) -> tuple[float, float]:
+    """Return two finite real numbers.
+
+    Parameters
+    ----------
+    given : (float, float)
+    what : str
+        Name of the argument.
+
+    Returns
+    -------
+    (float, float)
+
+    Raises
+    ------
+    ValueError
+        If they are not two, or one is no finite number.
+    """
+    if isinstance(given, str) or not isinstance(given, Iterable) or len(pair := list(given)) != 2:
+        raise ValueError(f"{what} = {_shown(given)}, two numbers are needed")
+    return real_number(pair[0], what), real_number(pair[1], what)
 
 
 def real_number(given: Any, what: str, above: float | None = None, below: float | None = None) -> float:
@@ -158,11 +218,11 @@ def real_number(given: Any, what: str, above: float | None = None, below: float 
     )
     needed = f"a number {bounds}".rstrip()
     if isinstance(given, bool | np.bool_ | str | bytes | complex | np.complexfloating) or np.ndim(given):
-        raise ValueError(f"{what} = {given!r}, {needed} is needed")
+        raise ValueError(f"{what} = {_shown(given)}, {needed} is needed")
     try:
         number = float(given)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{what} = {given!r}, {needed} is needed") from None
+        raise ValueError(f"{what} = {_shown(given)}, {needed} is needed") from None
     outside = (above is not None and number <= above) or (below is not None and number >= below)
     if not np.isfinite(number) or outside:
         raise ValueError(f"{what} = {number:g}, {needed} is needed")
@@ -197,11 +257,43 @@ def _is_writable(array: Any) -> bool:
     return False
 
 
+def _shown(given: Any) -> str:
+    """What was given, on one line of bounded length."""
+    try:
+        text = " ".join(repr(given).split())
+    except ValueError:  # a whole number of more digits than Python prints
+        text = f"a {type(given).__name__}"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."
+
+
+def map_array(given: ArrayLike, what: str) -> Floats:
+    """Return the real numbers of a map, a column (n, 1) as (n,); otherwise as `real_array`.
+
+    Parameters
+    ----------
+    given : array_like
+    what : str
+
+    Returns
+    -------
+    (...) float64
+
+    Raises
+    ------
+    ValueError
+        As `real_array`.
+    """
+    values = real_array(given, what)
+    return values[:, 0] if values.ndim == 2 and values.shape[1] == 1 else values
+
+
 def _array(given: ArrayLike, what: str) -> NDArray[Any]:
+    if given is None:
+        raise ValueError(f"{what} is None, an array of numbers is needed")
     try:
         return np.asarray(given)
-    except (ValueError, TypeError) as error:
-        raise ValueError(f"{what} is no array of numbers ({' '.join(str(error).split())})") from None
+    except (ValueError, TypeError):
+        raise ValueError(f"{what} is no array of numbers, rows of equal length are needed") from None
 
 
 def _numbers(given: ArrayLike, what: str, kinds: str, needed: str) -> Floats:

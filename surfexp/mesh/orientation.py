@@ -4,23 +4,14 @@ from __future__ import annotations
 
 import igl
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.union_find import join, numbered_sets
 
 Mask = NDArray[np.bool_]
-
-
-def edge_pairs(mesh: TriangleMesh) -> tuple[Integers, Integers]:
-    """Half-edges (3 face + side) that lie on the same edge, as consecutive pairs (k, 2), and the edge of each pair."""
-    edge_of = mesh.face_edges.ravel()
-    order = np.argsort(edge_of, kind="stable")
-    same = edge_of[order[1:]] == edge_of[order[:-1]]
-    pairs = np.stack([order[:-1], order[1:]], axis=1)[same]
-    return pairs, edge_of[pairs[:, 0]]
 
 
 def inconsistent_edges(mesh: TriangleMesh) -> Mask:
@@ -51,18 +42,22 @@ def corner_fans(mesh: TriangleMesh, crossable: Mask) -> Integers:
 
     Two corners at one vertex are in one fan when the faces between them are joined by `crossable` edges (e,).
     """
-    pairs, edge = edge_pairs(mesh)
-    first, second = pairs[crossable[edge]].T
-    links = []
-    for end in (0, 1):
-        # corners at both ends of the edge; a half-edge of the other face may run the other way
-        left = 3 * (first // 3) + (first % 3 + end) % 3
-        same = mesh.faces.ravel()[left] == mesh.faces.ravel()[second]
-        right = np.where(same, second, 3 * (second // 3) + (second % 3 + 1) % 3)
-        links.append((left, right))
-    rows, columns = (np.concatenate(side) for side in zip(*links, strict=True))
-    graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(mesh.faces.size, mesh.faces.size))
-    return connected_components(graph, directed=False)[1].reshape(-1, 3).astype(np.int64)
+    _, _, half_edges, starts = mesh.edge_table
+    return np.asarray(_corner_fans(mesh.faces, half_edges, starts, crossable)).reshape(-1, 3)
+
+
+@njit(cache=True, nogil=True)
+def _corner_fans(faces: Integers, half_edges: Integers, starts: Integers, crossable: Mask) -> Integers:
+    parents = np.arange(faces.size)
+    for edge in np.flatnonzero(crossable):
+        for i in range(starts[edge] + 1, starts[edge + 1]):
+            f, k = divmod(half_edges[i - 1], 3)
+            g, side = divmod(half_edges[i], 3)
+            for corner in (k, (k + 1) % 3):
+                # a half-edge of the other face may run the other way
+                other = side if faces[g, side] == faces[f, corner] else (side + 1) % 3
+                join(parents, 3 * f + corner, 3 * g + other)
+    return numbered_sets(parents)
 
 
 def fans_per_vertex(mesh: TriangleMesh, fans: Integers) -> Integers:

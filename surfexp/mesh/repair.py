@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Integers
+from surfexp.mesh.equal_rows import first_equal_row
 from surfexp.mesh.face_repair import drop_bad_faces, drop_faces_at_crowded_edges, flip_zero_area_faces
 from surfexp.mesh.orientation import (
     corner_fans,
@@ -62,7 +63,7 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     report = validate(vertices, faces)
     fatal = [str(defect) for defect in report.defects if defect.severity == "refuse"]
     if fatal:
-        raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible")
+        raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible: give a mesh without")
     mesh = TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces))
     origin = np.arange(len(mesh.vertices))
     changes: list[str] = []
@@ -85,7 +86,7 @@ def _one_round(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tupl
     faces = flip_zero_area_faces(TriangleMesh(mesh.vertices, faces), changes)
     faces = drop_faces_at_crowded_edges(TriangleMesh(mesh.vertices, faces), changes)
     if not len(faces):
-        raise ValueError("mesh has no face of positive area; nothing is left after repair")
+        raise ValueError("mesh has no face of positive area; nothing is left after repair, give a mesh that has one")
     mesh = TriangleMesh(mesh.vertices, _orient(TriangleMesh(mesh.vertices, faces), changes))
     mesh, origin = _split_fans(mesh, origin, changes)
     mesh, origin = _drop_unreferenced(mesh, origin, changes)
@@ -99,13 +100,12 @@ def _merge_vertices(mesh: TriangleMesh, origin: Integers, changes: list[str]) ->
     inside[mesh.faces] = 1
     inside[open_edges] = 0
     rows = np.column_stack([mesh.vertices + 0.0, inside * np.arange(1, len(inside) + 1)])
-    _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-    if len(first) == len(mesh.vertices):
+    first = first_equal_row(rows)
+    kept = first == np.arange(len(first))
+    if kept.all():
         return mesh, origin
-    changes.append(f"merged into a vertex at the same position: {len(mesh.vertices) - len(first)} vertices")
-    order = np.sort(first)
-    rank = np.searchsorted(order, first)
-    return TriangleMesh(mesh.vertices[order], rank[number.ravel()][mesh.faces]), origin[order]
+    changes.append(f"merged into a vertex at the same position: {(~kept).sum()} vertices")
+    return TriangleMesh(mesh.vertices[kept], (np.cumsum(kept) - 1)[first[mesh.faces]]), origin[kept]
 
 
 def _orient(mesh: TriangleMesh, changes: list[str]) -> Integers:
@@ -146,10 +146,10 @@ def _split_fans(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tup
 
 def _move_apart(mesh: TriangleMesh, changes: list[str]) -> TriangleMesh:
     """Vertices at the same position, each moved toward the middle of its own faces by another small amount."""
-    _, number = np.unique(mesh.vertices + 0.0, axis=0, return_inverse=True)
-    order = np.argsort(number.ravel(), kind="stable")
-    place = np.empty(len(number), dtype=np.int64)
-    place[order] = np.arange(len(number)) - np.searchsorted(number.ravel()[order], number.ravel()[order])
+    first = first_equal_row(mesh.vertices)
+    order = np.argsort(first, kind="stable")
+    place = np.empty(len(first), dtype=np.int64)
+    place[order] = np.arange(len(first)) - np.searchsorted(first[order], first[order])
     if not place.any():
         return mesh
     changes.append(

@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.mesh.given_arrays import frozen, mask_array, real_array
+from surfexp.mesh.given_arrays import frozen, map_array, mask_array, one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+HEMISPHERES = ("left", "right")
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +118,8 @@ class Surface(Summarized):
 
     def __post_init__(self) -> None:
         n = len(self.mesh.vertices)
+        if self.hemisphere != "":
+            one_of(self.hemisphere, "hemisphere", HEMISPHERES)
         for name, numbers in (("labels", self.truth.labels), ("origin", self.truth.origin)):
             if numbers is not None and np.shape(numbers) != (n,):
                 raise ValueError(f"true {name} have shape {np.shape(numbers)}, the mesh has {n} vertices")
@@ -125,7 +129,7 @@ class Surface(Summarized):
             object.__setattr__(self, "mask", frozen(mask_array(self.mask, n), self.mask))
         maps = {}
         for name, given in self.scalars.items():
-            values = real_array(given, f"scalar map {name!r}")
+            values = map_array(given, f"scalar map {name!r}")
             if values.shape != (n,):
                 raise ValueError(f"scalar map {name!r} has shape {values.shape}, the mesh has {n} vertices")
             maps[name] = frozen(values, given)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import EdgeTable, half_edge_table
 from surfexp.mesh.given_arrays import frozen, index_array, real_array
+from surfexp.mesh.union_find import components
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -99,25 +99,24 @@ class TriangleMesh:
         return float(np.sqrt(self.areas.mean() * 4.0 / np.sqrt(3.0)))
 
     @cached_property
-    def _edge_table(self) -> tuple[Integers, Integers, Integers]:
-        directed = self.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        edges, inverse, counts = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True, return_counts=True)
-        return edges, inverse.reshape(-1, 3), counts
+    def edge_table(self) -> EdgeTable:
+        """The edges and their half-edges: number 3 f + k runs from corner k of face f to its corner k + 1."""
+        return half_edge_table(self.faces, len(self.vertices))
 
     @cached_property
     def edges(self) -> Integers:
         """(e, 2) undirected edges, smaller index first, sorted."""
-        return self._edge_table[0]
+        return self.edge_table.edges
 
     @cached_property
     def face_edges(self) -> Integers:
         """(m, 3) index into `edges` of the sides (0,1), (1,2), (2,0) of each face."""
-        return self._edge_table[1]
+        return self.edge_table.edge_of.reshape(-1, 3)
 
     @cached_property
     def edge_face_counts(self) -> Integers:
         """(e,) number of faces at each edge: 1 on a boundary, 2 inside, more where the mesh is not a manifold."""
-        return self._edge_table[2]
+        return self.edge_table.counts
 
     @cached_property
     def is_closed(self) -> bool:
@@ -148,19 +147,17 @@ class TriangleMesh:
     @cached_property
     def component_labels(self) -> Integers:
         """(n,) number of the connected component of each vertex, from 0; an unreferenced vertex is one of its own."""
-        n = len(self.vertices)
-        adjacency = coo_array((np.ones(len(self.edges)), (self.edges[:, 0], self.edges[:, 1])), shape=(n, n))
-        return connected_components(adjacency, directed=False)[1].astype(np.int64)
+        return np.asarray(components(self.edges, len(self.vertices)))
 
     @cached_property
     def component_count(self) -> int:
         """Number of connected components that have a face."""
-        return len(np.unique(self.component_labels[self.faces[:, 0]]))
+        return int(np.count_nonzero(np.bincount(self.component_labels[self.faces[:, 0]])))
 
     @cached_property
     def euler_characteristic(self) -> int:
         """Euler characteristic V - E + F over the referenced vertices."""
-        return len(np.unique(self.faces)) - len(self.edges) + len(self.faces)
+        return int(np.count_nonzero(np.bincount(self.faces.ravel()))) - len(self.edges) + len(self.faces)
 
     @cached_property
     def genus(self) -> int:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surfexp.mesh.equal_rows import later_copies
 from surfexp.mesh.orientation import (
     corner_fans,
     fans_per_vertex,
@@ -16,12 +17,12 @@ from surfexp.mesh.orientation import (
     inconsistent_edges,
     inside_out_components,
 )
+from surfexp.mesh.thin_faces import sharp_faces, zero_area_faces
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Severity = Literal["refuse", "repairable", "note"]
 # areas are products of two lengths: beyond these they overflow or vanish in double precision
 LARGEST_COORDINATE, SMALLEST_EXTENT = 1e75, 1e-75
-ZERO_AREA = 1e-9
 SLIVER_DEGREES = 5.0
 # kinds of defects that a refusal names: it is one line
 SHOWN_KINDS = 3
@@ -108,10 +109,7 @@ def validate(vertices: ArrayLike, faces: ArrayLike) -> Report:
     """
     points, corners = np.asarray(vertices), np.asarray(faces)
     refused = tuple(_array_defects(points, corners))
-    if refused:
-        return Report(refused)
-    mesh = TriangleMesh(points, corners)
-    return Report((*_face_defects(mesh), *_vertex_defects(mesh), *_manifold_defects(mesh), *_notes(mesh)))
+    return Report(refused) if refused else Report(tuple(_mesh_defects(TriangleMesh(points, corners))))
 
 
 def require_valid(
@@ -140,11 +138,12 @@ def require_valid(
     ValueError
         If there is a defect.
     """
-    report = validate(mesh.vertices, mesh.faces)
-    fatal = [defect for defect in report.defects if defect.severity == "refuse"]
+    # of this very mesh, so that its edges are found once
+    defects = tuple(_array_defects(mesh.vertices, mesh.faces)) or tuple(_mesh_defects(mesh))
+    fatal = [defect for defect in defects if defect.severity == "refuse"]
     if fatal:
-        raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible")
-    found = [defect for defect in report.defects if defect.severity == "repairable" and defect.kind not in allow]
+        raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible: give a mesh without")
+    found = [defect for defect in defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
         way_out = repair or f"surfexp repair {name} --to repaired.ply"
         raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: {way_out}")
@@ -161,25 +160,10 @@ def _listed(defects: list[Defect]) -> str:
     return shown if len(defects) <= SHOWN_KINDS else f"{shown}; {len(defects) - SHOWN_KINDS} more kinds of defects"
 
 
-def zero_area_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:
-    """(m,) faces whose area is at most 1e-9 of the square of their longest side."""
-    corners = mesh.vertices[mesh.faces]
-    longest = ((corners - corners[:, [1, 2, 0]]) ** 2).sum(axis=2).max(axis=1, initial=0.0)
-    return np.asarray(mesh.areas <= ZERO_AREA * longest)
-
-
 def repeated_index_faces(mesh: TriangleMesh) -> NDArray[np.bool_]:
     """(m,) faces that name a vertex twice."""
-    return np.asarray((mesh.faces == mesh.faces[:, [1, 2, 0]]).any(axis=1))
-
-
-def later_copies(rows: NDArray[Any]) -> NDArray[np.bool_]:
-    """(k,) rows that equal an earlier row."""
-    order = np.lexsort(rows.T[::-1])
-    same = (rows[order[1:]] == rows[order[:-1]]).all(axis=1)
-    copies = np.zeros(len(rows), dtype=bool)
-    copies[order[1:][same]] = True
-    return copies
+    a, b, c = mesh.faces.T
+    return np.asarray((a == b) | (b == c) | (c == a))
 
 
 def _entry(
@@ -211,6 +195,13 @@ def _array_defects(vertices: NDArray[Any], faces: NDArray[Any]) -> Iterator[Defe
     yield from _entry("faces with an index out of range", "refuse", outside, "face")
 
 
+def _mesh_defects(mesh: TriangleMesh) -> Iterator[Defect]:
+    yield from _face_defects(mesh)
+    yield from _vertex_defects(mesh)
+    yield from _manifold_defects(mesh)
+    yield from _notes(mesh)
+
+
 def _face_defects(mesh: TriangleMesh) -> Iterator[Defect]:
     repeated = repeated_index_faces(mesh)
     yield from _entry("faces with a repeated index", "repairable", repeated, "face")
@@ -219,7 +210,7 @@ def _face_defects(mesh: TriangleMesh) -> Iterator[Defect]:
 
 
 def _vertex_defects(mesh: TriangleMesh) -> Iterator[Defect]:
-    yield from _entry("duplicate vertices", "repairable", later_copies(mesh.vertices + 0.0), "vertex")
+    yield from _entry("duplicate vertices", "repairable", later_copies(mesh.vertices), "vertex")
     unreferenced = np.ones(len(mesh.vertices), dtype=bool)
     unreferenced[mesh.faces] = False
     yield from _entry("unreferenced vertices", "repairable", unreferenced, "vertex")
@@ -248,10 +239,6 @@ def _notes(mesh: TriangleMesh) -> Iterator[Defect]:
         yield Defect("components", mesh.component_count, "note")
     if mesh.boundary_loops:
         yield Defect("boundary loops", len(mesh.boundary_loops), "note")
-    corners = mesh.vertices[mesh.faces]
-    sides = corners[:, [1, 2, 0]] - corners
-    lengths = np.linalg.norm(sides, axis=2)
-    products = np.maximum(lengths * lengths[:, [2, 0, 1]], 1e-300)
-    sines = np.linalg.norm(np.cross(sides, sides[:, [2, 0, 1]]), axis=2) / products
-    slivers = sines.min(axis=1) < np.sin(np.radians(SLIVER_DEGREES))
-    yield from _entry(f"faces with an angle under {SLIVER_DEGREES:g} degrees", "note", slivers, "face")
+    yield from _entry(
+        f"faces with an angle under {SLIVER_DEGREES:g} degrees", "note", sharp_faces(mesh, SLIVER_DEGREES), "face"
+    )

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import edge_table
 from surfexp.operators.surface_operator import SurfaceOperator
 
 
@@ -67,8 +68,8 @@ def tangent_fields(operator: SurfaceOperator) -> TangentFields:
 def _edges_in_frames(operator: SurfaceOperator) -> tuple[Integers, Integers, Floats]:
     """Return the edges, the edge opposite each corner (m, 3), and its direction in the face's frame (m, 3, 2)."""
     tails, heads = operator.faces[:, [1, 2, 0]], operator.faces[:, [2, 0, 1]]
-    ends = np.stack([np.minimum(tails, heads), np.maximum(tails, heads)], axis=-1).reshape(-1, 2)
-    edges, face_edges, counts = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    table = edge_table(tails.ravel(), heads.ravel(), operator.vertex_count)
+    edges, face_edges, counts = table.edges, table.edge_of, table.counts
     if counts.max(initial=0) > 2:
         worst = int(np.argmax(counts))
         raise ValueError(

@@ -64,8 +64,7 @@ def shuffled_lengths(mesh: TriangleMesh, seed: int = 0, sweeps: int = SWEEPS) ->
 
 def _faces_at(mesh: TriangleMesh) -> tuple[Integers, Integers]:
     """Where the faces of each edge begin in a list, and the list."""
-    owners = np.argsort(mesh.face_edges.ravel(), kind="stable") // 3
-    return np.concatenate([[0], np.cumsum(mesh.edge_face_counts)]), owners
+    return mesh.edge_table.starts, mesh.edge_table.half_edges // 3
 
 
 @njit(cache=True, nogil=True)

@@ -50,6 +50,9 @@ def choose_levels(mesh: TriangleMesh, values: Floats, count: int, choice: Choice
         raise ValueError(f"{count} levels asked for, at least 1 is needed")
     if choice not in get_args(Choice):
         raise ValueError(f"choice of levels {choice!r} is unknown, choose one of {', '.join(get_args(Choice))}")
+    # exact, and no square of it overflows
+    unit = 2.0 ** np.floor(np.log2(np.abs(values).max()))
+    values = values / unit
     if choice == "uniform":
         levels = np.linspace(values.min(), values.max(), count + 2)[1:-1]
     elif choice == "area_quantile":
@@ -58,7 +61,12 @@ def choose_levels(mesh: TriangleMesh, values: Floats, count: int, choice: Choice
         levels = _equal_distances(mesh, values, count)
     else:
         levels = _between_critical_values(mesh, values, count)
-    return np.unique(levels[(levels > values.min()) & (levels <= values.max())])
+    inside = levels[(levels > values.min()) & (levels <= values.max())]
+    if not len(inside):
+        raise ValueError(
+            f"levels = {choice!r}: nearly all of the area has the value {unit * values.min():g}; choose uniform or critical"
+        )
+    return np.unique(unit * inside)
 
 
 def _area_quantiles(mesh: TriangleMesh, values: Floats, shares: Floats) -> Floats:
@@ -100,6 +108,8 @@ def distances_between_levels(mesh: TriangleMesh, values: Floats, levels: Floats)
 def _equal_distances(mesh: TriangleMesh, values: Floats, count: int) -> Floats:
     fine = np.unique(_area_quantiles(mesh, values, (np.arange(FINE * count) + 0.5) / (FINE * count)))
     fine = fine[(fine > values.min()) & (fine <= values.max())]
+    if not len(fine):  # nearly all of the area has one value
+        fine = np.linspace(values.min(), values.max(), FINE * count + 1)[1:]
     travelled = np.concatenate([[0.0], np.cumsum(distances_between_levels(mesh, values, fine))])
     places = np.concatenate([[values.min()], fine, [values.max()]])
     return np.interp((np.arange(count) + 0.5) / count * travelled[-1], travelled, places)

@@ -7,6 +7,7 @@ from scipy.sparse import csr_array, diags_array, vstack
 from scipy.sparse.csgraph import dijkstra
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import edge_table
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.variational.separable_quadratic import check_positive
 
@@ -91,13 +92,12 @@ def geodesic_gaussian(distances: csr_array, areas: Floats, values: Floats, width
 
 def _links(vertices: Floats, faces: Integers) -> tuple[Integers, Integers, Floats]:
     """Ends and lengths of the edges, each once, and of the unfolded diagonals that stay within their two triangles."""
-    sides = np.concatenate([np.sort(faces[:, [(k + 1) % 3, (k + 2) % 3]], axis=1) for k in range(3)])
-    tips = np.concatenate([faces[:, k] for k in range(3)])
-    edges, edge, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    tips = faces.T.ravel()
+    table = edge_table(faces[:, [1, 2, 0]].T.ravel(), faces[:, [2, 0, 1]].T.ravel(), len(vertices))
+    edges, order = table.edges, table.half_edges
     lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
-    order = np.argsort(edge.ravel(), kind="stable")
-    inner = count == 2
-    first = (np.cumsum(count) - count)[inner]
+    inner = table.counts == 2
+    first = table.starts[:-1][inner]
     ends, base = edges[inner], lengths[inner]
     tip = tips[order[first]], tips[order[first + 1]]
     place = [_in_plane(vertices, ends, base, corner) for corner in tip]
@@ -109,10 +109,9 @@ def _links(vertices: Floats, faces: Integers) -> tuple[Integers, Integers, Float
     tails = np.concatenate([edges[:, 0], tip[0][within]])
     heads = np.concatenate([edges[:, 1], tip[1][within]])
     # sparse graphs sum what is given twice: of two links of the same ends the shorter one counts
-    both = np.sort(np.column_stack([tails, heads]), axis=1)
-    links, owner = np.unique(both, axis=0, return_inverse=True)
+    links, owner, _, _ = edge_table(tails, heads, len(vertices))
     shortest = np.full(len(links), np.inf)
-    np.minimum.at(shortest, owner.ravel(), np.concatenate([lengths, diagonals[within]]))
+    np.minimum.at(shortest, owner, np.concatenate([lengths, diagonals[within]]))
     return links[:, 0], links[:, 1], shortest
 
 

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import real_number
+from surfexp.mesh.given_arrays import one_of, real_number
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -30,8 +30,8 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
 
 NEWTON_BELOW = 1e-6
-# its square is a time
-WIDEST = 1e100
+# their squares are times
+NARROWEST, WIDEST = 1e-100, 1e100
 # time times the largest eigenvalue; a polynomial of some thousand terms
 LONGEST_POLYNOMIAL = 1e6
 SMALL_STEPS = 100
@@ -98,6 +98,7 @@ def denoise(
     >>> bool(sx.denoise(sphere, noisy).certificate["relative_gap"] <= 1e-4)
     True
     """
+    one_of(method, "method", ("rof", "tgv", "auto"))
     weight = real_number(weight, "weight", above=0.0)
     ratio = real_number(ratio, "ratio", above=0.0)
     tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
@@ -148,10 +149,8 @@ def _minimised(
     if method == "tgv":
         problem = GeneralisedVariation(data, operator, ratio * operator.edge_length)
         return generalised_splitting(problem, tolerance=tolerance, progress=progress).solution
-    if method == "rof":
-        solver = newton if tolerance < NEWTON_BELOW and len(data.shape) == 1 else primal_dual
-        return solver(data, operator, tolerance=tolerance, progress=progress)
-    raise ValueError(f"method is {method!r}, choose rof, tgv or auto")
+    solver = newton if tolerance < NEWTON_BELOW and len(data.shape) == 1 else primal_dual
+    return solver(data, operator, tolerance=tolerance, progress=progress)
 
 
 def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
@@ -200,7 +199,8 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     >>> bool(sx.smooth(sphere, sphere.mesh.vertices[:, 2], 0.5).values.max() < 1.0)
     True
     """
-    width = real_number(width, "width", above=0.0, below=WIDEST)
+    one_of(method, "method", ("heat",))
+    width = real_number(width, "width", above=NARROWEST, below=WIDEST)
     owner = as_surface(surface)
     rough = as_map(owner, values)
     part = part_for(owner, rough)

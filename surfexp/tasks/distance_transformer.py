@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
+from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.tasks.distances import embedded
 from surfexp.tasks.inputs import SurfaceLike
 from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each
@@ -54,6 +55,10 @@ class SpectralDistance(SurfaceTransformer):
         self.samples = samples
 
     def _learn(self, X: Surfaces) -> int:
+        whole_number(self.samples, "samples", 1)
+        if self.limit is not None:
+            whole_number(self.limit, "limit", 1)
+        one_of(self.weighting, "weighting", get_args(Weighting))
         self.embeddings_ = of_each(X, self._embedding)
         return len(self.embeddings_)
 
@@ -63,8 +68,8 @@ class SpectralDistance(SurfaceTransformer):
 
     def _distance(self, one: SpectralEmbedding, other: SpectralEmbedding) -> Distance:
         if self.limit is None:
-            return spectral_distance(one, other, samples=self.samples, exact=False)
-        return spectral_distance(one, other, limit=self.limit)
+            return spectral_distance(one, other, samples=int(self.samples), exact=False)
+        return spectral_distance(one, other, limit=int(self.limit))
 
     def fit_transform(self, X: Surfaces, y: Any = None, **_: Any) -> Floats:
         """Return the distances between surfaces, each pair measured once.
@@ -98,4 +103,4 @@ class SpectralDistance(SurfaceTransformer):
         return matrix
 
     def _embedding(self, given: SurfaceLike) -> SpectralEmbedding:
-        return embedded(given, self.n, self.weighting)[0]
+        return embedded(given, int(self.n), self.weighting)[0]

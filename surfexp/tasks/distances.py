@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import get_args
 
 import numpy as np
 
@@ -16,11 +17,12 @@ from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
+from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for, require_connected
 
 # pairs of points that a search compares at most where no limit is given: about a minute
 LARGEST_SEARCH, FEWEST, MOST = 2e10, 100, 2000
@@ -74,6 +76,9 @@ def distance(
     >>> round(found.value, 9), found.optimal
     (0.0, True)
     """
+    n = whole_number(n, "n", 1)
+    limit = None if limit is None else whole_number(limit, "limit", 1)
+    one_of(weighting, "weighting", get_args(Weighting))
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
     most = search_limit(first, second) if limit is None else limit
     found = spectral_distance(first, second, limit=most, progress=progress)
@@ -180,7 +185,11 @@ def align(
     >>> sx.align(body, body, 5).basis.round(3).diagonal().tolist()
     [1.0, 1.0, 1.0, 1.0, 1.0]
     """
-    (longer, _), (other, part) = embedded(source, count + 1, weighting), embedded(target, count + 1, weighting)
+    count = whole_number(count, "count", 1)
+    limit = None if limit is None else whole_number(limit, "limit", 1)
+    relative_gap = real_number(relative_gap, "relative_gap")
+    one_of(weighting, "weighting", get_args(Weighting))
+    (longer, _), (other, part) = (embedded(one, count, weighting, name="count", more=1) for one in (source, target))
     notes = _cut_block(eigenvalue_blocks(longer.values, other.values, gap=relative_gap))
     first, second = longer.truncated(count), other.truncated(count)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
@@ -215,9 +224,16 @@ def search_limit(first: SpectralEmbedding, second: SpectralEmbedding) -> int:
     return int(min(max(LARGEST_SEARCH / pairs, FEWEST), MOST))
 
 
-def embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[SpectralEmbedding, SurfacePart]:
-    """Return the embedding of a surface by n eigenfunctions, scaled to area 1, and the part inside its mask."""
+def embedded(
+    given: SurfaceLike, n: int, weighting: Weighting, *, name: str = "n", more: int = 0
+) -> tuple[SpectralEmbedding, SurfacePart]:
+    """Return the embedding of a surface by `n + more` eigenfunctions, scaled to area 1, and the part inside its mask.
+
+    `name` is what the user calls n.
+    """
     owner = as_surface(given)
     part = part_for(owner)
+    require_connected(part, "spectral distances")
+    n = whole_number(n, name, 1, len(part.vertices) - 1 - more) + more
     system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)
     return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part

@@ -16,9 +16,9 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import hemisphere_of_file, read_mesh_file
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import WITH_MAPS, write_mesh
-from surfexp.mesh.given_arrays import mask_array, real_array
+from surfexp.mesh.given_arrays import map_array, mask_array, one_of
 from surfexp.mesh.repair import repair as repair_mesh
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.soundness import sound_part
@@ -73,6 +73,8 @@ def read(
     >>> len(sx.read("ball.ply").mesh.faces)
     320
     """
+    if hemisphere != "":
+        one_of(hemisphere, "hemisphere", HEMISPHERES)
     file_read = read_mesh_file(Path(path))
     vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
     count = len(vertices)
@@ -164,6 +166,8 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
     """
     target = Path(path)
     if isinstance(what, Surface):
+        if not len(what.mesh.faces):
+            raise ValueError(f"surface has {len(what.mesh.vertices)} vertices and 0 faces, at least one face is needed")
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
         write_mesh(target, what.mesh, scalars, what.frame)
         return
@@ -196,15 +200,20 @@ def maps_of(what: Any) -> dict[str, Floats]:
         If it has none.
     """
     if isinstance(what, Mapping):
-        return {str(name): real_array(values, f"map {str(name)!r}") for name, values in what.items()}
+        return {str(name): _written_map(values, f"map {str(name)!r}") for name, values in what.items()}
     if hasattr(what, "vectors"):
         return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
-    array = real_array(getattr(what, "values", what), f"{type(what).__name__} given as a map")
+    array = _written_map(getattr(what, "values", what), f"{type(what).__name__} given as a map")
+    return {what.name if isinstance(what, DenoisedMap) else "map": array}
+
+
+def _written_map(given: Any, what: str) -> Floats:
+    array = map_array(given, what)
     if array.ndim not in (1, 2):
         raise ValueError(
-            f"map has shape {array.shape}, one row a vertex is needed; a surface is written as sx.Surface(mesh)"
+            f"{what} has shape {array.shape}, one row a vertex is needed; a surface is written as sx.Surface(mesh)"
         )
-    return {what.name if isinstance(what, DenoisedMap) else "map": array}
+    return array
 
 
 def check_target(path: PathLike, labels: bool = False) -> None:

@@ -18,6 +18,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
 from surfexp.io.mesh_patterns import MESH_PATTERNS
+from surfexp.mesh.given_arrays import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -149,8 +150,8 @@ def fingerprint(
     >>> table.columns["ball"].round(1).tolist(), table.complete["ball"]
     ([12.5, 4.2, 0.0, 2.0, 2.0, 2.0], True)
     """
-    if count < 1:
-        raise ValueError(f"count is {count}, at least one eigenvalue is needed")
+    count = whole_number(count, "count", 1)
+    tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     found = structures([sources] if isinstance(sources, str | Path) else sources)
     table = Fingerprints({}, {}, {})
     volume_of = lru_cache(maxsize=1)(read_label_volume)

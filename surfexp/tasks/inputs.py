@@ -94,6 +94,45 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
     return array.copy() if array is given else array
 
 
+def as_single_map(surface: Surface, given: MapLike) -> Floats:
+    """Return (n,) float64 values of a map of one channel, as `as_map` does.
+
+    Raises
+    ------
+    ValueError
+        If it has several.
+    """
+    values = as_map(surface, given)
+    if values.ndim == 2 and values.shape[1] != 1:
+        raise ValueError(f"the map has {values.shape[1]} channels, one is needed: give one column")
+    return values.reshape(-1)
+
+
+def require_connected(part: SurfacePart, what: str) -> None:
+    """Refuse a part of several pieces, naming the smallest.
+
+    Parameters
+    ----------
+    part : SurfacePart
+    what : str
+        What needs one piece, in the plural.
+
+    Raises
+    ------
+    ValueError
+        If it has several.
+    """
+    labels = part.mesh.component_labels
+    sizes = np.bincount(labels)
+    if len(sizes) > 1:
+        smallest = int(np.argmin(sizes))
+        first = int(part.vertices[np.argmax(labels == smallest)])
+        raise ValueError(
+            f"the surface has {len(sizes)} pieces inside its mask, {what} need one: the smallest has {sizes[smallest]} "
+            f"vertices, vertex {first} among them; narrow the mask to the largest piece"
+        )
+
+
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
 
@@ -106,6 +145,8 @@ def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """
     count = len(surface.mesh.vertices)
     finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
+    if finite is not None and not finite.any():
+        raise ValueError(f"map is NaN at all of {count} vertices: give numbers where it is known")
     mask = surface.mask if surface.mask is not None else finite
     part = surface_part(surface.mesh, usable if mask is None else usable & mask)
     if surface.mask is not None and finite is not None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
@@ -19,9 +20,13 @@ from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.fem import fem
 from surfexp.spectrum.surface_spectrum import surface_spectrum
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for, require_connected
+from surfexp.variational.own_unit import own_unit
 
 NEIGHBOURS = 1000
+# numbers that a result may hold: 8 GB
+LARGEST_RESULT = 10**9
+LARGEST_SEED = 2**128 - 1
 # narrow enough for maps that change within ten vertices; see docs/null_models.md
 FRACTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 REACH = 0.25
@@ -105,23 +110,26 @@ def null_maps(
     >>> nulls.values.shape, bool(nulls.certificate["share_in_modes"] > 0.999)
     ((642, 99), True)
     """
+    count, modes = whole_number(count, "count", 1), whole_number(modes, "modes", 1)
+    seed = whole_number(seed, "seed", 0, LARGEST_SEED)
+    makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
+    chosen = makers[one_of(method, "method", makers)]
     owner = as_surface(surface)
-    rough = as_map(owner, values)
+    count = whole_number(count, "count", 1, LARGEST_RESULT // len(owner.mesh.vertices))
+    rough = as_single_map(owner, values)
     part = part_for(owner, rough)
     inside = np.asarray(part.restrict(rough), dtype=np.float64)
-    if inside.ndim > 1 or not np.ptp(inside) > 0:
-        shape = f"has {inside.shape[1]} channels" if inside.ndim > 1 else "is constant"
-        raise ValueError(f"the map {shape}: null models take one that varies")
-    makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
-    if method not in makers:
-        raise ValueError(f"method is {method!r}, choose {' or '.join(makers)}")
-    made, certificate = makers[method](owner, part, inside, count, modes, seed)
-    return NullMaps(part.extend(made), method, certificate, part.notes)
+    if inside.min() == inside.max():
+        raise ValueError(f"the map is constant at {inside[0]:g}: null models need one that varies")
+    own = own_unit(inside)
+    made, certificate = chosen(owner, part, own.normalised(inside), count, modes, seed)
+    return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes)
 
 
 def _by_modes(
     owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any]]:
+    require_connected(part, "eigenstrapped null maps")
     operator = fem(part.mesh)
     system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), operator, modes, tolerance=TOLERANCE)
     mass = mass_matrix(operator)

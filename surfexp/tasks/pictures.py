@@ -11,15 +11,20 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.extras import require_installed
-from surfexp.figures.camera import View
+from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
+from surfexp.mesh.given_arrays import one_of, real_pair, whole_number
+from surfexp.mesh.surface_part import surface_part
 from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
+from surfexp.tasks.soundness import usable_vertices
 
+# pixels
+NARROWEST, WIDEST = 200, 20_000
 SUFFIXES = (".png", ".svg")
 
 
@@ -121,20 +126,40 @@ def plot(
     >>> sx.plot(sphere, sphere.mesh.vertices[:, 2], width=400).figure.pixels.shape[1]
     400
     """
+    width = whole_number(width, "width", NARROWEST, WIDEST)
+    limits = None if limits is None else real_pair(limits, "limits")
+    if limits is not None and not limits[0] < limits[1]:
+        raise ValueError(f"limits = {limits}, the lower one before the upper one is needed")
     require_installed("sx.plot", "matplotlib", "PIL")
+    if colormap is not None:
+        from matplotlib import colormaps
+
+        one_of(colormap, "colormap", colormaps)
     owner = as_surface(surface)
     field = None if values is None else as_map(owner, getattr(values, "values", values))
+    if field is not None and field.shape[1:] == (1,):
+        field = field[:, 0]
+    part = surface_part(owner.mesh, usable_vertices(owner.mesh))
     if field is not None and owner.mask is not None:
         field = np.where(np.reshape(owner.mask, (-1, *[1] * (field.ndim - 1))), field, np.nan)
-    shown = views or (("lateral", "medial") if owner.hemisphere else ("oblique",))
+    chosen = [_checked_view(view) for view in views or ()]
+    shown: Sequence[View] = chosen or (("lateral", "medial") if owner.hemisphere else ("oblique",))
     name = label or (values if isinstance(values, str) else "")
     scale = ColorScale(label=name, unit=unit, colormap=colormap or _colormap_for(field), limits=limits)
-    panels = [SurfaceView(owner.mesh, field, view, scale) for view in shown]
+    if field is not None:
+        field = np.asarray(part.restrict(field), dtype=np.float64)
+    panels = [SurfaceView(part.mesh, field, view, scale) for view in shown]
     return Picture(surface_panel(panels, width=width))
 
 
+def _checked_view(given: Any) -> View:
+    if given is None or isinstance(given, str | int | float):
+        return one_of(given, "views", (*VIEWS, *HEMISPHERE_VIEWS))
+    return real_pair(given, "views")
+
+
 def _colormap_for(field: Floats | None) -> str:
-    if field is None or field.ndim > 1:
+    if field is None or field.ndim > 1 or not np.isfinite(field).any():
         return "viridis"
     low, high = np.nanpercentile(field, [1.0, 99.0])
     return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"

@@ -16,7 +16,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -140,7 +140,7 @@ def segment(
     smoothness = real_number(smoothness, "smoothness", above=0.0)
     tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
-    given = () if values is None else (as_map(owner, values),)
+    given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
     said: tuple[str, ...] = ()
     if given:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -12,7 +15,7 @@ from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_mod
 from surfexp.spectrum.shape_dna import Normalisation, shape_dna
 from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
-from surfexp.tasks.surface_transformer import SurfaceTransformer
+from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer
 
 
 class ShapeDNA(SurfaceTransformer):
@@ -43,10 +46,14 @@ class ShapeDNA(SurfaceTransformer):
         self.normalisation = normalisation
         self.reweighted = reweighted
 
+    def _learn(self, X: Surfaces) -> int:
+        one_of(self.normalisation, "normalisation", get_args(Normalisation))
+        return super()._learn(X)
+
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, self.n)
+        part, system = _spectrum(given, int(self.n))
         volume = enclosed_volume(part.mesh) if part.mesh.is_closed else None
-        return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
+        return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: int(self.n)]
 
 
 class NodalCounts(SurfaceTransformer):
@@ -70,15 +77,20 @@ class NodalCounts(SurfaceTransformer):
         self.n = n
         self.counting = counting
 
+    def _learn(self, X: Surfaces) -> int:
+        one_of(self.counting, "counting", get_args(Counting))
+        return super()._learn(X)
+
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, self.n)
+        part, system = _spectrum(given, int(self.n))
         counts = counted_domains(system, graph_of(fem(part.mesh), system), self.counting)
-        return counts[zero_modes(system) :][: self.n]
+        return counts[zero_modes(system) :][: int(self.n)]
 
 
 def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]:
     """Return the part inside the mask and its first `count` pairs above 0, with the zero modes."""
     owner = as_surface(given)
     part = part_for(owner)
+    whole_number(count, "n", 1, len(part.vertices) - part.mesh.component_count)
     cut = Surface(part.mesh, owner.name, owner.unit)
     return part, surface_spectrum(cut, fem(part.mesh), count + part.mesh.component_count)

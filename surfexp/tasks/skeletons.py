@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.mesh.given_arrays import index_array, mask_array, whole_number
-from surfexp.mesh.validate import zero_area_faces
+from surfexp.mesh.given_arrays import index_array, mask_array, one_of, real_number, whole_number
+from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.fast_marching import fast_marching
 from surfexp.skeleton.level_selection import Choice, choose_levels
@@ -18,8 +19,11 @@ from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import zero_modes
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.tasks.soundness import usable_vertices
+
+# a minute and more
+MOST_LEVELS = 10_000
 
 
 def reeb_graph(
@@ -62,11 +66,13 @@ def reeb_graph(
     >>> int(sx.reeb_graph(torus, torus.mesh.vertices[:, 0]).metrics["b1"])
     1
     """
+    count = whole_number(count, "count", 1, MOST_LEVELS)
+    one_of(levels, "levels", get_args(Choice))
+    persistence = real_number(persistence, "persistence")
     owner = as_surface(surface)
-    heights = as_map(owner, values)
+    heights = as_single_map(owner, values)
     part = part_for(owner, heights)
     inside = np.asarray(part.restrict(heights), dtype=np.float64)
-    count = whole_number(count, "count", 1)
     chosen = choose_levels(part.mesh, inside, count, levels)
     skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
     return replace(skeleton, notes=part.notes + skeleton.notes)
@@ -112,7 +118,9 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
         raise ValueError(f"sources name vertex {unknown[0]}, the vertices are 0..{part.whole_count - 1}")
     if (number[wanted] < 0).any():
         outside = int(wanted[number[wanted] < 0][0])
-        raise ValueError(f"source {outside} lies outside the mask of {len(part.vertices)} vertices")
+        raise ValueError(
+            f"source {outside} lies outside the mask of {len(part.vertices)} vertices: give one inside, or widen the mask"
+        )
     return part.extend(fast_marching(part.mesh, number[wanted]))
 
 

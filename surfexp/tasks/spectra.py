@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, issparse
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import real_number, whole_number
+from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
@@ -70,6 +70,8 @@ def eigenpairs(
     """
     count = whole_number(count, "count", 1)
     tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+    one_of(mass, "mass", get_args(Mass))
+    one_of(boundary, "boundary", get_args(Boundary))
     owner = as_surface(surface)
     part = part_for(owner)
     cut = Surface(part.mesh, owner.name, owner.unit)
@@ -147,6 +149,10 @@ def eigsh(
     """
     _check_request(A, sigma, which, mode)
     n = A.shape[0]
+    k, tol = whole_number(k, "k", 1, n), real_number(tol, "tol")
+    shape = A.shape if M is None else _sparse(M, "M").shape
+    if not A.shape == shape == (n, n):
+        raise ValueError(f"A has shape {A.shape}, M {shape}: square matrices of one size are needed")
     mass = csr_array((np.ones(n), (np.arange(n),) * 2), shape=A.shape) if M is None else _sparse(M, "M")
     sizes = _largest_entry(A, "A"), _largest_entry(mass, "M")
     pencil = csr_array(A) / sizes[0], csr_array(mass) / sizes[1]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from typing import get_args
 
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
@@ -52,8 +54,10 @@ class Spectrum:
         mass: Mass = "consistent",
         boundary: Boundary = "neumann",
     ) -> None:
+        self.tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
+        one_of(mass, "mass", get_args(Mass))
+        one_of(boundary, "boundary", get_args(Boundary))
         self.surface = as_surface(surface)
-        self.tolerance = tolerance
         self.mass = mass
         self.boundary = boundary
         self.part = part_for(self.surface)
@@ -83,7 +87,8 @@ class Spectrum:
         ValueError
             If the surface has fewer.
         """
-        if self._found is None or count > len(self._found.values) or count < 1:
+        count = whole_number(count, "count", 1)
+        if self._found is None or count > len(self._found.values):
             system = surface_spectrum(
                 *(self._cut, self._operator, count),
                 mass=self.mass,
@@ -113,6 +118,7 @@ class Spectrum:
         ValueError
             If the bounds are in the wrong order, hold over a quarter of the spectrum, or the proof fails.
         """
+        low, high = real_number(low, "low"), real_number(high, "high")
         system = pairs_between(self._pencil, low, high, self.tolerance)
         vectors = self.part.extend(self._elements.extend(system.vectors))
         notes = self.part.notes + system.notes
@@ -135,7 +141,7 @@ class Spectrum:
         ValueError
             If rounding leaves the count in doubt.
         """
-        return self._pencil.counts[self._pencil.factor(value)[0]]
+        return self._pencil.counts[self._pencil.factor(real_number(value, "value"))[0]]
 
     def values(self, count: int) -> Floats:
         """Return the lowest eigenvalues.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, Self, TypeVar
 
@@ -12,6 +12,8 @@ from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import check_is_fitted
 
 from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_arrays import whole_number
+from surfexp.mesh.surface import Surface
 from surfexp.tasks.inputs import SurfaceLike
 
 Surfaces = Sequence[SurfaceLike]
@@ -50,10 +52,9 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         Raises
         ------
         ValueError
-            If the number of modes is no integer from 1 on, or a surface that is kept is unfit or too coarse.
+            If the number of modes is no whole number from 1 on, or a surface that is kept is unfit or too coarse.
         """
-        if not (isinstance(self.n, int | np.integer) and self.n >= 1):
-            raise ValueError(f"n is {self.n!r}, must be an integer from 1 on")
+        whole_number(self.n, "n", 1)
         self.n_features_out_ = self._learn(X)
         return self
 
@@ -75,7 +76,7 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
             If a surface is unfit or too coarse, or open where its volume is asked for.
         """
         check_is_fitted(self)
-        return np.stack(of_each(X, self._row))
+        return np.reshape(of_each(X, self._row), (-1, self.n_features_out_))
 
     def _learn(self, X: Surfaces) -> int:
         """Keep what is compared with; return the length of a row."""
@@ -88,6 +89,8 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
 
 def of_each(surfaces: Surfaces, make: Callable[[SurfaceLike], Made]) -> list[Made]:
     """Return what is made of each surface; what cannot be made says of which one."""
+    if isinstance(surfaces, str | Path | Surface) or not isinstance(surfaces, Iterable):
+        raise ValueError(f"X is a {type(surfaces).__name__}: give a list of surfaces")
     found = []
     for number, surface in enumerate(surfaces):
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import edge_table
 from surfexp.operators.surface_operator import SurfaceOperator
 
 # median of the modulus of a standard normal variable
@@ -80,9 +81,8 @@ def affine_relations(operator: SurfaceOperator) -> tuple[Integers, Floats]:
 
 def _face_pairs(faces: Integers) -> tuple[Integers, Integers]:
     """(e, 2) faces on the two sides of every interior edge, and (e, 2) the corner of each that is not on it."""
-    sides = np.concatenate([np.sort(faces[:, [(k + 1) % 3, (k + 2) % 3]], axis=1) for k in range(3)])
-    _, edge, count = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    order = np.argsort(edge, kind="stable")
-    first = order[(np.cumsum(count) - count)[count == 2]]
-    both = np.column_stack([first, order[np.cumsum(count)[count == 2] - 1]])
+    tails, heads = faces[:, [1, 2, 0]].T.ravel(), faces[:, [2, 0, 1]].T.ravel()
+    table = edge_table(tails, heads, int(faces.max(initial=-1)) + 1)
+    first = table.starts[:-1][table.counts == 2]
+    both = table.half_edges[np.column_stack([first, first + 1])]
     return both % len(faces), both // len(faces)

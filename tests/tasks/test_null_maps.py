@@ -64,5 +64,5 @@ def test_what_cannot_be_turned_is_refused() -> None:
         sx.null_maps(BALL, np.ones(len(Z)), 5)
     with pytest.raises(ValueError, match="has 3 channels"):
         sx.null_maps(BALL, BALL.mesh.vertices, 5)
-    with pytest.raises(ValueError, match="choose eigenstrapping or variogram"):
+    with pytest.raises(ValueError, match="choose one of eigenstrapping, variogram"):
         sx.null_maps(BALL, Z, 5, method="spin")  # type: ignore[arg-type]

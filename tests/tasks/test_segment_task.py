@@ -104,7 +104,7 @@ def test_labels_leave_and_come_back_as_a_mask(name: str, working_folder: Path) -
         ({"values": np.zeros(len(Z))}, "constant"),
         ({"values": NOISY, "smoothness": -1}, "smoothness"),
         ({"values": NOISY, "tolerance": 0}, "tolerance = 0"),
-        ({"values": np.stack([NOISY, NOISY], axis=1)}, "one value"),
+        ({"values": np.stack([NOISY, NOISY], axis=1)}, "2 channels, one is needed"),
         ({"values": "nosuch"}, "nosuch"),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -91,13 +92,13 @@ def test_the_checks_of_scikit_learn_that_give_no_data(transformer) -> None:
         estimator_checks.check_estimator_repr,
     ):
         check(name, clone(transformer))
-    with pytest.raises(ValueError, match="n is 0"):
+    with pytest.raises(ValueError, match="n = 0, at least 1"):
         clone(transformer).set_params(n=0).fit(BODIES)
 
 
 @pytest.mark.parametrize("count", [0, -3, 2.5, "7", None])
 def test_a_number_of_modes_that_is_none_is_refused_before_any_work(count: object) -> None:
-    with pytest.raises(ValueError, match=f"n is {count!r}, must be an integer from 1 on"):
+    with pytest.raises(ValueError, match=re.escape(f"n = {count!r}")):
         sx.ShapeDNA(n=count).fit([])
 
 
@@ -106,5 +107,5 @@ def test_a_surface_that_is_unfit_is_named() -> None:
     two = np.vstack([points, points + 3.0]), np.vstack([faces, faces + len(points)])
     with pytest.raises(ValueError, match=r"^surface 1 \(lost\.ply\): "):
         sx.ShapeDNA(n=3).fit_transform([BODY, "lost.ply"])
-    with pytest.raises(ValueError, match=r"^surface 2: .*connected"):
+    with pytest.raises(ValueError, match=r"^surface 2: .* 2 pieces"):
         sx.SpectralDistance(n=3).fit([BODY, BODY, two])

@@ -18,6 +18,8 @@ ICOSAHEDRON_FACES = [
     [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
 ]
 # fmt: on
+# 10,485,762 vertices
+MOST_LEVELS = 10
 
 
 def spherical_coordinates(points: Floats) -> Floats:
@@ -32,10 +34,12 @@ def icosphere(levels: int = 4, radius: float = 1.0) -> Surface:
     Raises
     ------
     ValueError
-        If `levels` is negative or the radius not positive.
+        If `levels` is not within 0 to 10 or the radius not positive.
     """
-    if levels < 0 or radius <= 0:
-        raise ValueError(f"icosphere has levels = {levels}, radius = {radius}; levels >= 0 and radius > 0 are needed")
+    if not 0 <= levels <= MOST_LEVELS or radius <= 0:
+        raise ValueError(
+            f"icosphere has levels = {levels}, radius = {radius}; 0 <= levels <= {MOST_LEVELS} and radius > 0 are needed"
+        )
     signs = np.array([[-1, 1], [1, 1], [-1, -1], [1, -1]], dtype=float) * [1.0, GOLDEN]
     zero = np.zeros((4, 1))
     corners = np.concatenate(
