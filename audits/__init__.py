@@ -1,0 +1,1 @@
+"""What the project is held against: other people's readers and files."""
