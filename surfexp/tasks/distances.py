@@ -18,8 +18,7 @@ from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.fem import fem
-from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 # pairs of points that a search compares at most where no limit is given: about a minute
@@ -219,5 +218,5 @@ def embedded(given: SurfaceLike, n: int, weighting: Weighting) -> tuple[Spectral
     """Return the embedding of a surface by n eigenfunctions, scaled to area 1, and the part inside its mask."""
     owner = as_surface(given)
     part = part_for(owner)
-    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)
+    _, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), n + 1)
     return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part

@@ -5,12 +5,12 @@ from __future__ import annotations
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.fem import fem
+from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_modes
 from surfexp.spectrum.shape_dna import Normalisation, shape_dna
-from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
+from surfexp.spectrum.surface_spectrum import graph_of
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 from surfexp.tasks.surface_transformer import SurfaceTransformer
 
@@ -43,8 +43,9 @@ class ShapeDNA(SurfaceTransformer):
         self.reweighted = reweighted
 
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, self.n)
-        volume = enclosed_volume(part.mesh) if part.mesh.is_closed else None
+        _, system = _spectrum(given, self.n)
+        mesh = part_for(as_surface(given)).mesh
+        volume = enclosed_volume(mesh) if mesh.is_closed else None
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: self.n]
 
 
@@ -70,14 +71,14 @@ class NodalCounts(SurfaceTransformer):
         self.counting = counting
 
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, self.n)
-        counts = counted_domains(system, graph_of(fem(part.mesh), system), self.counting)
+        operator, system = _spectrum(given, self.n)
+        counts = counted_domains(system, graph_of(operator, system), self.counting)
         return counts[zero_modes(system) :][: self.n]
 
 
-def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]:
-    """Return the part inside the mask and its first `count` pairs above 0, with the zero modes."""
+def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfaceOperator, EigenSystem]:
+    """Return the first `count` pairs above 0 of the part inside the mask, with the zero modes, and their operator."""
     owner = as_surface(given)
     part = part_for(owner)
     cut = Surface(part.mesh, owner.name, owner.unit)
-    return part, surface_spectrum(cut, fem(part.mesh), count + part.mesh.component_count)
+    return lowest_pairs(cut, count + part.mesh.component_count)
