@@ -9,7 +9,7 @@ export PYTHONDONTWRITEBYTECODE :=
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture torture-part reproduction reproduction-changed site viewer ui lock dist audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture torture-part reliability reproduction reproduction-changed site viewer ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -50,6 +50,9 @@ torture: .venv/ready
 
 torture-part: .venv/ready
 	$(BIN)/python -m audits.torture --part
+
+reliability: optional # the other readers come with it
+	$(BIN)/python -m audits.reliability
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.
@@ -94,7 +97,7 @@ lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
-		pyproject.toml --extra dev --extra open3d --extra conic --extra print --extra bench --extra site -c requirements.lock -o requirements-optional.lock
+		pyproject.toml --extra dev --extra open3d --extra conic --extra print --extra bench --extra reliability --extra site -c requirements.lock -o requirements-optional.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		--group release -o requirements-release.lock
 

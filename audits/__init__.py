@@ -1,1 +1,1 @@
-"""What the makers ask of the code: rivals beside it, faults planted in it, and bad days on purpose."""
+"""What the makers ask of the code: rivals beside it, other readers, faults planted in it, and bad days on purpose."""

@@ -138,7 +138,10 @@ def _write_page(page: Path) -> None:
     times = ", ".join(f"{group} {minutes:.1f}" for group, minutes in took.items())
     told = f"\nMinutes, {AT_ONCE} parts side by side: {times}; all {sum(took.values()) / AT_ONCE:.0f}.\n"
     unknown = f"**Not run here: {', '.join(missing)}.**\n\n" if missing else ""
-    page.write_text(HEAD + unknown + head + "".join(rows) + _row("**all**", total) + told + rest, encoding="utf-8")
+    # sections of others stay as they are
+    kept = page.read_text(encoding="utf-8").partition("\n## Files that ") if page.exists() else ("", "", "")
+    text = HEAD + unknown + head + "".join(rows) + _row("**all**", total) + told + rest
+    page.write_text(text + "".join(kept[1:]), encoding="utf-8")
 
 
 def _row(name: str, counts: Counter[str]) -> str:

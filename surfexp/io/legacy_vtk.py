@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from urllib.parse import quote, unquote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,20 @@ TYPES |= {"unsigned_char": "u1", "char": "i1", "short": "i2", "unsigned_short": 
 TYPES |= {"signed_char": "i1", "unsigned_long": "u8", "vtktypeuint64": "u8", "vtktypeuint32": "u4", "bit": "u1"}
 # vtkIdType is written as int, whatever it is in memory
 TYPES |= {"vtkidtype": "i4", "long_long": "i8", "unsigned_long_long": "u8"}
+
+
+# what VTK leaves as it is in a name: all that is printed in ASCII but the quotation mark and the percent sign
+PLAIN = "".join(chr(code) for code in range(33, 127) if chr(code) not in '"%')
+
+
+def name_to_word(name: str) -> str:
+    """Return the name of an array as one word, in which VTK writes a space as %20."""
+    return quote(name, safe=PLAIN)
+
+
+def word_to_name(word: str) -> str:
+    """Return the name that a word stands for."""
+    return unquote(word)
 
 
 class LegacyVtk:

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.legacy_vtk import LegacyVtk
-from surfexp.io.map_names import names_without_spaces
+from surfexp.io.legacy_vtk import LegacyVtk, name_to_word, word_to_name
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import polygons_between
@@ -35,8 +34,8 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     if scalars:
         lines.append(f"POINT_DATA {n}")
     channels = scalar_channels(scalars or {})
-    for name, values in zip(names_without_spaces(channels), channels.values(), strict=True):
-        lines += [f"SCALARS {name} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
+    for name, values in channels.items():
+        lines += [f"SCALARS {name_to_word(name)} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -95,10 +94,10 @@ def _attribute(words: LegacyVtk, line: list[str], rows: int) -> dict[str, Floats
         width = int(line[3]) if len(line) > 3 else 1
         if words.peek()[:1] and words.peek()[0].upper() == "LOOKUP_TABLE" and len(words.peek()) == 2:
             words.line()
-        return {line[1]: _columns(words.numbers(width * rows, line[2]), width)}
+        return {word_to_name(line[1]): _columns(words.numbers(width * rows, line[2]), width)}
     if key in DIRECTIONS and len(line) == 3:
         values = _columns(words.numbers(DIRECTIONS[key] * rows, line[2]), DIRECTIONS[key])
-        return {line[1]: values} if key == "VECTORS" else {}
+        return {word_to_name(line[1]): values} if key == "VECTORS" else {}
     if key in NUMBERS and len(line) == 3:
         words.numbers(rows, line[2])
     elif key == "TEXTURE_COORDINATES" and len(line) == 4:
@@ -128,7 +127,7 @@ def _field(words: LegacyVtk, count: int, rows: int) -> dict[str, Floats]:
             continue
         numbers = words.numbers(size, kind)
         if rows and int(length) == rows and width > 0:
-            maps[name] = _columns(numbers, width)
+            maps[word_to_name(name)] = _columns(numbers, width)
     return maps
 
 

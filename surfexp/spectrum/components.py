@@ -137,7 +137,7 @@ def _lowest_of_each(
         try:
             system = solve(csr_array(stiffness[rows][:, rows]), csr_array(mass[rows][:, rows]), owed)
         except EigensolverError as cause:
-            raise EigensolverError(f"component {member} of {len(sizes)} ({len(rows)} rows): {cause}") from cause
+            raise type(cause)(f"component {member} of {len(sizes)} ({len(rows)} rows): {cause}") from cause
         parts.append(
             ComponentPairs(int(member), rows, system.values, system.vectors, np.inf, system.complete, system.method)
         )

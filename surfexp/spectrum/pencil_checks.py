@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensolver_error import EigensolverError, SliverError
 from surfexp.spectrum.eigensystem import EigenSystem
 
 LARGEST_SKEW = 1e-10
@@ -67,27 +67,28 @@ def certified(system: EigenSystem, k: int, tolerance: float) -> EigenSystem:
     Raises
     ------
     EigensolverError
+        `SliverError` where another triangulation of the same surface helps.
     """
     lowest, spacing = float(system.values.min(initial=np.inf)), system.spacing
     if system.inertia and lowest < -MOST_NEGATIVE * spacing:
-        raise EigensolverError(
+        raise SliverError(
             f"the stiffness has an eigenvalue {lowest:.3g}, {-lowest / spacing:.1e} mean spacings below 0, at most "
             f"{MOST_NEGATIVE:g} is rounding: assemble it from a positive semidefinite energy"
         )
     if len(system.values) < k or not system.complete:
         counts = ", ".join(f"{count} below {shift:.6g}" for shift, count in system.inertia[-2:])
-        raise EigensolverError(
+        raise SliverError(
             f"{len(system.values)} of k = {k} pairs converged, but the inertia ({counts or 'none'}) does not prove them "
             "the lowest: repair slivers, take operator intrinsic_delaunay, or method dense"
         )
     worst = int(system.residuals.argmax())
     if not system.residuals[worst] <= tolerance:
-        raise EigensolverError(
+        raise SliverError(
             f"pair {worst} has residual {system.residuals[worst]:.1e}, above tolerance {tolerance:g}: repair slivers, "
             f"take operator intrinsic_delaunay, or tolerance {2.0 * system.residuals[worst]:.0e}"
         )
     if not system.orthogonality <= max(LARGEST_OVERLAP, tolerance):
-        raise EigensolverError(
+        raise SliverError(
             f"the vectors are orthogonal to {system.orthogonality:.1e}, at most {max(LARGEST_OVERLAP, tolerance):.0e} "
             "proves them different: repair slivers, or take operator intrinsic_delaunay"
         )

@@ -10,7 +10,7 @@ from surfexp.linalg.block_products import multiply_lanes
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt import LDLT
 from surfexp.linalg.ldlt_symbolic import analyse, permuted
-from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensolver_error import EigensolverError, SliverError
 
 # a shift that solves worse than this lies on an eigenvalue, and another nearby is taken where there is one
 WORST_RESIDUAL = 1e-9
@@ -107,7 +107,7 @@ class ShiftedPencil:
                 if doubt <= accuracy * max(abs(tried), scale) and not on_eigenvalue:
                     break
         if not candidates:
-            raise EigensolverError(
+            raise SliverError(
                 f"A - s B near s = {shift:g} leaves eigenvalues in doubt by {least:.1e}, at most "
                 f"{LARGEST_DOUBT * max(abs(shift), spacing):.1e} is accepted: repair slivers and faces of nearly no area, "
                 "or take operator intrinsic_delaunay"

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from surfexp.contract.arrays import Floats
 from surfexp.linalg.ldlt import LDLT
 from surfexp.spectrum.counting_function import guess_eigenvalue
-from surfexp.spectrum.eigensolver_error import EigensolverError
+from surfexp.spectrum.eigensolver_error import EigensolverError, SliverError
 from surfexp.spectrum.eigensystem import EigenSystem, measure, measured
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_slice import SliceRequest, solve_slice
@@ -57,7 +57,7 @@ def pairs_between(
             )
         values, vectors = _solved(pencil, bottom, start, end, tolerance, seed)
         if (counted := int(((values > bottom) & (values < top)).sum())) != end - start:
-            raise EigensolverError(
+            raise SliverError(
                 f"{counted} pairs were found between {bottom:g} and {top:g}, the inertia says {end - start}: "
                 "repair slivers, or take other bounds"
             )
@@ -129,7 +129,7 @@ def _proved(pencil: ShiftedPencil, vectors: Floats, edges: tuple[float, float], 
     measurement = measure(pencil.stiffness, pencil.mass, vectors, spacing=abs(top) / max(number, 1))
     worst = float(measurement.residuals.max())
     if worst > tolerance:
-        raise EigensolverError(f"a pair has residual {worst:.1e}, above tolerance {tolerance:g}: take a larger one")
+        raise SliverError(f"a pair has residual {worst:.1e}, above tolerance {tolerance:g}: take a larger one")
     ordered = np.empty_like(vectors, order="F")
     ordered[pencil.order] = vectors
     return measured(measurement, ordered, "slicing", inertia, complete=True)

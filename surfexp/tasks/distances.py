@@ -20,8 +20,7 @@ from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, m
 from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.fem import fem
-from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for, require_connected
 
 # pairs of points that a search compares at most where no limit is given: about a minute
@@ -235,5 +234,5 @@ def embedded(
     part = part_for(owner)
     require_connected(part, "spectral distances")
     n = whole_number(n, name, 1, len(part.vertices) - 1 - more) + more
-    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), n + 1)
+    _, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), n + 1)
     return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part

@@ -20,8 +20,7 @@ from surfexp.io.csv_cells import cells
 from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.mesh.given_arrays import real_number, whole_number
 from surfexp.mesh.surface import Surface
-from surfexp.operators.fem import fem
-from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.files import PathLike, read
 from surfexp.tasks.inputs import part_for
 
@@ -172,15 +171,15 @@ def _closed(structure: LabelledStructure, volume_of: Callable[[Path], LabelVolum
 
 def _measure(table: Fingerprints, name: str, surface: Surface, count: int, tolerance: float) -> None:
     part = part_for(surface)
-    system = surface_spectrum(Surface(part.mesh, name), fem(part.mesh), count, tolerance=tolerance)
+    operator, system = lowest_pairs(Surface(part.mesh, name), count, tolerance=tolerance)
     volume = enclosed_volume(part.mesh) if part.mesh.is_closed else np.nan
     # rounding leaves the zero mode a little off
     values = np.where(np.abs(system.values) < 1e-9 * system.spacing, 0.0, system.values)
     table.columns[name] = np.concatenate([[part.mesh.area, volume], values])
     table.residuals[name] = float(system.residuals.max())
     table.complete[name] = system.complete
-    if surface.notes:
-        table.repairs[name] = tuple(surface.notes)
+    if notes := (*surface.notes, *operator.notes):
+        table.repairs[name] = notes
 
 
 def structures(sources: Sequence[PathLike]) -> dict[str, Source]:

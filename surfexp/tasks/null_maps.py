@@ -18,8 +18,7 @@ from surfexp.nulls.neighbourhoods import nearest_along_surface
 from surfexp.nulls.variogram import variogram_pairs
 from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
-from surfexp.operators.fem import fem
-from surfexp.spectrum.surface_spectrum import surface_spectrum
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for, require_connected
 from surfexp.variational.own_unit import own_unit
 
@@ -122,30 +121,30 @@ def null_maps(
     if inside.min() == inside.max():
         raise ValueError(f"the map is constant at {inside[0]:g}: null models need one that varies")
     own = own_unit(inside)
-    made, certificate = chosen(owner, part, own.normalised(inside), count, modes, seed)
-    return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes)
+    made, certificate, notes = chosen(owner, part, own.normalised(inside), count, modes, seed)
+    return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes + notes)
 
 
 def _by_modes(
     owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
-) -> tuple[Floats, dict[str, Any]]:
+) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
     require_connected(part, "eigenstrapped null maps")
-    operator = fem(part.mesh)
-    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), operator, modes, tolerance=TOLERANCE)
+    operator, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), modes, tolerance=TOLERANCE)
     mass = mass_matrix(operator)
     nulls = eigenstrapped(system.vectors, mass, inside, count, rest="permute", seed=seed)
     centred = inside - operator.mass @ inside / operator.mass.sum()
     held = float(group_powers(system.vectors, mass, inside[:, None])[1:].sum() / (centred @ (mass @ centred)))
     kept = float(np.median(power_error(system.vectors, mass, inside, nulls)))
-    return nulls, {"share_in_modes": held, "power_error": kept, "modes": modes, "complete": system.complete}
+    certificate = {"share_in_modes": held, "power_error": kept, "modes": modes, "complete": system.complete}
+    return nulls, certificate, operator.notes
 
 
 def _by_variogram(
     owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
-) -> tuple[Floats, dict[str, Any]]:
+) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
     mesh = part.mesh
     smallest = int(np.bincount(mesh.component_labels).min())
     pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
     kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
     nulls = kernels.nulls(inside, count, seed=seed)
-    return nulls, {"variogram_error": float(np.median(variogram_error(pairs, inside, nulls)))}
+    return nulls, {"variogram_error": float(np.median(variogram_error(pairs, inside, nulls)))}, ()

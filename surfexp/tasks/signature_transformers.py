@@ -9,11 +9,12 @@ from surfexp.contract.arrays import Floats
 from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.fem import fem
+from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_modes
 from surfexp.spectrum.shape_dna import Normalisation, shape_dna
-from surfexp.spectrum.surface_spectrum import graph_of, surface_spectrum
+from surfexp.spectrum.surface_spectrum import graph_of
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer
 
@@ -51,7 +52,7 @@ class ShapeDNA(SurfaceTransformer):
         return super()._learn(X)
 
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, int(self.n))
+        part, _, system = _spectrum(given, int(self.n))
         volume = enclosed_volume(part.mesh) if part.mesh.is_closed else None
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: int(self.n)]
 
@@ -82,15 +83,15 @@ class NodalCounts(SurfaceTransformer):
         return super()._learn(X)
 
     def _row(self, given: SurfaceLike) -> Floats:
-        part, system = _spectrum(given, int(self.n))
-        counts = counted_domains(system, graph_of(fem(part.mesh), system), self.counting)
+        _, operator, system = _spectrum(given, int(self.n))
+        counts = counted_domains(system, graph_of(operator, system), self.counting)
         return counts[zero_modes(system) :][: int(self.n)]
 
 
-def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, EigenSystem]:
-    """Return the part inside the mask and its first `count` pairs above 0, with the zero modes."""
+def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, SurfaceOperator, EigenSystem]:
+    """Return the part inside the mask, its operator and its first `count` pairs above 0, with the zero modes."""
     owner = as_surface(given)
     part = part_for(owner)
     whole_number(count, "n", 1, len(part.vertices) - part.mesh.component_count)
     cut = Surface(part.mesh, owner.name, owner.unit)
-    return part, surface_spectrum(cut, fem(part.mesh), count + part.mesh.component_count)
+    return part, *lowest_pairs(cut, count + part.mesh.component_count)

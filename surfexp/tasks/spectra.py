@@ -13,12 +13,11 @@ from surfexp.contract.arrays import Floats
 from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
-from surfexp.operators.fem import fem
 from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.hermitian import hermitian_pairs
+from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.slicing import Progress
-from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 
@@ -36,7 +35,8 @@ def eigenpairs(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Only the part inside its mask counts; the condition at the mask's boundary is natural (Neumann's).
+        Only the part inside its mask counts; the condition at the mask's boundary is natural (Neumann's). Where slivers
+        leave the pairs in doubt, the intrinsic Delaunay triangles of the same surface are taken, with a note.
     count : int
         How many, the zero mode of a closed surface among them.
     tolerance : float
@@ -75,9 +75,7 @@ def eigenpairs(
     owner = as_surface(surface)
     part = part_for(owner)
     cut = Surface(part.mesh, owner.name, owner.unit)
-    system = surface_spectrum(
-        cut, fem(part.mesh), count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
-    )
+    _, system = lowest_pairs(cut, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress)
     vectors = system.vectors if part.is_whole else part.extend(system.vectors)
     return replace(system, vectors=vectors, notes=part.notes + system.notes)
 

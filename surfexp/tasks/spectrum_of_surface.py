@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
-from typing import get_args
+from typing import TypeVar, get_args
 
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
-from surfexp.operators.elements_surface import Boundary, Mass
+from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements
 from surfexp.operators.fem import fem
+from surfexp.spectrum.eigensolver_error import SliverError
 from surfexp.spectrum.eigensystem import EigenSystem, clusters
+from surfexp.spectrum.lowest_pairs import without_slivers
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_range import pairs_between
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+
+Answer = TypeVar("Answer")
 
 
 class Spectrum:
@@ -23,6 +28,8 @@ class Spectrum:
 
     The matrices, the elimination order, the counts of eigenvalues below every shift so far and the pairs found so far are
     cached. A call for fewer pairs than before costs nothing.
+    If slivers leave an answer in doubt, this and all later ones are of the intrinsic Delaunay triangles of the same surface,
+    with a note.
 
     Parameters
     ----------
@@ -63,12 +70,27 @@ class Spectrum:
         self.part = part_for(self.surface)
         self._operator = fem(self.part.mesh)
         self._cut = Surface(self.part.mesh, self.surface.name, self.surface.unit)
-        self._elements = elements_of(self._cut, self._operator, mass=mass, boundary=boundary)
         self._found: EigenSystem | None = None
+
+    @cached_property
+    def _elements(self) -> SurfaceElements:
+        return elements_of(self._cut, self._operator, mass=self.mass, boundary=self.boundary)
 
     @cached_property
     def _pencil(self) -> ShiftedPencil:
         return ShiftedPencil(self._elements.stiffness, self._elements.mass)
+
+    def _certain(self, answer: Callable[[], Answer]) -> Answer:
+        try:
+            return answer()
+        except SliverError as stopped:
+            if self._operator.name == "intrinsic_delaunay":
+                raise
+            self._operator = without_slivers(self._cut, stopped)
+            self._found = None
+            for kept in ("_elements", "_pencil"):
+                self.__dict__.pop(kept, None)
+        return answer()
 
     def first(self, count: int) -> EigenSystem:
         """Return the lowest pairs, as `surfexp.eigenpairs` does.
@@ -89,14 +111,16 @@ class Spectrum:
         """
         count = whole_number(count, "count", 1)
         if self._found is None or count > len(self._found.values):
-            system = surface_spectrum(
-                *(self._cut, self._operator, count),
-                mass=self.mass,
-                boundary=self.boundary,
-                tolerance=self.tolerance,
+            system = self._certain(
+                lambda: surface_spectrum(
+                    *(self._cut, self._operator, count),
+                    mass=self.mass,
+                    boundary=self.boundary,
+                    tolerance=self.tolerance,
+                )
             )
-            self._found = replace(system, vectors=self.part.extend(system.vectors))
-            self._found = replace(self._found, notes=self.part.notes + system.notes)
+            notes = self.part.notes + self._operator.notes + system.notes
+            self._found = replace(system, vectors=self.part.extend(system.vectors), notes=notes)
         return _first(self._found, count)
 
     def between(self, low: float, high: float) -> EigenSystem:
@@ -119,9 +143,9 @@ class Spectrum:
             If the bounds are in the wrong order, hold over a quarter of the spectrum, or the proof fails.
         """
         low, high = real_number(low, "low"), real_number(high, "high")
-        system = pairs_between(self._pencil, low, high, self.tolerance)
+        system = self._certain(lambda: pairs_between(self._pencil, low, high, self.tolerance))
         vectors = self.part.extend(self._elements.extend(system.vectors))
-        notes = self.part.notes + system.notes
+        notes = self.part.notes + self._operator.notes + system.notes
         return replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
 
     def count_below(self, value: float) -> int:
@@ -141,7 +165,8 @@ class Spectrum:
         ValueError
             If rounding leaves the count in doubt.
         """
-        return self._pencil.counts[self._pencil.factor(real_number(value, "value"))[0]]
+        value = real_number(value, "value")
+        return self._certain(lambda: self._pencil.counts[self._pencil.factor(value)[0]])
 
     def values(self, count: int) -> Floats:
         """Return the lowest eigenvalues.

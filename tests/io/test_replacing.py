@@ -71,11 +71,20 @@ def test_a_colour_is_one_in_ply_and_three_columns_elsewhere(tmp_path: Path) -> N
         assert np.array_equal(np.stack(columns, axis=1), colour), name
 
 
-@pytest.mark.parametrize("suffix", [".ply", ".vtk"])
-def test_no_two_maps_become_one(tmp_path: Path, suffix: str) -> None:
+def test_no_two_maps_become_one(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="'a b' and 'a_b' are both called 'a_b'"):
-        sx.write(tmp_path / f"ball{suffix}", {"a b": HEIGHT, "a_b": HEIGHT}, BALL)
+        sx.write(tmp_path / "ball.ply", {"a b": HEIGHT, "a_b": HEIGHT}, BALL)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("names", [("a b", "a_b"), ("50 %", "a%20b"), ('say "a"', "tiefe über"), ("x", "POINT_DATA")])
+def test_vtk_keeps_names_of_several_words_as_its_own_programs_write_them(
+    tmp_path: Path, names: tuple[str, str]
+) -> None:
+    sx.write(tmp_path / "ball.vtk", {names[0]: HEIGHT, names[1]: -HEIGHT}, BALL)
+    assert b"a%20b" in (tmp_path / "ball.vtk").read_bytes() or "a b" not in names
+    found = sx.read(tmp_path / "ball.vtk").scalars
+    assert np.array_equal(found[names[0]], HEIGHT) and np.array_equal(found[names[1]], -HEIGHT)
 
 
 @pytest.mark.parametrize("name", ["", " ", "a\nb", "a\0b", "\x1b[31m"])

@@ -80,8 +80,10 @@ def test_the_page_counts_what_was_run_and_names_what_was_not(tmp_path: Path, mon
     for group, some in (("files", cases), ("names", cases[:1])):
         (tmp_path / f"{group}.json").write_text(json.dumps({"seconds": 1.0, "cases": [asdict(case) for case in some]}))
     page = tmp_path / "page.md"
+    page.write_text("# Reliability\n\nold\n\n## Files that other programs write\n\nkept\n")
     torture_page._write_page(page)
     text = page.read_text()
+    assert text.endswith("\n## Files that other programs write\n\nkept\n") and "old" not in text
     assert "**Not run here: damages, requests, misdeeds, strangers, kills, drivers.**" in text
     assert (
         "| files: cut off | 2 | 1 | 0 | 1 | 0 | 0 | 0 |" in text and "| **all** | 4 | 2 | 0 | 1 | 0 | 0 | 1 |" in text

@@ -1,0 +1,76 @@
+"""The lowest eigenpairs of a surface, also where slivers among its triangles stop the eigensolver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import Boundary, Mass
+from surfexp.operators.fem import fem
+from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.spectrum.eigensolver_error import SliverError
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.surface_spectrum import surface_spectrum
+
+
+def lowest_pairs(
+    surface: Surface,
+    count: int,
+    *,
+    mass: Mass = "consistent",
+    boundary: Boundary = "neumann",
+    tolerance: float = 1e-8,
+    progress: Progress | None = None,
+) -> tuple[SurfaceOperator, EigenSystem]:
+    """Find the lowest pairs with linear elements on the triangles of a surface, or on its intrinsic Delaunay triangles.
+
+    The second are taken where the first leave the pairs in doubt; a note says so.
+
+    Parameters
+    ----------
+    surface : Surface
+    count, mass, boundary, tolerance, progress
+        As in `surface_spectrum`.
+
+    Returns
+    -------
+    operator : SurfaceOperator
+        Of the triangles that were taken; its notes say what stopped the others.
+    system : EigenSystem
+
+    Raises
+    ------
+    ValueError
+        If neither gives certified pairs, or the request is unfit.
+    """
+    operator = fem(surface.mesh)
+    try:
+        return operator, surface_spectrum(
+            surface, operator, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
+        )
+    except SliverError as stopped:
+        operator = without_slivers(surface, stopped)
+        system = surface_spectrum(
+            surface, operator, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
+        )
+    return operator, replace(system, notes=operator.notes + system.notes)
+
+
+def without_slivers(surface: Surface, stopped: SliverError) -> SurfaceOperator:
+    """Return the operator of the intrinsic Delaunay triangles of a surface, with a note that says why they are taken.
+
+    Parameters
+    ----------
+    surface : Surface
+    stopped : SliverError
+        What its own triangles ended in.
+    """
+    operator = intrinsic_delaunay(surface.mesh)
+    reason = str(stopped).partition(":")[0]
+    said = (
+        f"Slivers stopped the eigensolver ({reason}): the pairs are of the intrinsic Delaunay triangles of the same surface, "
+        f"{operator.metrics['flips']:.0f} edges flipped."
+    )
+    return replace(operator, notes=(said, *operator.notes))
