@@ -95,7 +95,7 @@ def test_several_components_and_isolated_vertices() -> None:
 
 
 def test_a_singular_matrix_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"matrix is singular to rounding, .*: shift it"):
+    with pytest.raises(ValueError, match=r"matrix is singular to rounding.*: shift it"):
         ldlt(grid_laplacian(20, 20))
     with pytest.raises(ValueError, match=r"1 of its 3 pivots are below 1\.0e-14, the first of row 1: shift it"):
         ldlt(csr_array(np.diag([1.0, 0.0, 2.0])))
