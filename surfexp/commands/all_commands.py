@@ -29,7 +29,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "distance": Entry("surface_commands", "Spectral distance of two surfaces, with a proved lower bound."),
         "align": Entry("surface_commands", "Modes of one surface in correspondence with those of another."),
         "fingerprint": Entry("fingerprint", "Area, volume and lowest eigenvalues of many surfaces as a table."),
-        "geodesic": Entry("surface_commands", "Geodesic distance from vertices, by fast marching."),
+        "geodesic": Entry("surface_commands", "Geodesic distance from vertices, with a bound from below."),
         "curvature": Entry("surface_commands", "Mean curvature, positive where the surface bulges outward."),
         "convert": Entry("surface_commands", "Write a surface in another format, with its maps."),
         "plot": Entry("surface_commands", "Draw a surface, coloured by a map."),
