@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_part import SurfacePart
+from surfexp.mesh.surface_part import SurfacePart, surface_part
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
 from surfexp.nulls.kept import power_error, variogram_error
 from surfexp.nulls.neighbourhoods import nearest_along_surface
@@ -26,6 +27,8 @@ NEIGHBOURS = 1000
 FRACTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 REACH = 0.25
 TOLERANCE = 1e-10
+# a component with a smaller share of the vertices of the largest is an island
+ISLAND = 0.05
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,8 +68,9 @@ def null_maps(
     """Make random maps as smooth as a map, against which its correlation with another map can be held.
 
     "eigenstrapping" turns the coefficients of the map in groups of 3, 5, 7, ... modes of its surface, and adds what
-    the modes leave out with its values in a random order. "variogram" smooths permuted values until their variogram
-    is that of the map. Both take for granted that the map is equally smooth everywhere.
+    the modes leave out with its values in a random order; each hemisphere, or other component, has modes of its own.
+    "variogram" smooths permuted values until their variogram is that of the map. Both take for granted that the map is
+    equally smooth everywhere.
 
     Parameters
     ----------
@@ -85,7 +89,8 @@ def null_maps(
     -------
     NullMaps
         `values`, and the certificate: share_in_modes (of the map's variance), power_error (of groups, 0 where
-        the modes hold all) and complete, or variogram_error; errors are relative, medians over null maps.
+        the modes hold all; the largest of components) and complete, or variogram_error; errors are relative, medians over
+        null maps. Notes name islands, components with less than a twentieth of the vertices of the largest, which are NaN.
 
     Raises
     ------
@@ -107,7 +112,7 @@ def null_maps(
     """
     owner = as_surface(surface)
     rough = as_map(owner, values)
-    part = part_for(owner, rough)
+    part, islands = _without_islands(part_for(owner, rough))
     inside = np.asarray(part.restrict(rough), dtype=np.float64)
     if inside.ndim > 1 or not np.ptp(inside) > 0:
         shape = f"has {inside.shape[1]} channels" if inside.ndim > 1 else "is constant"
@@ -115,27 +120,52 @@ def null_maps(
     makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
     if method not in makers:
         raise ValueError(f"method is {method!r}, choose {' or '.join(makers)}")
-    made, certificate = makers[method](owner, part, inside, count, modes, seed)
-    return NullMaps(part.extend(made), method, certificate, part.notes)
+    made, certificate = makers[method](owner, part.mesh, inside, count, modes, seed)
+    return NullMaps(part.extend(made), method, certificate, part.notes + islands)
+
+
+def _without_islands(part: SurfacePart) -> tuple[SurfacePart, tuple[str, ...]]:
+    """Leave out components that are much smaller than the largest, and name them."""
+    sizes = np.bincount(part.mesh.component_labels)
+    small = np.flatnonzero(sizes < ISLAND * sizes.max())
+    if not len(small):
+        return part, ()
+    labels = part.mesh.component_labels
+    shown = [f"{sizes[k]} at vertex {part.vertices[np.flatnonzero(labels == k)[0]]}" for k in small[:3]]
+    more = f" and {len(small) - 3} more" if len(small) > 3 else ""
+    note = (
+        f"{len(small)} islands of few vertices ({', '.join(shown)}{more}) carry no null map: they are NaN, as outside of a "
+        "mask."
+    )
+    kept = surface_part(part.mesh, ~np.isin(labels, small))
+    return replace(part, mesh=kept.mesh, vertices=part.vertices[kept.vertices]), (note,)
 
 
 def _by_modes(
-    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+    owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any]]:
-    operator = fem(part.mesh)
-    system = surface_spectrum(Surface(part.mesh, owner.name, owner.unit), operator, modes, tolerance=TOLERANCE)
-    mass = mass_matrix(operator)
-    nulls = eigenstrapped(system.vectors, mass, inside, count, rest="permute", seed=seed)
-    centred = inside - operator.mass @ inside / operator.mass.sum()
-    held = float(group_powers(system.vectors, mass, inside[:, None])[1:].sum() / (centred @ (mass @ centred)))
-    kept = float(np.median(power_error(system.vectors, mass, inside, nulls)))
-    return nulls, {"share_in_modes": held, "power_error": kept, "modes": modes, "complete": system.complete}
+    """Each component by modes of its own: what is turned in one has no share in another."""
+    nulls = np.empty((len(inside), count))
+    held, variance, kept, complete = 0.0, 0.0, 0.0, True
+    for component in range(mesh.component_count):
+        one = surface_part(mesh, mesh.component_labels == component)
+        operator, values = fem(one.mesh), inside[one.vertices]
+        system = surface_spectrum(Surface(one.mesh, owner.name, owner.unit), operator, modes, tolerance=TOLERANCE)
+        mass = mass_matrix(operator)
+        own_seed = seed if component == 0 else [seed, component]
+        found = eigenstrapped(system.vectors, mass, values, count, rest="permute", seed=own_seed)
+        nulls[one.vertices] = found
+        centred = values - operator.mass @ values / operator.mass.sum()
+        held += float(group_powers(system.vectors, mass, values[:, None])[1:].sum())
+        variance += float(centred @ (mass @ centred))
+        kept = max(kept, float(np.median(power_error(system.vectors, mass, values, found))))
+        complete &= system.complete
+    return nulls, {"share_in_modes": held / variance, "power_error": kept, "modes": modes, "complete": complete}
 
 
 def _by_variogram(
-    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+    owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any]]:
-    mesh = part.mesh
     smallest = int(np.bincount(mesh.component_labels).min())
     pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
     kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
