@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,9 @@ NEAREST = 8
 Baseline = dict[str, dict[str, Any]]
 
 
-def measured_baseline(changes: Iterable[Change], workers: int) -> Baseline:
+def measured_baseline(
+    changes: Iterable[Change], workers: int, tests_of: Callable[[Path], list[Path]] | None = None
+) -> Baseline:
     """Return what the test files nearest to one of the changes do without a fault, run where it is not known.
 
     A file is run again when it or anything that it imports has changed. Tests that fail without a fault prove nothing
@@ -29,7 +31,7 @@ def measured_baseline(changes: Iterable[Change], workers: int) -> Baseline:
     """
     targets = {ROOT / change.path for change in changes}
     baseline: Baseline = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
-    files = {_name(test): _digest(test) for target in sorted(targets) for test in nearest_tests(target)}
+    files = {_name(test): _digest(test) for target in sorted(targets) for test in (tests_of or nearest_tests)(target)}
     unknown = [name for name, digest in files.items() if baseline.get(name, {}).get("digest") != digest]
     for trial, outcome in run_all((Trial((name,)) for name in unknown), workers):
         name = trial.arguments[0]
@@ -41,10 +43,12 @@ def measured_baseline(changes: Iterable[Change], workers: int) -> Baseline:
     return {name: baseline[name] for name in files}
 
 
-def selected(change: Change, baseline: Baseline, budget: float) -> Trial:
+def selected(
+    change: Change, baseline: Baseline, budget: float, tests_of: Callable[[Path], list[Path]] | None = None
+) -> Trial:
     """Return the trial of a fault: tests in order of their seconds, tripled with each import, until the budget is spent."""
     target, candidates = ROOT / change.path, []
-    for file in nearest_tests(target):
+    for file in (tests_of or nearest_tests)(target):
         name, distance = _name(file), distances(file)[target]
         entry = baseline.get(name, {"seconds": {}, "failed": []})
         for test, seconds in entry["seconds"].items():

@@ -33,7 +33,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         ),
         "align": Entry("surface_commands", "Align the modes of one surface with those of another."),
         "fingerprint": Entry("fingerprint", "Write area, volume and lowest eigenvalues of many surfaces as a table."),
-        "geodesic": Entry("surface_commands", "Measure the geodesic distance from vertices, by fast marching."),
+        "geodesic": Entry("surface_commands", "Measure the geodesic distance from vertices, with a bound from below."),
         "curvature": Entry(
             "surface_commands", "Compute the mean curvature, positive where the surface bulges outward."
         ),

@@ -259,8 +259,8 @@ class LDLT:
         if self.replaced_pivots:
             row = int(self.symbolic.permutation[np.argmax(np.abs(self._pivots) <= self._smallest)])
             raise ValueError(
-                f"matrix is singular to rounding or needs pivoting, {self.replaced_pivots} of its {self.symbolic.size} pivots are below "
-                f"{self._smallest:.1e}, the first of row {row}: shift it, as in A - s M with s no eigenvalue, or fix a row"
+                f"matrix is singular to rounding or needs pivoting, {self.replaced_pivots} of its {self.symbolic.size} pivots are "
+                f"below {self._smallest:.1e}, the first of row {row}: shift it, as in A - s M with s no eigenvalue, or fix a row"
             )
         if not self.residual <= REFUSED:
             raise ValueError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
@@ -23,7 +24,7 @@ def eigenstrapped(
     *,
     rest: Rest = "drop",
     match_values: bool = False,
-    seed: int = 0,
+    seed: int | Sequence[int] = 0,
 ) -> Floats:
     """Return nulls of a map that have its power in each group of modes.
 
@@ -45,7 +46,7 @@ def eigenstrapped(
         What becomes of f - V V^T B f: left out, or added to each null with its values in a random order.
     match_values : bool
         Give each null the values of the map by rank; power and mean are kept no longer.
-    seed : int
+    seed : int or sequence of int
 
     Returns
     -------

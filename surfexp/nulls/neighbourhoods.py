@@ -6,9 +6,8 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.smoothing.geodesic_gaussian import near_distances
-
-WIDER = 1.6
+from surfexp.nulls.nearest_search import nearest_searches
+from surfexp.smoothing.geodesic_gaussian import surface_graph
 
 
 def nearest_along_surface(mesh: TriangleMesh, count: int) -> tuple[Integers, Floats]:
@@ -38,14 +37,6 @@ def nearest_along_surface(mesh: TriangleMesh, count: int) -> tuple[Integers, Flo
         raise ValueError(
             f"{count} nearest vertices are asked for, the smallest component has {smallest}: 1..{smallest} can be had"
         )
-    limit = 1.8 * float(np.sqrt(mesh.areas.sum() * count / (n * np.pi)))
-    distances = near_distances(mesh, limit)
-    while int(np.diff(distances.indptr).min()) < count:
-        limit *= WIDER
-        distances = near_distances(mesh, limit)
-    neighbours, lengths = np.empty((n, count), dtype=np.int64), np.empty((n, count))
-    for vertex in range(n):
-        row = slice(distances.indptr[vertex], distances.indptr[vertex + 1])
-        order = np.argsort(distances.data[row], kind="stable")[:count]
-        neighbours[vertex], lengths[vertex] = distances.indices[row][order], distances.data[row][order]
-    return neighbours, lengths
+    graph = surface_graph(mesh)
+    starts, ends = graph.indptr.astype(np.int64), graph.indices.astype(np.int64)
+    return nearest_searches(starts, ends, graph.data, np.arange(n), count)

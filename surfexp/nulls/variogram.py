@@ -83,7 +83,7 @@ def variogram_pairs(
     random = np.random.default_rng(seed)
     n = len(mesh.vertices)
     sample = np.sort(random.choice(n, min(vertices, n), replace=False))
-    distances = csr_array(near_distances(mesh, reach)[sample][:, sample]).tocoo()
+    distances = csr_array(near_distances(mesh, reach, sample)[:, sample]).tocoo()
     upper = distances.row < distances.col
     first, second, lengths = distances.row[upper], distances.col[upper], distances.data[upper]
     places = np.linspace(reach / lags, reach, lags)

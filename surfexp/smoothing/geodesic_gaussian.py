@@ -17,7 +17,25 @@ REACH = 4.0
 ROWS_AT_ONCE = 500
 
 
-def near_distances(mesh: TriangleMesh, limit: float) -> csr_array:
+def surface_graph(mesh: TriangleMesh) -> csr_array:
+    """Return the graph of edges and unfolded diagonals that `near_distances` searches, each link in both directions.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+
+    Returns
+    -------
+    (n, n) csr_array
+        Lengths in the unit of the vertices.
+    """
+    tails, heads, lengths = _links(mesh.vertices, mesh.faces)
+    count = len(mesh.vertices)
+    once = csr_array((lengths, (tails, heads)), shape=(count, count))
+    return csr_array(once + once.T)
+
+
+def near_distances(mesh: TriangleMesh, limit: float, sources: Integers | None = None) -> csr_array:
     """Return the distances of all pairs of vertices that are nearer than a limit.
 
     Shortest paths along edges and along the other diagonal of two neighbouring triangles, unfolded into the plane, where
@@ -28,11 +46,13 @@ def near_distances(mesh: TriangleMesh, limit: float) -> csr_array:
     mesh : TriangleMesh
     limit : float
         In the unit of the vertices.
+    sources : (s,) int64, optional
+        Vertices whose rows are wanted, all if not given.
 
     Returns
     -------
-    (n, n) csr_array
-        Symmetric; the zeros of the diagonal are stored.
+    (s, n) csr_array
+        Symmetric where all are wanted; the zero of each vertex to itself is stored.
 
     Raises
     ------
@@ -41,12 +61,11 @@ def near_distances(mesh: TriangleMesh, limit: float) -> csr_array:
     """
     check_positive("limit", limit)
     count = len(mesh.vertices)
-    tails, heads, lengths = _links(mesh.vertices, mesh.faces)
-    graph = csr_array((lengths, (tails, heads)), shape=(count, count))
+    graph = surface_graph(mesh)
+    wanted = np.arange(count) if sources is None else sources
     blocks = []
-    for start in range(0, count, ROWS_AT_ONCE):
-        rows = np.arange(start, min(start + ROWS_AT_ONCE, count))
-        distances = dijkstra(graph, directed=False, indices=rows, limit=limit)
+    for start in range(0, len(wanted), ROWS_AT_ONCE):
+        distances = dijkstra(graph, indices=wanted[start : start + ROWS_AT_ONCE], limit=limit)
         near = np.isfinite(distances)
         starts = np.concatenate([[0], np.cumsum(near.sum(axis=1))])
         blocks.append(csr_array((distances[near], np.nonzero(near)[1], starts), shape=distances.shape))

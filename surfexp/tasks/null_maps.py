@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -11,7 +11,8 @@ from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.mesh.given_arrays import one_of, whole_number
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_part import SurfacePart
+from surfexp.mesh.surface_part import SurfacePart, surface_part
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
 from surfexp.nulls.kept import power_error, variogram_error
 from surfexp.nulls.neighbourhoods import nearest_along_surface
@@ -19,7 +20,7 @@ from surfexp.nulls.variogram import variogram_pairs
 from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.spectrum.lowest_pairs import lowest_pairs
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for, require_connected
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.variational.own_unit import own_unit
 
 NEIGHBOURS = 1000
@@ -30,6 +31,8 @@ LARGEST_SEED = 2**128 - 1
 FRACTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 REACH = 0.25
 TOLERANCE = 1e-10
+# a component with a smaller share of the vertices of the largest is an island
+ISLAND = 0.05
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -69,7 +72,8 @@ def null_maps(
     """Make surrogate maps with the same spatial autocorrelation as a map, to test its correlation with another map.
 
     "eigenstrapping" rotates the coefficients of the map at random, within groups of 3, 5, 7, ... modes of its surface. It
-    adds the residual that the modes do not hold, with permuted values. "variogram" smooths permuted values until their
+    adds the residual that the modes do not hold, with permuted values. Each hemisphere, or other
+    component, has modes of its own. "variogram" smooths permuted values until their
     variogram is that of the map. Both assume that the map is equally smooth everywhere.
 
     Parameters
@@ -89,7 +93,8 @@ def null_maps(
     -------
     NullMaps
         `values`, and the certificate: share_in_modes (of the map's variance), power_error (of groups, 0 where
-        the modes hold all) and complete, or variogram_error; errors are relative, medians over null maps.
+        the modes hold all; the largest of components) and complete, or variogram_error; errors are relative, medians over
+        null maps. Notes name islands, components with less than a twentieth of the vertices of the largest, which are NaN.
 
     Raises
     ------
@@ -116,33 +121,60 @@ def null_maps(
     owner = as_surface(surface)
     count = whole_number(count, "count", 1, LARGEST_RESULT // len(owner.mesh.vertices))
     rough = as_single_map(owner, values)
-    part = part_for(owner, rough)
+    part, islands = _without_islands(part_for(owner, rough))
     inside = np.asarray(part.restrict(rough), dtype=np.float64)
     if inside.min() == inside.max():
         raise ValueError(f"the map is constant at {inside[0]:g}: null models need one that varies")
     own = own_unit(inside)
-    made, certificate, notes = chosen(owner, part, own.normalised(inside), count, modes, seed)
-    return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes + notes)
+    made, certificate, notes = chosen(owner, part.mesh, own.normalised(inside), count, modes, seed)
+    return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes + islands + notes)
+
+
+def _without_islands(part: SurfacePart) -> tuple[SurfacePart, tuple[str, ...]]:
+    """Leave out components that are much smaller than the largest, and name them."""
+    sizes = np.bincount(part.mesh.component_labels)
+    small = np.flatnonzero(sizes < ISLAND * sizes.max())
+    if not len(small):
+        return part, ()
+    labels = part.mesh.component_labels
+    shown = [f"{sizes[k]} at vertex {part.vertices[np.flatnonzero(labels == k)[0]]}" for k in small[:3]]
+    more = f" and {len(small) - 3} more" if len(small) > 3 else ""
+    note = (
+        f"{len(small)} islands of few vertices ({', '.join(shown)}{more}) carry no null map: they are NaN, as outside of a "
+        "mask."
+    )
+    kept = surface_part(part.mesh, ~np.isin(labels, small))
+    return replace(part, mesh=kept.mesh, vertices=part.vertices[kept.vertices]), (note,)
 
 
 def _by_modes(
-    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+    owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
-    require_connected(part, "eigenstrapped null maps")
-    operator, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), modes, tolerance=TOLERANCE)
-    mass = mass_matrix(operator)
-    nulls = eigenstrapped(system.vectors, mass, inside, count, rest="permute", seed=seed)
-    centred = inside - operator.mass @ inside / operator.mass.sum()
-    held = float(group_powers(system.vectors, mass, inside[:, None])[1:].sum() / (centred @ (mass @ centred)))
-    kept = float(np.median(power_error(system.vectors, mass, inside, nulls)))
-    certificate = {"share_in_modes": held, "power_error": kept, "modes": modes, "complete": system.complete}
-    return nulls, certificate, operator.notes
+    """Each component by modes of its own: what is turned in one has no share in another."""
+    nulls = np.empty((len(inside), count))
+    held, variance, kept, complete = 0.0, 0.0, 0.0, True
+    notes: tuple[str, ...] = ()
+    for component in range(mesh.component_count):
+        one = surface_part(mesh, mesh.component_labels == component)
+        values = inside[one.vertices]
+        operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), modes, tolerance=TOLERANCE)
+        notes += operator.notes
+        mass = mass_matrix(operator)
+        own_seed = seed if component == 0 else [seed, component]
+        found = eigenstrapped(system.vectors, mass, values, count, rest="permute", seed=own_seed)
+        nulls[one.vertices] = found
+        centred = values - operator.mass @ values / operator.mass.sum()
+        held += float(group_powers(system.vectors, mass, values[:, None])[1:].sum())
+        variance += float(centred @ (mass @ centred))
+        kept = max(kept, float(np.median(power_error(system.vectors, mass, values, found))))
+        complete &= system.complete
+    certificate = {"share_in_modes": held / variance, "power_error": kept, "modes": modes, "complete": complete}
+    return nulls, certificate, notes
 
 
 def _by_variogram(
-    owner: Surface, part: SurfacePart, inside: Floats, count: int, modes: int, seed: int
+    owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
-    mesh = part.mesh
     smallest = int(np.bincount(mesh.component_labels).min())
     pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
     kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)

