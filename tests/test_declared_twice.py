@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
+import itertools
 import sys
-from collections.abc import Iterator
+import textwrap
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
+import numpy as np
 import pytest
-from pydantic import Field
+from pydantic import Field, ValidationError
 
 from surfexp.lab.errors import UserError
 from surfexp.lab.registry import registry
@@ -26,6 +30,9 @@ DIFFERENT = {
     "solver/conformal: primal_dual(tolerance)",
     "solver/conformal: sphere_grid_domain(columns)",
     "solver/patchwise: primal_dual(tolerance)",
+    "surface/fsaverage5: fsaverage5(surface=sheet)",
+    "surface/labelled_fsaverage5: fsaverage5(surface=sheet)",
+    "surface/masked_fsaverage5: fsaverage5(surface=sheet)",
     "statistic/level_set_parametrization: false_positive_share(halvings)",
     "statistic/level_set_parametrization: false_positive_share(permutations)",
     "statistic/width_test: false_positive_share(permutations)",
@@ -44,9 +51,12 @@ def declared_twice() -> Iterator[tuple[str, Any, Any]]:
     for (kind, name), plugin in registry.PLUGINS.items():
         if kind == "figure" or name.startswith("toy_"):
             continue
+        if Path(inspect.getfile(plugin.function)).resolve() != plugin.file:  # registered as it stands: one signature
+            continue
         named = vars(sys.modules[plugin.function.__module__])
         called = {key: named.get(key) for key in plugin.function.__code__.co_names}
         own = inspect.signature(plugin.function).parameters
+        yield from renamed(f"{kind}/{name}", plugin, named)
         for function, value in called.items():
             if not (inspect.isfunction(value) or inspect.isclass(value)) or not value.__module__.startswith(OURS):
                 continue
@@ -59,6 +69,31 @@ def declared_twice() -> Iterator[tuple[str, Any, Any]]:
                 effective = plugin.options.model_fields[parameter.name].default
                 if here is not parameter.empty or effective != parameter.default:
                     yield f"{kind}/{name}: {function}({parameter.name})", parameter.default, effective
+
+
+def renamed(where: str, plugin: registry.Plugin, named: dict[str, Any]) -> Iterator[tuple[str, Any, Any]]:
+    """Each option that goes into a parameter of another name, where both have a default; every seed is 0 without one."""
+    for call in ast.walk(ast.parse(textwrap.dedent(inspect.getsource(plugin.function)))):
+        function = named.get(call.func.id) if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) else None
+        if not (inspect.isfunction(function) and function.__module__.startswith(OURS)):
+            continue
+        assert isinstance(call, ast.Call)
+        given = {item.arg or "": item.value for item in call.keywords}
+        names = inspect.signature(function).parameters
+        plain = itertools.takewhile(lambda item: not isinstance(item, ast.Starred), call.args)
+        given |= dict(zip(names, plain, strict=False))
+        for parameter, value in given.items():
+            option = value.id if isinstance(value, ast.Name) else ""
+            if (
+                option == parameter
+                or parameter == "seed"
+                or option not in plugin.options.model_fields
+                or parameter not in names
+            ):
+                continue
+            default, field = names[parameter].default, plugin.options.model_fields[option]
+            if default is not inspect.Parameter.empty and not field.is_required():
+                yield f"{where}: {function.__name__}({parameter}={option})", default, field.default
 
 
 def test_no_default_stands_twice() -> None:
@@ -103,6 +138,78 @@ def test_the_same_default_twice_is_refused() -> None:
 
     with pytest.raises(UserError, match=r"the default of 'levels' stands here and in icosphere; leave it out here"):
         registry.register("surface", "twice", defaults_of=icosphere)(ball)
+
+
+def ball(levels: int, radius: float = 1.0, hidden: int = 4) -> Surface:
+    """A ball that no laboratory knows.
+
+    Parameters
+    ----------
+    levels : int
+        Subdivisions of the icosahedron.
+    radius : float
+    hidden : int
+    """
+    return icosphere(levels, radius * hidden)
+
+
+def test_a_function_of_the_library_is_registered_as_it_stands(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    chosen = {"levels": Field(1, ge=0, le=8), "radius": Annotated[Literal[1.0, 2.0], Field(description="in mm")]}
+    assert registry.register("surface", "ball", options=chosen, names={"levels": "depth"})(ball) is ball
+    method = registry.plugin("surface", "ball")
+    fields = method.options.model_fields
+    assert method.function is ball and method.file == Path(__file__).resolve()
+    assert {name: field.default for name, field in fields.items()} == {"depth": 1, "radius": 1.0}
+    assert fields["depth"].description == "Subdivisions of the icosahedron."
+    assert np.array_equal(method({"radius": 2.0}).mesh.vertices, icosphere(1, 8.0).mesh.vertices)
+    assert len(method({"depth": 0}).mesh.vertices) == 12
+    for wrong in ({"depth": 9}, {"radius": 3.0}, {"hidden": 1}, {"levels": 1}):
+        with pytest.raises(ValidationError):
+            method(wrong)
+
+
+def opposite(field: Mapping[str, Surface], first: Surface, *, count: int = 3) -> Surface:
+    return field["a"] if count else first
+
+
+def test_inputs_of_a_registered_function_are_found_by_their_types(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    registry.register("surface", "opposite", options={"count": Field(ge=0)}, names={"field": "surfaces"})(opposite)
+    method = registry.plugin("surface", "opposite")
+    assert {role: (item.kind, item.shape) for role, item in method.inputs.items()} == {
+        "surfaces": ("surface", "dict"),
+        "first": ("surface", "one"),
+    }
+    one, other = icosphere(0), icosphere(1)
+    assert method({}, surfaces={"a": one}, first=other) is one
+    assert method({"count": 0}, surfaces={"a": one}, first=other) is other
+
+
+@pytest.mark.parametrize(
+    ("chosen", "names", "message"),
+    [
+        (
+            {"levels": Field(), "radius": Field(2.0)},
+            {},
+            "the default of 'radius' stands here and in ball; leave it out",
+        ),
+        (
+            {"levels": Field(), "radius": Field(1.0)},
+            {},
+            "the default of 'radius' stands here and in ball; leave it out",
+        ),
+        ({"level": Field()}, {}, "ball has no parameter 'level'; it has: levels, radius, hidden"),
+        ({"levels": Field()}, {"depth": "levels"}, "ball has no parameter 'depth'"),
+        ({"radius": Field()}, {}, "parameter 'levels' of ball has no default; name it in options="),
+        ({"levels": 3}, {}, r"option 'levels' is Field\(...\) or Annotated\[type, Field\(...\)\], not 3"),
+        ({"levels": Field(), "radius": Field()}, {"radius": "name"}, "option 'name' has the name of a stage kind"),
+        ({"levels": Field(), "radius": Field()}, {"radius": "levels"}, "two parameters are called 'levels'"),
+    ],
+)
+def test_a_wrong_registration_says_what_is_wrong(chosen: Any, names: dict[str, str], message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        registry.register("surface", "wrong", options=chosen, names=names)(ball)
 
 
 def test_the_old_form_is_refused_with_the_new_one() -> None:

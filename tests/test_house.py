@@ -114,3 +114,14 @@ def test_a_study_may_import_no_other(linted_with_planted_imports: str) -> None:
 
 def test_a_package_that_is_not_listed_is_refused(linted_with_planted_imports: str) -> None:
     assert "attic" in linted_with_planted_imports
+
+
+@pytest.mark.parametrize(
+    "module",
+    ["linalg/ldlt", "linalg/block_lanczos", "skeleton/fast_marching", "io/ply", "io/vtk", "figures/rasterizer"],
+)
+def test_what_a_library_might_do_says_why_it_is_written_by_hand(module: str) -> None:
+    reason = (ast.get_docstring(ast.parse((ROOT / "surfexp" / f"{module}.py").read_text())) or "").partition(
+        "\nBy hand: "
+    )[2]
+    assert len(reason) > 80

@@ -1,16 +1,11 @@
 """Distances between classes of a collection, the readings of figure 4.8."""
 
-from collections.abc import Sequence
-from typing import Annotated
-
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
 from surfexp.statistics.class_distances import class_distances
 from surfexp.statistics.class_readings import class_readings
-from surfexp.statistics.distance_matrix import DistanceMatrix
-from surfexp.statistics.statistic import Statistic
 
 CLASS_DISTANCES_METRICS = {
     "members": Metric("members of the collection"),
@@ -21,15 +16,16 @@ CLASS_DISTANCES_METRICS = {
 }
 
 
-@register("statistic", "class_distances", metrics=CLASS_DISTANCES_METRICS, defaults_of=class_distances)
-def class_distances_statistic(
-    distance_matrix: DistanceMatrix,
-    *,
-    first: Annotated[str, Field(description="one class of a pair that is ranked")],
-    second: Annotated[str, Field(description="the other class of the pair")],
-) -> Statistic:
-    """Mean distances between all pairs of classes, and the rank of one pair."""
-    return class_distances(distance_matrix, first, second)
+register(
+    "statistic",
+    "class_distances",
+    metrics=CLASS_DISTANCES_METRICS,
+    options={
+        "first": Field(description="one class of a pair that is ranked"),
+        "second": Field(description="the other class of the pair"),
+    },
+    names={"matrix": "distance_matrix"},
+)(class_distances)
 
 
 CLASS_READINGS_METRICS = {
@@ -45,17 +41,19 @@ CLASS_READINGS_METRICS = {
 }
 
 
-@register("statistic", "class_readings", metrics=CLASS_READINGS_METRICS)
-def class_readings_statistic(
-    distance_matrix: DistanceMatrix,
-    *,
-    near: Annotated[Sequence[tuple[str, str]], Field(description="pairs of classes that are said to be close")] = [
-        ("cat", "lioness"),
-        ("david", "michael"),
-    ],
-    outlying: Annotated[Sequence[str], Field(description="classes that are said to be far from all others")] = [
-        "centaur"
-    ],
-) -> Statistic:
-    """Statements about near and outlying classes as ranks of distances; those of absent classes are left out."""
-    return class_readings(distance_matrix, near, outlying)
+register(
+    "statistic",
+    "class_readings",
+    metrics=CLASS_READINGS_METRICS,
+    options={
+        "near": Field(
+            [
+                ("cat", "lioness"),
+                ("david", "michael"),
+            ],
+            description="pairs of classes that are said to be close",
+        ),
+        "outlying": Field(["centaur"], description="classes that are said to be far from all others"),
+    },
+    names={"matrix": "distance_matrix"},
+)(class_readings)

@@ -84,7 +84,9 @@ def patch_grid(
         known = ", ".join([WIDTH, DISTANCE, *surface.scalars])
         raise ValueError(f"surface {surface.name!r} has no map {chosen!r}, choose one of {known}")
     values = signed_eigenmap(mesh, alpha, ahead=np.array(ahead))
-    return level_set_parametrization(mesh, values, choose_levels(mesh, values, along), across, maps, persistence)
+    return level_set_parametrization(
+        mesh, values, choose_levels(mesh, values, along, "arc_length"), across, maps, persistence
+    )
 
 
 def map_on(grid: LevelSetParametrization, chosen: str) -> Floats:
@@ -98,7 +100,8 @@ def compare_on_grid(
     along: int = 40,
     across: int = 15,
     alpha: float = 0.0,
-    chosen: str = WIDTH,
+    *,
+    chosen: str,
     ahead: Direction = (1.0, 0.0, 0.0),
     permutations: int = 1000,
     seed: int = 0,

@@ -39,7 +39,7 @@ class Template:
         return np.asarray(self.surface.mesh.vertices[end] - self.surface.mesh.vertices[start])
 
 
-def make_template(surface: Surface, measured: int = 3) -> Template:
+def make_template(surface: Surface, measured: int) -> Template:
     """Return a template with its `measured` regions of longest extent, the longest first."""
     regions = sulcal_regions(surface.mesh)
     count = int(regions.max()) + 1

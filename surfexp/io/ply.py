@@ -1,4 +1,8 @@
-"""Stanford PLY files, ASCII and binary."""
+"""Stanford PLY files, ASCII and binary.
+
+By hand: libigl, which is a dependency, hands on positions and faces alone. Maps, colours and strips of triangles are read here, and
+a damaged file is refused with what is wrong in it.
+"""
 
 from __future__ import annotations
 

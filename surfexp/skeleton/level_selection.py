@@ -20,7 +20,7 @@ FINE = 4
 SMALLEST_BRANCH = 0.01
 
 
-def choose_levels(mesh: TriangleMesh, values: Floats, count: int, choice: Choice = "arc_length") -> Floats:
+def choose_levels(mesh: TriangleMesh, values: Floats, count: int, choice: Choice) -> Floats:
     """Increasing levels strictly inside the range of a feature.
 
     Parameters

@@ -13,7 +13,7 @@ from surfexp.statistics.distance_matrix import DistanceMatrix
 from surfexp.statistics.point_embedding import PointEmbedding
 from surfexp.statistics.signature_distances import euclidean
 
-STARTS, SWEEPS, STRESS_TOLERANCE = 8, 2000, 1e-9
+STARTS, SWEEPS, STRESS_TOLERANCE = 8, 2000, 1e-11
 
 
 def classical_scaling(matrix: DistanceMatrix, dimensions: int = 2) -> PointEmbedding:
@@ -61,12 +61,15 @@ def principal_components(matrix: DistanceMatrix, dimensions: int = 2) -> PointEm
 
 
 def stress_majorisation(matrix: DistanceMatrix, dimensions: int = 2, seed: int = 0) -> PointEmbedding:
-    """Minimise sum (D - d)^2 by Guttman's transform (SMACOF, de Leeuw 1977) from the classical embedding and random starts."""
-    rng = np.random.default_rng(seed)
+    """Minimise sum (D - d)^2 by scikit-learn's SMACOF (de Leeuw 1977), from the classical embedding and random starts."""
+    from sklearn.manifold import smacof
+
     first = classical_scaling(matrix, dimensions).points
-    scale = float(matrix.values.mean()) or 1.0
-    starts = [first, *(scale * rng.normal(size=first.shape) for _ in range(STARTS - 1))]
-    candidates = [_majorise(matrix.values, start) for start in starts]
+    settings = {"n_components": dimensions, "max_iter": SWEEPS, "eps": STRESS_TOLERANCE}
+    candidates = [first]
+    if matrix.values.any():  # scikit-learn divides by their squares
+        candidates = [smacof(matrix.values, init=first, n_init=1, **settings)[0]]
+        candidates += [smacof(matrix.values, n_init=STARTS - 1, random_state=seed, **settings)[0]]
     best = min(candidates, key=lambda points: round(stress(matrix.values, points), 9))
     centred = best - best.mean(axis=0)
     # principal axes make the result independent of the rotation of the start
@@ -115,21 +118,6 @@ def fixed_signs(points: Floats) -> Floats:
     sizes = np.abs(points)
     at = np.argmax(sizes >= (1.0 - 1e-6) * sizes.max(axis=0), axis=0)
     return np.asarray(points * np.where(points[at, np.arange(points.shape[1])] < 0, -1.0, 1.0))
-
-
-def _majorise(distances: Floats, points: Floats) -> Floats:
-    before = np.inf
-    for _ in range(SWEEPS):
-        found = euclidean(points)
-        ratio = np.divide(distances, found, out=np.zeros_like(found), where=found > 0)
-        guttman = -ratio
-        guttman[np.arange(len(ratio)), np.arange(len(ratio))] = ratio.sum(axis=1)
-        points = guttman @ points / len(points)
-        now = float(((distances - found) ** 2).sum())
-        if before - now <= STRESS_TOLERANCE * max(now, 1e-300):
-            break
-        before = now
-    return points
 
 
 def _embedding(matrix: DistanceMatrix, points: Floats, method: str, metrics: dict[str, float]) -> PointEmbedding:

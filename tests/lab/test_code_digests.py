@@ -219,6 +219,44 @@ def test_where_it_cannot_be_told_the_whole_file_counts(pair: Path, old: str, new
     assert digests(pair)[1] != before
 
 
+REGISTERED = """
+from .left import left
+from .right import right
+
+METRICS = {{"a": 1}}
+register("solver", "first", metrics=METRICS, options={{"n": Field(ge=0, description="a number")}})(left)
+register("solver", "second", options={{"n": Field(ge=1)}})(right)
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "changed"),
+    [
+        ("left", "return x", "return -x", (True, False)),
+        ("right", "return x", "return -x", (False, True)),
+        ("registered", "ge=0", "ge=2", (True, False)),
+        ("registered", '"a": 1', '"a": 2', (True, False)),
+        ("registered", "ge=1", "ge=2", (False, True)),
+        ("registered", "a number", "another", (False, False)),
+    ],
+)
+def test_a_registered_function_has_the_key_of_what_it_reaches(
+    pair: Path, file: str, old: str, new: str, changed: tuple[bool, bool]
+) -> None:
+    registered = pair.with_name("registered.py")
+    registered.write_text(REGISTERED.format())
+
+    def both() -> list[str]:
+        forget()
+        return [fingerprint.code_digest(registered, name) for name in ("left", "right")]
+
+    before = both()
+    assert registered not in fingerprint.code_closure(registered, "left")[0]
+    edited = pair.with_name(f"{file}.py")
+    edited.write_text(edited.read_text().replace(old, new))
+    assert tuple(a != b for a, b in zip(before, both(), strict=True)) == changed
+
+
 def test_a_function_that_is_made_elsewhere_takes_its_whole_file(pair: Path) -> None:
     forget()
     assert code_digests.code_digest(pair, "maker.<locals>.made") != code_digests.code_digest(pair, "first")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -42,7 +43,7 @@ print(json.dumps([sorted(map("/".join, registry.PLUGINS)), broken, planned]))
 def own_plugins(study: str) -> set[str]:
     """Names that a study's plugins are called by in an experiment."""
     text = "".join(file.read_text() for file in (ROOT / "studies" / study / "plugins").rglob("*.py"))
-    return {part.split('"')[3] for part in text.split("@register(")[1:]}
+    return set(re.findall(r'\bregister\(\s*"\w+",\s*"(\w+)"', text))
 
 
 def copied_without(deleted: list[str], folder: Path) -> list[str]:

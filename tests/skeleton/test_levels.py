@@ -64,7 +64,7 @@ def test_critical_levels_separate_all_critical_values():
 
 def test_unfit_choices_are_refused():
     with pytest.raises(ValueError, match="at least 1"):
-        choose_levels(FLAT, COSINE, 0)
+        choose_levels(FLAT, COSINE, 0, "arc_length")
     with pytest.raises(ValueError, match="uniform, area_quantile"):
         choose_levels(FLAT, COSINE, 5, "random")
     rough = np.random.default_rng(0).normal(size=len(COSINE))

@@ -64,6 +64,25 @@ def test_majorisation_has_no_more_stress_than_the_classical_embedding() -> None:
     assert np.allclose(least.points.mean(axis=0), 0.0, atol=1e-12)
 
 
+def test_majorisation_ends_where_guttmans_transform_stands_still() -> None:
+    matrix = of_points(np.random.default_rng(4).normal(size=(15, 5)))
+    points = stress_majorisation(matrix, 3).points
+    ratio = matrix.values / (euclidean(points) + np.eye(15))
+    transformed = (np.diag(ratio.sum(axis=1)) - ratio) @ points / 15
+    assert np.abs(transformed - points).max() < 1e-4 * np.abs(points).max()
+
+
+def test_majorisation_finds_points_whose_distances_are_given() -> None:
+    matrix = of_points(np.random.default_rng(2).normal(size=(9, 2)), coordinates=False)
+    found = stress_majorisation(matrix)
+    assert np.allclose(euclidean(found.points), matrix.values, atol=1e-6)
+
+
+def test_majorisation_of_equal_members_is_one_point() -> None:
+    found = stress_majorisation(DistanceMatrix(("a", "b", "c", "d"), np.zeros((4, 4))))
+    assert found.metrics["stress"] == 0.0 and not found.points.any()
+
+
 def test_neighbours_stay_together() -> None:
     rng = np.random.default_rng(0)
     points = np.concatenate([rng.normal(size=(12, 4)), 30.0 + rng.normal(size=(12, 4))])

@@ -40,7 +40,8 @@ def needed_by(path: Path, function: str) -> tuple[ast.stmt, ...] | None:
 
     These are the function's own, what it names, directly or through others, and whatever may act when the file is imported: every
     statement but definitions, constants and imports, and definitions under a decorator that may act on others. Of an import the
-    names that are used count; an import whose names nothing uses counts, since it is there for its effect.
+    names that are used count; an import whose names nothing uses counts, since it is there for its effect. Of statements that
+    register a function of the library, `register(...)(torus)`, those count that register what is reached.
 
     Parameters
     ----------
@@ -51,11 +52,11 @@ def needed_by(path: Path, function: str) -> tuple[ast.stmt, ...] | None:
     Returns
     -------
     tuple of ast.stmt or None
-        None if the function is not defined once at the top level, or if what it reaches looks names up while it runs
+        None if the function is not defined or imported once at the top level, or if what it reaches looks names up while it runs
         (`globals()`, `import_module`, `from m import *`, ...).
     """
     parts = _parts(path)
-    defined = [part.binds for part in parts if isinstance(part.code, FUNCTION)]
+    defined = [part.binds for part in parts if isinstance(part.code, FUNCTION | ast.ImportFrom)]
     if defined.count(function) != 1 or any(part.binds == "*" for part in parts):
         return None
     used = set().union(*(part.names for part in parts if not isinstance(part.code, IMPORT)))
@@ -96,6 +97,7 @@ def _parts(path: Path) -> tuple[_Part, ...]:
         else:
             targets = getattr(statement, "targets", [getattr(statement, "target", None)])
             name = getattr(statement, "name", "") or (_name(targets[0]) if targets[0] is not None else "")
+            name = name or _registered(statement)
             parts.append((name, statement))
     return tuple(_Part(binds, code, frozenset(_names(code))) for binds, code in parts)
 
@@ -110,6 +112,8 @@ def _is_passive(statement: ast.stmt) -> bool:
         if isinstance(statement, ast.ClassDef):
             return not statement.keywords
         values = [*statement.args.defaults, *statement.args.kw_defaults]
+    elif _registered(statement):
+        values = []
     elif isinstance(statement, ast.Assign | ast.AnnAssign):
         targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
         if len(targets) > 1 or not isinstance(targets[0], ast.Name):
@@ -118,6 +122,14 @@ def _is_passive(statement: ast.stmt) -> bool:
     else:
         return False
     return not any(isinstance(node, ast.Call) for value in values if value is not None for node in ast.walk(value))
+
+
+def _registered(statement: ast.stmt) -> str:
+    """The function of the library that a statement registers, `register("surface", "torus")(torus)`; empty for any other."""
+    match statement:
+        case ast.Expr(ast.Call(ast.Call(ast.Name("register")), [ast.Name(function)])):
+            return function
+    return ""
 
 
 def _names(node: ast.AST) -> set[str]:

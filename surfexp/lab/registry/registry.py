@@ -34,6 +34,7 @@ class Plugin:
     accepts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     metrics: Mapping[str, Metric] = field(default_factory=dict)
     exports: Callable[..., Iterable[tuple[str, Path]]] | None = None
+    names: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def paths(self) -> frozenset[str]:
@@ -47,7 +48,10 @@ class Plugin:
 
     def __call__(self, options: Mapping[str, Any], **inputs: Any) -> Any:
         """Call the function on checked options, with defaults for those that are not given, and on results by role."""
-        return self.function(**inputs, **dict(self.options(**options)))
+        named = inputs | dict(self.options(**options))
+        for parameter, name in self.names.items():
+            named[parameter] = named.pop(name)
+        return self.function(**named)
 
 
 PLUGINS: dict[tuple[str, str], Plugin] = {}
@@ -64,6 +68,8 @@ def register(
     metrics: Mapping[str, Metric] | None = None,
     defaults_of: Callable[..., Any] | Iterable[Callable[..., Any]] = (),
     exports: Callable[..., Iterable[tuple[str, Path]]] | None = None,
+    options: Mapping[str, Any] | None = None,
+    names: Mapping[str, str] | None = None,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register a function as plugin `name` of stage `kind`.
 
@@ -73,12 +79,18 @@ def register(
     function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
+    `options` registers a function of the library as it stands, `register("surface", "cube", options={"cells": Field(ge=1)})(cube)`:
+    of its parameters these are options, each with its bounds; types and defaults are those of the signature. `names` says
+    what an experiment calls a parameter where the function calls it otherwise: `names={"matrix": "distance_matrix"}`.
     `exports` writes further files when a result is exported: it is called with a folder and with what the function is
     called with, and yields the name of each file, from which that in the export is made, and its path.
     """
 
+    caller = inspect.currentframe()
+    assert caller is not None and caller.f_back is not None  # noqa: S101, narrows a type
+    file = Path(caller.f_back.f_code.co_filename).resolve()
+
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        file = Path(inspect.getfile(function)).resolve()
         known = PLUGINS.get((kind, name))
         if known is not None and known.file != file and known.file.read_bytes() != file.read_bytes():
             raise UserError(f"plugin {kind}/{name} is defined twice: {known.file} and {file}")
@@ -88,10 +100,10 @@ def register(
                 raise UserError(f"{where}: a name is a word of letters, digits and underscores, e.g. 'split_bregman'")
             check_known("stage kind", [kind], KINDS)
             sources = (defaults_of,) if callable(defaults_of) else tuple(defaults_of)
-            options, inputs = options_and_inputs(where, function, sources)
+            model, inputs = options_and_inputs(where, function, sources, options, names or {})
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
             PLUGINS[kind, name] = Plugin(
-                kind, name, function, options, inputs, file, restrictions, metrics or {}, exports
+                kind, name, function, model, inputs, file, restrictions, metrics or {}, exports, names or {}
             )
         return function
 

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 from pydantic.errors import PydanticUserError
+from pydantic.fields import FieldInfo
 
 from surfexp.contract.member import Member
 from surfexp.lab.errors import UserError
 from surfexp.lab.store.kinds import KINDS, kind_of
 
 NEW_FORM = "def f(surface: Surface, *, radius: Annotated[float, Field(gt=0, description='...')] = 1.0) -> Surface"
-SHAPES = {list: "list", dict: "dict"}
+SHAPES = {list: "list", dict: "dict", Mapping: "dict"}
 
 
 class Options(BaseModel):
@@ -34,7 +35,11 @@ class Input:
 
 
 def options_and_inputs(
-    where: str, function: Callable[..., Any], defaults_of: Sequence[Callable[..., Any]]
+    where: str,
+    function: Callable[..., Any],
+    defaults_of: Sequence[Callable[..., Any]],
+    chosen: Mapping[str, Any] | None,
+    names: Mapping[str, str],
 ) -> tuple[type[BaseModel], dict[str, Input]]:
     """Options and inputs of a plugin, from the signature of its function.
 
@@ -47,6 +52,12 @@ def options_and_inputs(
         is an option. Its bounds and description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
     defaults_of : sequence of callable
         Functions that hold the defaults of options without a default here, under the same name; the first that has one counts.
+    chosen : dict of str to pydantic's Field, or None
+        The parameters that are options, of a function of the library: bounds, description, and a default where the function
+        has none; `Annotated[type, Field(...)]` where an experiment takes less than the function. The other parameters keep
+        their defaults. None: every parameter that is no input is an option, of the type it has.
+    names : dict of str to str
+        What an experiment calls a parameter, where the function calls it otherwise.
 
     Returns
     -------
@@ -57,12 +68,20 @@ def options_and_inputs(
     Raises
     ------
     UserError
-        If a parameter is neither, or the same default stands twice.
+        If a parameter is neither, the same default stands twice, or a chosen option is no parameter.
     """
     hints = get_type_hints(function, include_extras=True)
     described = _described(inspect.getdoc(function) or "")
     inputs, fields = dict[str, Input](), dict[str, Any]()
-    for name, parameter in inspect.signature(function).parameters.items():
+    parameters = inspect.signature(function).parameters
+    if missing := sorted({*(chosen or {}), *names} - {*parameters}):
+        raise UserError(
+            f"{where}: {function.__name__} has no parameter {missing[0]!r}; it has: {', '.join(parameters)}"
+        )
+    for name, parameter in parameters.items():
+        shown = names.get(name, name)
+        if shown in (*inputs, *fields):
+            raise UserError(f"{where}: two parameters are called {shown!r}")
         if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or name not in hints:
             raise UserError(f"{where}: parameter {name!r} must be one input or option with its type, as in {NEW_FORM}")
         hint = hints[name]
@@ -71,22 +90,54 @@ def options_and_inputs(
                 f"{where}: options are parameters of the function, not the model {hint.__name__}: {NEW_FORM}"
             )
         if (found := _input(hint)) is not None:
-            inputs[name] = found
+            inputs[shown] = found
             continue
-        if name in (*KINDS, "name", "inputs"):
-            raise UserError(f"{where}: option {name!r} has the name of a stage kind or of a setting")
-        default = _default(where, name, parameter, defaults_of)
-        fields[name] = (Annotated[hint, Field(description=described[name])] if name in described else hint, default)
+        if chosen is not None and name not in chosen:
+            if parameter.default is parameter.empty:
+                raise UserError(
+                    f"{where}: parameter {name!r} of {function.__name__} has no default; name it in options="
+                )
+            continue
+        if shown in (*KINDS, "name", "inputs"):
+            raise UserError(f"{where}: option {shown!r} has the name of a stage kind or of a setting")
+        if name in described:
+            hint = Annotated[hint, Field(description=described[name])]
+        if chosen is None:
+            fields[shown] = (hint, _default(where, name, parameter, defaults_of))
+        else:
+            fields[shown] = _chosen_option(where, function, parameter, hint, chosen[name])
     try:
         return create_model(function.__name__, __base__=Options, **fields), inputs
     except PydanticUserError as error:
-        names = ", ".join(fields)
-        raise UserError(f"{where}: {names}: a parameter is a stage's result or a plain value ({error})") from None
+        raise UserError(
+            f"{where}: {', '.join(fields)}: a parameter is a stage's result or a plain value ({error})"
+        ) from None
+
+
+def _chosen_option(
+    where: str, function: Callable[..., Any], parameter: inspect.Parameter, hint: Any, chosen: Any
+) -> tuple[Any, Any]:
+    """Type and default of an option of a function of the library, whose default stands in one place."""
+    annotated = get_origin(chosen) is Annotated
+    field = next((part for part in (*get_args(chosen), chosen) if isinstance(part, FieldInfo)), None)
+    if field is None:
+        raise UserError(
+            f"{where}: option {parameter.name!r} is Field(...) or Annotated[type, Field(...)], not {chosen!r}"
+        )
+    if parameter.default is parameter.empty:
+        default = field.default if not field.is_required() else ...
+    elif field.is_required():
+        default = parameter.default
+    else:
+        raise UserError(
+            f"{where}: the default of {parameter.name!r} stands here and in {function.__name__}; leave it out here"
+        )
+    return chosen if annotated else Annotated[hint, chosen], default
 
 
 def _input(hint: Any) -> Input | None:
     origin, parts = get_origin(hint), get_args(hint)
-    shape = "members" if origin is dict and Member in parts else SHAPES.get(origin, "one")
+    shape = "members" if origin in (dict, Mapping) and Member in parts else SHAPES.get(origin, "one")
     result = hint if shape == "one" else parts[-1]
     try:
         return Input(kind_of(result), shape)

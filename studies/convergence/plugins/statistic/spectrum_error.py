@@ -4,12 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.mesh.surface import Surface
-from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.convergence.spectrum_error import convergence_orders, spectrum_error
 
 SPECTRUM_ERROR_METRICS = {
@@ -22,22 +18,17 @@ SPECTRUM_ERROR_METRICS = {
 }
 
 
-@register(
+register(
     "statistic",
     "spectrum_error",
     metrics=SPECTRUM_ERROR_METRICS,
     accepts={"surface": ("icosphere", "disk", "rectangle", "flat_torus")},
-    defaults_of=spectrum_error,
-)
-def spectrum_error_statistic(
-    surface: Surface,
-    eigensolver: EigenSystem,
-    *,
-    low: Annotated[int, Field(ge=1, le=1000, description="values that error_low looks at")],
-    high: Annotated[int, Field(ge=1, le=1000, description="values that error_high looks at")],
-) -> Statistic:
-    """Relative errors of the eigenvalues of a sphere, disk, rectangle or flat torus against the exact ones."""
-    return spectrum_error(surface, eigensolver, low, high)
+    options={
+        "low": Field(ge=1, le=1000, description="values that error_low looks at"),
+        "high": Field(ge=1, le=1000, description="values that error_high looks at"),
+    },
+    names={"system": "eigensolver"},
+)(spectrum_error)
 
 
 CONVERGENCE_ORDERS_METRICS = {
@@ -46,11 +37,11 @@ CONVERGENCE_ORDERS_METRICS = {
 }
 
 
-@register("statistic", "convergence_orders", metrics=CONVERGENCE_ORDERS_METRICS, defaults_of=convergence_orders)
-def orders_statistic(
-    errors: dict[Member, Statistic],
-    *,
-    metric: Annotated[Literal["error_low", "error_high"], Field(description="metric that is fitted")],
-) -> Statistic:
-    """Orders of convergence in the edge length, fitted for each method of an axis "method @ level"."""
-    return convergence_orders(errors, metric)
+register(
+    "statistic",
+    "convergence_orders",
+    metrics=CONVERGENCE_ORDERS_METRICS,
+    options={
+        "metric": Annotated[Literal["error_low", "error_high"], Field(description="metric that is fitted")],
+    },
+)(convergence_orders)

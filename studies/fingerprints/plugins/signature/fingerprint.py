@@ -1,13 +1,9 @@
 """All descriptors of a study of fingerprints, by two routes."""
 
-from typing import Annotated
-
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.mesh.surface import Surface
-from surfexp.spectrum.signature import Signature
 from surfexp_studies.fingerprints.descriptors import fingerprint
 
 METRICS = {
@@ -18,12 +14,12 @@ METRICS = {
 }
 
 
-@register("signature", "fingerprint", metrics=METRICS, defaults_of=fingerprint)
-def fingerprint_signature(
-    surface: Surface,
-    *,
-    count: Annotated[int, Field(ge=50, le=2000, description="modes after the constant one")],
-    seed: Annotated[int, Field(ge=0, description="seed of the start vectors")],
-) -> Signature:
-    """Descriptors of a closed surface from a certified spectrum and from ARPACK as LaPy calls it, with certificates."""
-    return fingerprint(surface, count, seed)
+register(
+    "signature",
+    "fingerprint",
+    metrics=METRICS,
+    options={
+        "count": Field(ge=50, le=2000, description="modes after the constant one"),
+        "seed": Field(ge=0, description="seed of the start vectors"),
+    },
+)(fingerprint)

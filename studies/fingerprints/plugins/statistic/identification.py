@@ -4,11 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.spectrum.signature import Signature
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.fingerprints.identification import identification
 
 METRICS = {
@@ -33,18 +30,15 @@ METRICS = {
 }
 
 
-@register("statistic", "identification", metrics=METRICS, defaults_of=identification)
-def identification_statistic(
-    signatures: dict[Member, Signature],
-    *,
-    part: Annotated[
-        Literal["area", "shape_dna", "brainprint", "nodal_counts", "heat_means", "wave_means", "hks", "wks", "gps"],
-        Field(description="descriptor"),
-    ] = "shape_dna",
-    alpha: Annotated[float, Field(ge=0, le=4, description="entry n is divided by n^alpha, (4.3); 0: Euclidean")],
-) -> Statistic:
-    """Rank-one identification by change, ICC(2,1), and what changes with the spectra of ARPACK.
-
-    Of a member the class is the change, one of them "original", the group the donor, the level the person's number.
-    """
-    return identification(signatures, part, alpha)
+register(
+    "statistic",
+    "identification",
+    metrics=METRICS,
+    options={
+        "part": Annotated[
+            Literal["area", "shape_dna", "brainprint", "nodal_counts", "heat_means", "wave_means", "hks", "wks", "gps"],
+            Field("shape_dna", description="descriptor"),
+        ],
+        "alpha": Field(ge=0, le=4, description="entry n is divided by n^alpha, (4.3); 0: Euclidean"),
+    },
+)(identification)

@@ -4,13 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.mesh.surface import Surface
-from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.geometric_modes.geometric_modes import mode_reconstruction, reconstruction_differences
 
 METRICS = {
@@ -24,34 +19,39 @@ DIFFERENCE_METRICS = {
 }
 
 
-@register("statistic", "mode_reconstruction", metrics=METRICS, defaults_of=mode_reconstruction)
-def mode_reconstruction_statistic(
-    surface: Surface,
-    operator: SurfaceOperator,
-    eigensolver: EigenSystem,
-    bases: dict[Member, EigenSystem],
-    *,
-    maps: Annotated[tuple[str, ...], Field(description="maps of the surface")] = (),
-    twins: Annotated[tuple[str, ...], Field(description="bases of whose modes random maps are made: own, or a class")],
-    seeds: Annotated[int, Field(ge=1, le=1000, description="random maps of each")],
-    first: Annotated[int, Field(ge=1, le=5000, description="fewest modes")],
-    last: Annotated[int, Field(ge=2, le=5000, description="most modes")],
-) -> Statistic:
-    """Accuracy of maps rebuilt from k modes of the surface itself and of other geometries on its vertices."""
-    return mode_reconstruction(
-        surface, operator, eigensolver, bases, maps=maps, twins=twins, seeds=seeds, first=first, last=last
-    )
+register(
+    "statistic",
+    "mode_reconstruction",
+    metrics=METRICS,
+    options={
+        "maps": Annotated[tuple[str, ...], Field((), description="maps of the surface")],
+        "twins": Annotated[
+            tuple[str, ...], Field(description="bases of whose modes random maps are made: own, or a class")
+        ],
+        "seeds": Field(ge=1, le=1000, description="random maps of each"),
+        "first": Field(ge=1, le=5000, description="fewest modes"),
+        "last": Field(ge=2, le=5000, description="most modes"),
+    },
+    names={"own": "eigensolver"},
+)(mode_reconstruction)
 
 
-@register("statistic", "reconstruction_differences", metrics=DIFFERENCE_METRICS, defaults_of=reconstruction_differences)
-def reconstruction_differences_statistic(
-    statistics: dict[Member, Statistic],
-    *,
-    maps: Annotated[tuple[str, ...], Field(min_length=2, description="maps, drawn with replacement")] = (
-        "thickness",
-        "sulc",
-    ),
-    seed: Annotated[int, Field(ge=0, description="seed of the draws")],
-) -> Statistic:
-    """Own modes against each other basis, paired by map, with intervals by bootstrap of maps."""
-    return reconstruction_differences(statistics, maps, seed=seed)
+register(
+    "statistic",
+    "reconstruction_differences",
+    metrics=DIFFERENCE_METRICS,
+    options={
+        "maps": Annotated[
+            tuple[str, ...],
+            Field(
+                (
+                    "thickness",
+                    "sulc",
+                ),
+                min_length=2,
+                description="maps, drawn with replacement",
+            ),
+        ],
+        "seed": Field(ge=0, description="seed of the draws"),
+    },
+)(reconstruction_differences)

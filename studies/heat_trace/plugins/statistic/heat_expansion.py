@@ -2,9 +2,6 @@
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.mesh.surface import Surface
-from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.heat_trace.heat_expansion import heat_expansion
 
 METRICS = {
@@ -23,7 +20,4 @@ METRICS = {
 }
 
 
-@register("statistic", "heat_expansion", metrics=METRICS)
-def heat_expansion_statistic(surface: Surface, eigensolver: EigenSystem) -> Statistic:
-    """Heat trace of a spectrum beside the published and the corrected expansion; what of the shape is heard in it."""
-    return heat_expansion(surface, eigensolver)
+register("statistic", "heat_expansion", metrics=METRICS, options={}, names={"system": "eigensolver"})(heat_expansion)

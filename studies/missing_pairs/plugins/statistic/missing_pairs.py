@@ -4,12 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.missing_pairs.missing_pairs import missing_by_kind, missing_pairs
 
 METRICS = {
@@ -29,19 +25,16 @@ BY_KIND_METRICS = METRICS | {
 }
 
 
-@register("statistic", "missing_pairs", metrics=METRICS, defaults_of=missing_pairs)
-def missing_pairs_statistic(
-    operator: SurfaceOperator,
-    eigensolver: EigenSystem,
-    *,
-    counts: Annotated[tuple[int, ...], Field(min_length=1, description="numbers of pairs")],
-    seeds: Annotated[int, Field(ge=1, le=1000, description="start vectors for each")],
-) -> Statistic:
-    """ARPACK as LaPy and neuromodes call it, against a spectrum that is proved complete and longer."""
-    return missing_pairs(operator, eigensolver, counts, seeds)
+register(
+    "statistic",
+    "missing_pairs",
+    metrics=METRICS,
+    options={
+        "counts": Annotated[tuple[int, ...], Field(min_length=1, description="numbers of pairs")],
+        "seeds": Field(ge=1, le=1000, description="start vectors for each"),
+    },
+    names={"certified": "eigensolver"},
+)(missing_pairs)
 
 
-@register("statistic", "missing_by_kind", metrics=BY_KIND_METRICS)
-def missing_by_kind_statistic(statistics: dict[Member, Statistic]) -> Statistic:
-    """Runs that leave an eigenpair out, by kind of mesh, with the interval of Clopper and Pearson."""
-    return missing_by_kind(statistics)
+register("statistic", "missing_by_kind", metrics=BY_KIND_METRICS, options={})(missing_by_kind)

@@ -65,7 +65,4 @@ def modes_of_twins_statistic(
     return modes_of_twins((surface, eigensolver), members, count, report_progress)
 
 
-@register("statistic", "modes_of_people_pooled", metrics=METRICS)
-def modes_of_people_pooled_statistic(statistics: dict[Member, Statistic]) -> Statistic:
-    """Mean over structures of the shares of modes that are themselves, another one or none."""
-    return pooled(statistics)
+register("statistic", "modes_of_people_pooled", metrics=METRICS, options={})(pooled)

@@ -1,16 +1,12 @@
 """How well signatures of one shape repeat."""
 
-from typing import Annotated
-
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.spectrum.signature import Signature
-from surfexp.statistics.statistic import Statistic
 from surfexp_studies.nodal_counts.count_agreement import count_agreement, largest_change
 
-Part = Annotated[str, Field(description="part of the signatures; empty: the signature itself")]
+PART = Field(description="part of the signatures; empty: the signature itself")
 
 
 COUNT_AGREEMENT_METRICS = {
@@ -24,10 +20,12 @@ COUNT_AGREEMENT_METRICS = {
 }
 
 
-@register("statistic", "count_agreement", metrics=COUNT_AGREEMENT_METRICS, defaults_of=count_agreement)
-def agreement_statistic(reference: Signature, others: dict[str, Signature], *, part: Part) -> Statistic:
-    """Share of nodal counts that agree with a reference mesh, by the number of the mode."""
-    return count_agreement(reference, others, part)
+register(
+    "statistic",
+    "count_agreement",
+    metrics=COUNT_AGREEMENT_METRICS,
+    options={"part": PART},
+)(count_agreement)
 
 
 SIGNATURE_CHANGE_METRICS = {
@@ -36,7 +34,9 @@ SIGNATURE_CHANGE_METRICS = {
 }
 
 
-@register("statistic", "signature_change", metrics=SIGNATURE_CHANGE_METRICS, defaults_of=largest_change)
-def change_statistic(reference: Signature, others: dict[str, Signature], *, part: Part) -> Statistic:
-    """Largest and mean relative change of a signature against a reference."""
-    return largest_change(reference, others, part)
+register(
+    "statistic",
+    "signature_change",
+    metrics=SIGNATURE_CHANGE_METRICS,
+    options={"part": PART},
+)(largest_change)

@@ -4,11 +4,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from surfexp.contract.member import Member
 from surfexp.contract.metric import Metric, MetricName
 from surfexp.lab.registry.registry import register
-from surfexp.statistics.statistic import Statistic
-from surfexp.variational.solution import Solution
 from surfexp_studies.smoothing.error_ratios import error_ratios
 
 METRICS = {
@@ -21,14 +18,15 @@ METRICS = {
 }
 
 
-@register("statistic", "error_ratios", metrics=METRICS, defaults_of=error_ratios)
-def error_ratios_statistic(
-    solutions: dict[Member, Solution],
-    *,
-    error: Annotated[MetricName, Field(description="metric of the solutions that is an error")] = "rmse",
-    reference: Annotated[str, Field(min_length=1, description="class to divide by")] = "heat flow",
-    baseline: Annotated[str, Field(min_length=1, description="class that stands for doing nothing")] = "none",
-    seed: Annotated[int, Field(ge=0, description="seed of the bootstrap")],
-) -> Statistic:
-    """Median ratio of each method's error to a reference's, with bootstrap intervals over groups of units."""
-    return error_ratios(solutions, error, reference, baseline, seed)
+register(
+    "statistic",
+    "error_ratios",
+    metrics=METRICS,
+    options={
+        "metric": Annotated[MetricName, Field("rmse", description="metric of the solutions that is an error")],
+        "reference": Field("heat flow", min_length=1, description="class to divide by"),
+        "baseline": Field("none", min_length=1, description="class that stands for doing nothing"),
+        "seed": Field(ge=0, description="seed of the bootstrap"),
+    },
+    names={"metric": "error"},
+)(error_ratios)
