@@ -1,7 +1,7 @@
 """Sparse LDL^T of symmetric matrices, definite or not: many right-hand sides, cheap refactoring, inertia.
 
-Written by hand because no library under a free licence without copyleft has both the counts of negative pivots, which prove
-spectra complete, and solves with many right-hand sides: CHOLMOD's supernodal part is GPL and for definite matrices alone,
+By hand: no library under a free licence without copyleft has both the counts of negative pivots, which prove spectra
+complete, and solves with many right-hand sides. CHOLMOD's supernodal part is GPL and for definite matrices alone,
 SuperLU knows no symmetry and takes three to four times as long, qdldl works column by column.
 """
 

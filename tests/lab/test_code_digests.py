@@ -248,10 +248,10 @@ def test_a_registered_function_has_the_key_of_what_it_reaches(
 
     def both() -> list[str]:
         forget()
-        return [fingerprint.code_digest(registered, name) for name in ("left", "right")]
+        return [code_digests.code_digest(registered, name) for name in ("left", "right")]
 
     before = both()
-    assert registered not in fingerprint.code_closure(registered, "left")[0]
+    assert registered not in code_digests.code_closure(registered, "left")[0]
     edited = pair.with_name(f"{file}.py")
     edited.write_text(edited.read_text().replace(old, new))
     assert tuple(a != b for a, b in zip(before, both(), strict=True)) == changed
