@@ -21,6 +21,7 @@ from surfexp.lab.registry.loading import load_all
 from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
+from surfexp.variational.models.deblurring import Deblurring
 
 # the default of an experiment is another one than that of the function, for the reason given in docs/defaults.md
 DIFFERENT = {
@@ -167,6 +168,16 @@ def test_a_function_of_the_library_is_registered_as_it_stands(monkeypatch: pytes
     for wrong in ({"depth": 9}, {"radius": 3.0}, {"hidden": 1}, {"levels": 1}):
         with pytest.raises(ValidationError):
             method(wrong)
+
+
+def test_a_class_of_the_library_is_registered_as_it_stands(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    registry.register("model", "blurred", options={"width": Field(gt=0), "mu": Field(gt=0)})(Deblurring)
+    method = registry.plugin("model", "blurred")
+    assert set(method.options.model_fields) == {"width", "mu"} and method.inputs == {}
+    assert method({"width": 3.0}) == Deblurring(width=3.0) != Deblurring()
+    with pytest.raises(ValidationError):
+        method({"mu": 0.0})
 
 
 def opposite(field: Mapping[str, Surface], first: Surface, *, count: int = 3) -> Surface:

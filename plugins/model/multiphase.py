@@ -1,12 +1,9 @@
 """Segmentation into several regions."""
 
-from typing import Annotated
-
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.variational.model import Model
 from surfexp.variational.models.multiphase import MultiphaseSegmentation
 
 METRICS = {
@@ -19,12 +16,13 @@ METRICS = {
 }
 
 
-@register("model", "multiphase", metrics=METRICS, defaults_of=MultiphaseSegmentation)
-def multiphase_model(
-    *,
-    regions: Annotated[int, Field(ge=2, le=64, description="number of regions")],
-    smoothness: Annotated[float, Field(gt=0, description="weight of the length of the boundaries, without unit")],
-    updates: Annotated[int, Field(ge=1, le=1000, description="largest number of updates of the means")],
-) -> Model:
-    """Convex relaxation of the segmentation into k regions, grey or coloured, with updated means."""
-    return MultiphaseSegmentation(regions=regions, smoothness=smoothness, updates=updates)
+register(
+    "model",
+    "multiphase",
+    metrics=METRICS,
+    options={
+        "regions": Field(ge=2, le=64, description="number of regions"),
+        "smoothness": Field(gt=0, description="weight of the length of the boundaries, without unit"),
+        "updates": Field(ge=1, le=1000, description="largest number of updates of the means"),
+    },
+)(MultiphaseSegmentation)

@@ -117,7 +117,7 @@ def _summed(table: Floats) -> dict[str, float]:
 
 
 def missing_by_kind(statistics: Mapping[Member, Statistic]) -> Statistic:
-    """Count over all meshes of a kind, with the interval of Clopper and Pearson at 95 %.
+    """Count runs that leave an eigenpair out over all meshes of a kind, with the interval of Clopper and Pearson at 95 %.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ RULES = ("proved", "order, skewness", "order, largest value")
 def agreed_signs(
     surfaces: Mapping[Member, Surface], systems: Mapping[Member, EigenSystem], count: int = 50
 ) -> Statistic:
-    """Rate signs on modes that both maps call their own counterpart with the same sign, of all pairs of people.
+    """Rate signs of modes where the functional map and the map in space agree on them, for all pairs of people.
 
     Nobody knows the truth of people; where two maps agree that look at different things, they are taken for it.
 

@@ -15,7 +15,7 @@ TRUST = 0.9
 
 
 def count_agreement(reference: Signature, others: Mapping[str, Signature], part: str = "") -> Statistic:
-    """Compare count sequences with that of a reference, mode by mode.
+    """Compare nodal counts with those of a reference mesh, mode by mode.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ def callosum(
     turn: float = 0.0,
     signal: float | None = None,
 ) -> Surface:
-    """A flat patch of about 2,000 vertices with the staircase edge of a mask; x is forward, y up, in mm.
+    """Synthetic corpus callosum: a flat patch with the staircase edge of a mask, some 2,000 vertices; x is forward, y up, in mm.
 
     Parameters
     ----------

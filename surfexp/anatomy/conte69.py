@@ -19,7 +19,7 @@ WHOLE = 32_492
 
 
 def conte69(hemisphere: str = "left", sheet: str = "midthickness") -> Surface:
-    """Return one hemisphere without its medial wall, some 29,300 of 32,492 vertices, in mm.
+    """Return one hemisphere of conte69 without its medial wall, some 29,300 of 32,492 vertices, in mm; needs brainspace.
 
     Parameters
     ----------

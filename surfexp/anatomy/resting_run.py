@@ -34,7 +34,7 @@ def resting_run(hemisphere: str) -> tuple[Floats, Floats]:
 
 
 def resting_fsaverage5(hemisphere: Hemisphere = "left", sheet: str = "white") -> Surface:
-    """Return fsaverage5 where the run varies and the cortex has a thickness: without the medial wall, in mm.
+    """Return fsaverage5 where a run at rest varies and the cortex has a thickness, in mm; needs brainspace.
 
     Raises
     ------

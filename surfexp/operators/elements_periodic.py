@@ -19,7 +19,7 @@ SHAPES = {"square": FlatTorus(), "hexagonal": FlatTorus((1.0, 0.0), (-0.5, 0.75*
 
 
 def periodic_surface(n: int = 40, lattice: Lattice = "square") -> Surface:
-    """Return a grid on the plane modulo a lattice with unit periods.
+    """Return a grid on the plane modulo a lattice with unit periods, for the operator `periodic`.
 
     Parameters
     ----------

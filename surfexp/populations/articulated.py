@@ -68,7 +68,7 @@ BODIES: dict[str, list[tuple[float, ...]]] = {
 
 
 def articulated_body(body: str = "biped", pose: int = 0, bending: float = 1.0, vertices: int = 2000) -> Surface:
-    """Pose a body of the given kind and mesh its skin.
+    """Mesh the skin of a body with bones in one of many nearly isometric poses; closed, genus 0.
 
     Every bone keeps its length and thickness and turns at its joint, so that poses are isometric but for the skin near
     joints. Where limbs of a pose would touch, all its turns become smaller until the skin is a sphere in topology.

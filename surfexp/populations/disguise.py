@@ -29,7 +29,7 @@ def disguise(
     remeshed: bool = False,
     seed: int = 0,
 ) -> Surface:
-    """Change what a comparison by shape must not depend on; scalar maps go along.
+    """Shuffle, turn, scale, bend or mesh anew, on which a comparison by shape must not depend; scalar maps go along.
 
     Parameters
     ----------

@@ -90,7 +90,7 @@ def neighbour_embedding(matrix: DistanceMatrix, dimensions: int = 2, seed: int =
 
 
 def manifold_embedding(matrix: DistanceMatrix, dimensions: int = 2, seed: int = 0) -> PointEmbedding:
-    """Embed by UMAP (McInnes, Healy and Melville 2018), which keeps neighbourhoods and no distances.
+    """Embed by UMAP (McInnes, Healy and Melville 2018), which keeps neighbourhoods and no distances; needs umap-learn.
 
     Raises
     ------

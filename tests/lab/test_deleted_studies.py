@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 STUDIES = sorted(file.parent.name for file in (ROOT / "studies").glob("*/__init__.py"))
@@ -58,15 +59,16 @@ def copied_without(deleted: list[str], folder: Path) -> list[str]:
     gone = set().union(*map(own_plugins, deleted))
     files = sorted((folder / "surfexp/conf/experiment").glob("*.yaml"))
     for file in files:
-        if gone & words_of(file.read_text()):
+        if gone & words_of(yaml.safe_load(file.read_text())):
             file.unlink()
     return [file.stem for file in files if file.exists()]
 
 
-def words_of(text: str) -> set[str]:
-    """The words of an experiment, comments aside."""
-    lines = (line.partition(" #")[0] for line in text.splitlines() if not line.lstrip().startswith("#"))
-    return {word.strip("'\"") for line in lines for word in line.replace(",", " ").replace("}", " ").split()}
+def words_of(part: object) -> set[str]:
+    """All keys and texts of an experiment."""
+    if isinstance(part, dict):
+        return set(map(str, part)).union(*map(words_of, part.values()))
+    return set().union(*map(words_of, part)) if isinstance(part, list) else {str(part)}
 
 
 def planned_without(

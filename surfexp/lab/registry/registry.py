@@ -79,13 +79,13 @@ def register(
     function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
-    `options` registers a function of the library as it stands, `register("surface", "cube", options={"cells": Field(ge=1)})(cube)`:
-    of its parameters these are options, each with its bounds; types and defaults are those of the signature. `names` says
-    what an experiment calls a parameter where the function calls it otherwise: `names={"matrix": "distance_matrix"}`.
+    `options` registers a function or class of the library as it stands: `register("model", "rof", options={"w":
+    Field(gt=0)})(ROF)`. Of its parameters these are options, each with its bounds; types and defaults are those of the
+    signature. `names` says what an experiment calls a parameter where the function calls it otherwise: `names={"matrix":
+    "distance_matrix"}`.
     `exports` writes further files when a result is exported: it is called with a folder and with what the function is
     called with, and yields the name of each file, from which that in the export is made, and its path.
     """
-
     caller = inspect.currentframe()
     assert caller is not None and caller.f_back is not None  # noqa: S101, narrows a type
     file = Path(caller.f_back.f_code.co_filename).resolve()

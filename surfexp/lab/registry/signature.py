@@ -70,7 +70,9 @@ def options_and_inputs(
     UserError
         If a parameter is neither, the same default stands twice, or a chosen option is no parameter.
     """
-    hints = get_type_hints(function, include_extras=True)
+    hints = get_type_hints(
+        vars(function).get("__init__", function), include_extras=True
+    )  # of a class, its constructor's
     described = _described(inspect.getdoc(function) or "")
     inputs, fields = dict[str, Input](), dict[str, Any]()
     parameters = inspect.signature(function).parameters

@@ -44,7 +44,7 @@ def _radius_excess(points: Floats, waves: Floats, phases: Floats, depth: float, 
 
 
 def cortex(form: Literal["smooth", "folded"] = "folded", count: int = 39994, seed: int = 0) -> Surface:
-    """Ellipsoid with narrow sulci along the zero lines of a random field of one wavelength.
+    """Ellipsoid, smooth or with narrow sulci along the zero lines of a random field of one wavelength; closed, genus 0.
 
     The surface is the radial graph r(d) = 1 - depth / (1 + (s(d) / width)^2) over the directions d, stretched to the
     semiaxes 0.85, 1.1, 0.95, so it cannot intersect itself; s = g / |grad g| is about the distance from a zero line.
