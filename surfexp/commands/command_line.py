@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
-    except (UserError, StageFailure, MissingExtra, OSError) as error:
+    except (UserError, StageFailure, MissingExtra, OSError, MemoryError) as error:
         return tell(error)
     except Exception as error:
         if isinstance(error, ImportError) and (missing := missing_module(error)):
