@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         return tell(mistake(error))
     except (KeyboardInterrupt, click.Abort):
-        print(processes.INTERRUPTED, file=sys.stderr)
+        print(processes.interrupted(), file=sys.stderr)
         return 130
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
