@@ -41,12 +41,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         return tell(mistake(error))
     except (KeyboardInterrupt, click.Abort):
-        print(processes.INTERRUPTED, file=sys.stderr)
+        print(processes.interrupted(), file=sys.stderr)
         return 130
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 0
-    except (UserError, StageFailure, MissingExtra, OSError) as error:
+    except (UserError, StageFailure, MissingExtra, OSError, MemoryError) as error:
         return tell(error)
     except Exception as error:
         if isinstance(error, ImportError) and (missing := missing_module(error)):

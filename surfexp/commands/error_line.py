@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import sys
@@ -13,19 +14,34 @@ from surfexp.lab.errors import StageFailure
 LONGEST_WORD, LONGEST_LINE = 80, 290
 # the names alone: what a message says after them is its reason and stays
 CHOICES = re.compile(r"((?:choose from|one of): )([^\s,;:()]+(?:, [^\s,;:()]+)+)")
+# a full disk, a quota, a limit of the size of files
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 def tell(error: Exception) -> int:
     """Print an expected error on stderr, a line for each of its lines, and return its exit code."""
     if os.environ.get("SURFEXP_DEBUG"):
         traceback.print_exc()
-    for line in str(error).splitlines():
+    lack = lacking(error)
+    for line in (lack or str(error)).splitlines():
         print(f"surfexp: {error_line(line)}", file=sys.stderr)
-    return 1 if isinstance(error, StageFailure) else 2
+    return 1 if lack or isinstance(error, StageFailure) else 2
+
+
+def lacking(error: BaseException) -> str:
+    """Say what the machine has too little of, room for a file or memory; nothing where it is not to blame."""
+    if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
+        said = next(iter(str(error).splitlines()), "")
+        return f"too little memory{f' ({said})' if said else ''}: take a smaller mesh, or a machine with more"
+    if isinstance(error, OSError) and error.errno in FULL:
+        what = error.filename or "what is printed"
+        return f"{what} cannot be written ({error.strerror}): free some space, then the same command again"
+    return ""
 
 
 def error_line(text: str) -> str:
-    """Return a line with the middle of long words and the end of a long list of choices left out."""
+    """Return a line with the middle of long words and the end of a long list of choices left out; control codes are shown."""
+    text = "".join(sign if sign.isprintable() else ascii(sign)[1:-1] for sign in text)
     line = re.sub(rf"[^\s:;,]{{{LONGEST_WORD + 1},}}", _shortened, text)
     over = len(line) - LONGEST_LINE
     return CHOICES.sub(lambda found: found[1] + _first_names(found[2], over), line) if over > 0 else line

@@ -15,8 +15,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-INTERRUPTED = "interrupted; finished stages are kept, run the same command to continue"
-_state = {"interrupted": False, "starting": False}
+_state = {"interrupted": False, "starting": False, "driven": False}
 _running: list[subprocess.Popen[bytes]] = []
 
 
@@ -25,6 +24,11 @@ def end_on_signals() -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is not signal.SIG_IGN:  # nohup, or a shell's background job
             signal.signal(number, _interrupt)
+
+
+def interrupted() -> str:
+    """Return what is true of a command that was interrupted: only a run has stages to keep."""
+    return "interrupted" + ("; finished stages are kept, run the same command to continue" if _state["driven"] else "")
 
 
 def drive(
@@ -39,6 +43,7 @@ def drive(
     `follow` shows the running process and returns when it has ended. `grace` is how many seconds it has to call its jobs
     off a cluster when the run is interrupted. Raises KeyboardInterrupt then; `options` are those of Popen.
     """
+    _state["driven"] = True
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("w") as sink:
         _state["starting"] = True  # an exception inside Popen would leave a child that nobody knows
@@ -55,7 +60,7 @@ def drive(
                 process.send_signal(signal.SIGINT)
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     process.wait(grace)
-            _kill(process)
+            end_session(process)
             process.wait()
             _running.remove(process)
     if _state["interrupted"]:  # wherever the exception was lost
@@ -66,14 +71,15 @@ def drive(
 def _interrupt(number: int, frame: Any) -> None:
     if _state["interrupted"]:
         for process in _running:
-            _kill(process)
-        os.write(2, f"{INTERRUPTED}\n".encode())
+            end_session(process)
+        os.write(2, f"{interrupted()}\n".encode())
         os._exit(130)
     _state["interrupted"] = True
     if not _state["starting"]:
         raise KeyboardInterrupt
 
 
-def _kill(process: subprocess.Popen[bytes]) -> None:
+def end_session(process: subprocess.Popen[bytes]) -> None:
+    """Kill a process that leads a session, with all that it has started."""
     with contextlib.suppress(ProcessLookupError, PermissionError):
         os.killpg(process.pid, signal.SIGKILL)

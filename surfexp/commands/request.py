@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.table import Table
 
 from surfexp.commands.arguments import check_arguments
+from surfexp.commands.error_line import lacking
 from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.commands.several_experiments import apart, each
 from surfexp.lab.errors import StageFailure, UserError
@@ -43,6 +44,8 @@ def _one_experiment(name: str, arguments: list[str]) -> int:
         if search and plans:
             _tell(plans[-1], doubtful, arguments)
     except OSError as error:
+        if lacking(error):
+            raise
         remedy = "choose another results folder with results=FOLDER"
         raise UserError(f"{error.filename or 'results'}: {error.strerror or error}; {remedy}") from error
     from surfexp.report.convergence import UNCONVERGED
@@ -136,7 +139,8 @@ def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     if search := search_of(rows, plan.settings.objective, shlex.join(["surfexp", "run", *arguments])):
         console.print(f"search     {search.sentence}", soft_wrap=True)
         console.print(f"again      {search.command}", soft_wrap=True)
-    console.print(f"report     {results / plan.settings.experiment / 'report.html'}", soft_wrap=True)
+    page = results / plan.settings.experiment / "report.html"
+    console.print(f"report     {page if page.exists() else 'not written'}", soft_wrap=True)
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
     lines = unconverged(plan, results.resolve(), groups)

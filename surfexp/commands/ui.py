@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.processes import end_session
 from surfexp.lab.errors import UserError
 
 
@@ -35,6 +36,15 @@ def ui(port: int, results: Path) -> int:
     server = [sys.executable, "-P", "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port)]
     environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
     arguments = ["--backend-store-uri", tracking_uri(results), "--workers", "1"]
-    return subprocess.call(  # noqa: S603, this interpreter, a path and a port, no shell
-        [*server, *arguments], env=environment
-    )
+    return served([*server, *arguments], environment)
+
+
+def served(command: list[str], environment: dict[str, str]) -> int:
+    """Run a server until it ends, or this process is told to; nothing that the server has started is left."""
+    with subprocess.Popen(  # noqa: S603, this interpreter, a path and a port, no shell
+        command, env=environment, start_new_session=True
+    ) as process:
+        try:
+            return process.wait()
+        finally:
+            end_session(process)

@@ -17,7 +17,7 @@ from xml.parsers import expat
 from surfexp.io.cifti import is_cifti
 from surfexp.io.freesurfer_sizes import VOLUMES, check_annotation, check_volume
 from surfexp.io.gifti import POINTS, TRIANGLES, is_gifti
-from surfexp.io.numbers import LARGEST_BYTES
+from surfexp.io.unpacked_sizes import NUMBER_BYTES, check_nifti, check_unpacked
 
 # of the GIFTI standard
 MOST_DIMENSIONS = 6
@@ -25,14 +25,13 @@ LARGEST_COUNT = 1 << 28
 PIECE = 1 << 20
 # NIfTI-2: bytes of the header, and of the flag of extensions behind it
 HEADER, FLAG = 540, 4
-NUMBER_BYTES = {2: 1, 4: 2, 8: 4, 16: 4, 32: 8, 64: 8, 256: 1, 512: 2, 768: 4, 1024: 8, 1280: 8, 1792: 16}
 # NaN is written for every vertex that a hemisphere is said to have
 MOST_VERTICES = 1 << 26
 COUNTS = re.compile(rb"""(SurfaceNumberOfVertices|IndexCount|NumberOfSeriesPoints)\s*=\s*["'](\d+)["']""")
 
 
 def check_declared_sizes(path: Path) -> None:
-    """Refuse a GIFTI, CIFTI, .mgh or .annot file whose declared sizes cannot be true; others, and what is none, pass.
+    """Refuse a GIFTI, CIFTI, NIfTI, .mgh or .annot file whose declared sizes cannot be true; others, and what is none, pass.
 
     Raises
     ------
@@ -43,6 +42,8 @@ def check_declared_sizes(path: Path) -> None:
         _check_gifti(path)
     elif is_cifti(path):
         _check_cifti(path)
+    elif path.name.lower().endswith((".nii", ".nii.gz")):
+        check_nifti(path)
     elif path.suffix.lower() in VOLUMES:
         check_volume(path)
     elif path.suffix == ".annot":
@@ -69,8 +70,7 @@ def _check_gifti(path: Path) -> None:
         with opened(path, "rb") as stream:
             while not refused and (piece := stream.read(PIECE)):
                 parser.Parse(piece)
-                if (read := read + len(piece)) > LARGEST_BYTES:
-                    raise ValueError(f"unpacked it has over {LARGEST_BYTES} bytes, the most that is read")
+                check_unpacked(read := read + len(piece), path.stat().st_size)
     except (expat.ExpatError, OSError, EOFError, LookupError, zlib.error):
         pass  # not XML, or cut off: the reader of the format says so
     if refused:

@@ -7,7 +7,7 @@ import struct
 import zlib
 from pathlib import Path
 
-from surfexp.io.numbers import LARGEST_BYTES
+from surfexp.io.unpacked_sizes import check_unpacked
 
 VOLUMES = (".mgh", ".mgz")
 # of the .mgh format: where the data begin, and bytes of a number by type
@@ -32,8 +32,7 @@ def check_volume(path: Path) -> None:
         with (gzip.open if path.suffix.lower() == ".mgz" else open)(path, "rb") as stream:
             while piece := stream.read(PIECE):
                 head, size = head or piece[:24], size + len(piece)
-                if size > LARGEST_BYTES:
-                    raise ValueError(f"unpacked it has over {LARGEST_BYTES} bytes, the most that is read")
+                check_unpacked(size, path.stat().st_size)
     except (OSError, EOFError, zlib.error):
         return  # cut off: the reader says so
     if len(head) < 24:

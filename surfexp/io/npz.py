@@ -12,6 +12,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.numbers import checked_geometry, real_array
+from surfexp.io.unpacked_sizes import check_arrays
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
@@ -23,6 +24,7 @@ def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
     ValueError
         If the file is broken or holds objects.
     """
+    check_arrays(path)
     with parsing("array file"):
         loaded = np.load(path, allow_pickle=False)
     if isinstance(loaded, np.ndarray):

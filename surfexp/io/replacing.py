@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from collections.abc import Iterator
@@ -24,6 +25,8 @@ def replacing(target: Path) -> Iterator[Path]:
     ------
     ValueError
         As `check_writable`.
+    OSError
+        With the file's name, as where the disk is full.
     """
     check_writable(target)
     if target.exists() and not target.is_file():
@@ -32,9 +35,14 @@ def replacing(target: Path) -> Iterator[Path]:
     place = target.resolve()
     with tempfile.TemporaryDirectory(prefix=".writing-", dir=place.parent) as folder:
         temporary = Path(folder) / target.name
-        yield temporary
-        with temporary.open("rb") as written:
-            os.fsync(written.fileno())
+        try:
+            yield temporary
+            with temporary.open("rb") as written:
+                os.fsync(written.fileno())
+        except OSError as error:
+            # numpy says without a number that less was written than was asked for
+            said = error.strerror or "no room for the whole file"
+            raise OSError(error.errno or errno.ENOSPC, said, str(target)) from error
         if place.exists():
             temporary.chmod(place.stat().st_mode & 0o777)
         temporary.replace(place)

@@ -17,6 +17,8 @@ MISTAKES = {
     "a: [": "line 1: not YAML: expected the node content",
     "title: x\n\tx: 1\n": "line 2: not YAML: found character",
     "a: \x00": "special characters are not allowed",
+    'title: "x\\e[2J"\n': "line 1: the text holds the control code '\\x1b', which steers a terminal",
+    '"x\\e": 1\n': "line 1: the text holds the control code '\\x1b', which steers a terminal",
     "a: &a [*a]\n": "line 1: an alias stands inside of what it is an alias of",
     "experiment: sent\nsurface:\n  name: cup\n  name: torus\n": "line 4: key 'name' stands there twice",
     BOMB: "its aliases unfold to over 100,000 entries",

@@ -6,6 +6,7 @@ that the check below would stay.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from surfexp.lab.errors import UserError
 
 # entries with all aliases written out; the longest experiment has some 700
 LARGEST = 100_000
+# all but tabulators and ends of lines
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
 def read_yaml(file: Path) -> dict[str, Any]:
@@ -22,8 +25,8 @@ def read_yaml(file: Path) -> dict[str, Any]:
     Raises
     ------
     UserError
-        If it is no UTF-8, no YAML or no mapping, has a key twice, or its aliases unfold to over 100,000 entries; with
-        the line where that is.
+        If it is no UTF-8, no YAML or no mapping, has a key twice, a text with control codes, or aliases that unfold to over
+        100,000 entries; with the line where that is.
     """
     import yaml
 
@@ -89,12 +92,15 @@ def _check(node: Any, file: Path, sizes: dict[int, int], above: tuple[int, ...])
     if isinstance(node, yaml.MappingNode):
         seen: set[str] = set()
         for key in [key for key, _ in node.value if isinstance(key, yaml.ScalarNode)]:
+            _check(key, file, sizes, (*above, id(node)))
             if key.value in seen:
                 raise UserError(f"{file}, line {key.start_mark.line + 1}: key {_line(key.value)!r} stands there twice")
             seen.add(key.value)
         size += sum(_check(value, file, sizes, (*above, id(node))) for _, value in node.value)
     elif isinstance(node, yaml.SequenceNode):
         size += sum(_check(value, file, sizes, (*above, id(node))) for value in node.value)
+    if isinstance(node, yaml.ScalarNode) and (codes := CONTROL.findall(node.value)):
+        raise UserError(f"{where}: the text holds the control code {codes[0]!a}, which steers a terminal: remove it")
     if size > LARGEST:
         raise UserError(f"{where}: its aliases unfold to over {LARGEST:,} entries")
     sizes[id(node)] = size

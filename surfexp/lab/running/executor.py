@@ -5,6 +5,7 @@ Nothing is polled: a thread for each warm process waits for its replies and call
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -77,7 +78,8 @@ class WarmProcess:
         reason = f"the process that forks stages ended: {death(self.process.wait())}"
         results = self.plan_path.parent.parent
         for key, info in self.jobs.items():
-            write_death(results, read_plan(self.plan_path).nodes[key], reason)
+            with contextlib.suppress(OSError):  # on a full disk Snakemake has to hear of it all the same
+                write_death(results, read_plan(self.plan_path).nodes[key], reason)
             self.executor.report_job_error(info, msg=reason)
 
     def end(self, kill: bool = False) -> None:
@@ -127,8 +129,9 @@ class Executor(RealExecutor):
         )
         record.data_collected, record.cpu_usage = True, 100.0 * reply["processor"]
         if info.job.benchmark:
-            Path(str(info.job.benchmark)).parent.mkdir(parents=True, exist_ok=True)
-            write_benchmark_records([record], str(info.job.benchmark), False)
+            with contextlib.suppress(OSError):  # what is not written there is no reason to wait for ever
+                Path(str(info.job.benchmark)).parent.mkdir(parents=True, exist_ok=True)
+                write_benchmark_records([record], str(info.job.benchmark), False)
         if reply["code"]:
             self.report_job_error(info)
         else:

@@ -87,7 +87,11 @@ class Server:
             if not child:
                 return
             key, started = self.running.pop(child)
-            code = finished(self.plan_path, self.plan, key, status, usage)
+            try:
+                code = finished(self.plan_path, self.plan, key, status, usage)
+            except OSError as error:  # of a full disk: the stage has failed, the others may still end
+                print(f"what became of {key} cannot be written: {error.strerror}", file=sys.stderr)
+                code = 1
             reply = {"key": key, "code": code, "seconds": time.monotonic() - started}
             reply |= {"processor": usage.ru_utime + usage.ru_stime, "memory": usage.ru_maxrss / 1024.0}
             os.write(self.replies, json.dumps(reply).encode() + b"\n")
