@@ -167,8 +167,9 @@ def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:
 def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Literal["heat"] = "heat") -> DenoisedMap:
     """Smooth a map by heat flow on the surface, as wide as a Gaussian kernel of a given full width at half maximum.
 
-    On a plane heat flow for the time t is convolution with a Gaussian of variance 2 t; t = width^2 / (16 ln 2). The kernel
-    has the full width within 1 / k^2 where that is k edges: 1 % from 10 edges on, 3 % at 6.
+    On a plane heat flow for the time t is convolution with a Gaussian of variance 2 t; t = width^2 / (16 ln 2). The variance
+    of the kernels is that of this width within 1 % in the mean, from two edges on. Their half maximum lies at the width within
+    1 / k^2 where that is k edges: 1 % from 10 edges on, 3 % at 6.
 
     Parameters
     ----------

@@ -14,11 +14,15 @@ from surfexp.mesh.given_arrays import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
+from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.hermitian import hermitian_pairs
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.slicing import Progress
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+
+# largest residual that any request may have, and that of pairs which are right to rounding, over the norm of A
+LOOSEST, ROUNDING = 1e-2, 1e-13
 
 
 def eigenpairs(
@@ -117,7 +121,7 @@ def eigsh(
     ncv, maxiter : int, optional
         Accepted and not needed.
     tol : float
-        Largest relative residual; 0 means 1e-8.
+        Largest relative residual; 0 means 1e-8, or rounding (1e-13 of the norm of A) where that is more.
     return_eigenvectors : bool
         False: the values alone.
     Minv, OPinv : sparse or LinearOperator, optional
@@ -154,13 +158,7 @@ def eigsh(
     mass = csr_array((np.ones(n), (np.arange(n),) * 2), shape=A.shape) if M is None else _sparse(M, "M")
     sizes = _largest_entry(A, "A"), _largest_entry(mass, "M")
     pencil = csr_array(A) / sizes[0], csr_array(mass) / sizes[1]
-    tolerance = tol or 1e-8
-    vectors: NDArray[np.float64] | NDArray[np.complex128]
-    if any(np.iscomplexobj(matrix) for matrix in pencil):
-        values, vectors = hermitian_pairs(*pencil, k, tolerance)
-    else:
-        system = matrix_eigenpairs(*pencil, k, tolerance=tolerance)
-        values, vectors = system.values, np.ascontiguousarray(system.vectors)
+    values, vectors = _pencil_pairs(*pencil, k, tol)
     # one factor after the other: their quotient may be beyond the largest number where the values are not
     values, vectors = values * sizes[0] / sizes[1], vectors / np.sqrt(sizes[1])
     if not np.isfinite(values).all():
@@ -168,6 +166,40 @@ def eigsh(
             f"A has entries up to {sizes[0]:.0e}, M up to {sizes[1]:.0e}: eigenvalues overflow, scale them"
         )
     return (values, vectors) if return_eigenvectors else values
+
+
+def _pencil_pairs(
+    a: csr_array, m: csr_array, k: int, tol: float
+) -> tuple[Floats, NDArray[np.float64] | NDArray[np.complex128]]:
+    """Solve to the tolerance; where none is given and rounding forbids 1e-8, to what rounding allows.
+
+    Values that are small beside the largest ones have few digits: no method knows them better than to rounding of A.
+    """
+    try:
+        return _solved(a, m, k, tol or 1e-8)
+    except EigensolverError as error:
+        problem = error
+    if not tol:
+        try:
+            values, vectors = _solved(a, m, k, LOOSEST)
+        except EigensolverError as error:
+            problem = error
+        else:
+            errors = np.linalg.norm(a @ vectors - (m @ vectors) * values, axis=0) / np.linalg.norm(vectors, axis=0)
+            if errors.max() <= ROUNDING * float(abs(a).sum(axis=1).max()):
+                return values, vectors
+    # the way out that is told for surfaces is none for a pencil
+    fact = str(problem).rpartition(": ")[0] or str(problem)
+    raise EigensolverError(f"{fact}: A must be positive semidefinite, M definite and well scaled, or give a larger tol")
+
+
+def _solved(
+    a: csr_array, m: csr_array, k: int, tolerance: float
+) -> tuple[Floats, NDArray[np.float64] | NDArray[np.complex128]]:
+    if any(np.iscomplexobj(matrix) for matrix in (a, m)):
+        return hermitian_pairs(a, m, k, tolerance)
+    system = matrix_eigenpairs(a, m, k, tolerance=tolerance)
+    return system.values, np.ascontiguousarray(system.vectors)
 
 
 def _largest_entry(matrix: Any, name: str) -> float:

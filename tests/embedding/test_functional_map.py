@@ -43,6 +43,21 @@ def test_zoomout_is_the_published_one_and_not_its_adjoint(seed: int) -> None:
     assert (rows != published(*scaled, areas[1], start, sizes, adjoint=True)).mean() > 0.2
 
 
+def test_zoomout_weighs_samples_by_their_own_areas() -> None:
+    rng = np.random.default_rng(11)
+    source, target = system(90, 8, 1), system(70, 8, 2)
+    areas = rng.uniform(0.5, 2.0, 90), 10.0 ** rng.uniform(-2.0, 2.0, 70)
+    start = rng.integers(0, 90, 70)
+    phi, psi = source.vectors * np.sqrt(areas[0].sum()), target.vectors * np.sqrt(areas[1].sum())
+    some = np.sort(np.random.default_rng(0).choice(70, 30, replace=False))
+    rows = published(phi, psi, areas[1], start, range(4, 5), adjoint=False)
+    for size in (6, 8):
+        root = np.sqrt(areas[1][some])[:, None]
+        matrix = lstsq(root * psi[some, :size], root * phi[rows[some], :size])[0]
+        rows = cdist(psi[:, :size], (matrix @ phi[:, :size].T).T).argmin(axis=1)
+    assert (zoomout(source, target, areas, start, 4, 8, 2, samples=30) == rows).all()
+
+
 def test_a_map_that_loses_modes_is_undone_in_one_direction_only() -> None:
     rng = np.random.default_rng(3)
     source = rng.normal(size=(200, 6))

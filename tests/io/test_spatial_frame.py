@@ -10,6 +10,7 @@ import pytest
 from nibabel.freesurfer import read_geometry, write_geometry
 
 import surfexp as sx
+from surfexp.io.gifti import write_gifti
 from surfexp.mesh.shapes.icosphere import icosphere
 
 MESH = icosphere(1).mesh
@@ -59,3 +60,18 @@ def test_gifti_transform_metadata_and_maps_are_carried(tmp_path: Path) -> None:
     assert (array.coordsys.dataspace, array.coordsys.xformspace) == (1, 3)
     assert array.metadata["GeometricType"] == "Anatomical"
     assert "coordinate transforms" in surface.frame.lost_in("PLY") and surface.frame.lost_in("GIFTI") == ""
+
+
+@pytest.mark.parametrize("place", ["image", "array"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_the_hemisphere_of_a_gifti_is_read_wherever_it_stands(tmp_path: Path, place: str, side: str) -> None:
+    """Workbench writes it beside the file's other facts, FreeSurfer beside the positions; the name says nothing here."""
+    path = tmp_path / "some.surf.gii"
+    write_gifti(path, MESH, side)
+    image = nibabel.load(path)
+    said = {"AnatomicalStructurePrimary": f"Cortex{side.title()}"}
+    image.meta = nibabel.gifti.GiftiMetaData(said if place == "image" else {})
+    for array in image.darrays:
+        array.meta = nibabel.gifti.GiftiMetaData(said if place == "array" else {})
+    nibabel.save(image, path)
+    assert sx.read(path).hemisphere == side

@@ -136,3 +136,11 @@ def test_pairs_with_an_unknown_end_do_not_count() -> None:
     assert pairs.of(values)[0] == 0.5 * 2.0 + 0.25 * 8.0
     null = np.array([np.nan, 0.0, 2.0, 4.0])[:, None]
     np.testing.assert_allclose(variogram_error(pairs, values, null), abs(2.0 - 3.0) / 3.0)
+
+
+def test_the_error_of_a_variogram_is_a_root_mean_square_over_lags() -> None:
+    lags = np.arange(1.0, 6.0)
+    pairs = VariogramPairs(np.zeros(5, np.int64), np.arange(1, 6), lags, np.eye(5))
+    values, null = np.array([0.0, 2.0, 2.0, 2.0, 2.0, 2.0]), np.array([0.0, 2.0, 2.0, 2.0, 2.0, 4.0])[:, None]
+    # half the squares are 2 everywhere, and 8 at the last lag of the null
+    np.testing.assert_allclose(variogram_error(pairs, values, null), np.sqrt(36.0 / 5.0) / 2.0)

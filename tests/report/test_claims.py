@@ -235,3 +235,15 @@ def measured() -> Row:
     method = registry.plugin("statistic", "operator_errors")
     metrics = method({}, surface=surface, operator=fem(surface.mesh)).metrics
     return Row(Leaf("key", "fem", {}), {"operator.name": "fem"}, metrics, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("between", "energy", "word"),
+    [
+        ([2.0, 3.0], 2.0, "reproduced"), ([1.0, 2.0], 2.0, "reproduced"), ([2.0, 2.0], 2.0, "reproduced"),
+        ([None, 2.0], 2.0, "reproduced"), ([2.0, None], 2.0, "reproduced"),
+        ([2.0 + 1e-12, 3.0], 2.0, "not reproduced"), ([1.0, 2.0 - 1e-12], 2.0, "not reproduced"),
+    ],
+)  # fmt: skip
+def test_the_ends_belong_to_the_interval(between: list[float | None], energy: float, word: str) -> None:
+    assert judged(CLAIM | PUBLISHED | {"between": between}, row("a", energy=energy)).verdict == word

@@ -36,6 +36,14 @@ def test_the_diagonal_of_a_folded_square_is_unfolded(angle: float) -> None:
     assert found == pytest.approx(found.T)
 
 
+@pytest.mark.parametrize("beyond", [-0.5, 1.5])
+def test_a_diagonal_that_leaves_its_triangles_is_none(beyond: float) -> None:
+    """Two triangles on one edge whose tips lie beyond one of its ends: the way from tip to tip bends at that end."""
+    points = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [beyond, 0.5, 0.0], [beyond, -0.5, 0.0]])
+    found = near_distances(TriangleMesh(points, np.array([[0, 1, 2], [1, 0, 3]])), 10.0).toarray()
+    assert found[2, 3] == pytest.approx(2.0 * np.hypot(0.5, 0.5))
+
+
 def test_a_limit_is_kept_and_nothing_below_it_is_lost() -> None:
     sphere = icosphere(3).mesh
     some, all_of_them = near_distances(sphere, 0.7).toarray(), near_distances(sphere, 10.0).toarray()

@@ -7,6 +7,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.fem import fem
 
 BALL = sx.shape("icosphere", levels=3)
@@ -103,3 +104,15 @@ def test_islands_are_named_and_left_out(method: str) -> None:
     assert np.isnan(nulls.values[642:]).all() and np.isfinite(nulls.values[:642]).all()
     assert "1 islands of few vertices (3 at vertex 642)" in nulls.notes[-1]
     assert np.array_equal(nulls.values[:642], sx.null_maps(BALL, Z, 9, method=method, modes=25).values)  # type: ignore[arg-type]
+
+
+def test_the_share_in_modes_is_one_of_variance_by_area() -> None:
+    """On a ball whose faces differ in size by far: the map is the sum of a mode and of what no low mode holds."""
+    stretched = TriangleMesh(BALL.mesh.vertices * [1.0, 1.0, 6.0], BALL.mesh.faces)
+    system = sx.eigenpairs(stretched, 30)
+    mass = mass_matrix(fem(stretched))
+    values = system.vectors[:, 1] + 2.0 * system.vectors[:, 29]
+    for shift in (0.0, 7.0):
+        share = sx.null_maps(stretched, values + shift, 3, modes=9).certificate["share_in_modes"]
+        assert share == pytest.approx(0.2, abs=1e-6)
+    assert system.vectors[:, 1] @ (mass @ system.vectors[:, 1]) == pytest.approx(1.0)

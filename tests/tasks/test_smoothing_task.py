@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import surfexp as sx
 from surfexp.mesh.shapes.rectangle import rectangle
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.fem import fem
 from surfexp.smoothing.absurd_values import absurd_values
 
 BALL = sx.shape("icosphere", levels=3)
@@ -38,6 +39,37 @@ def test_a_point_becomes_a_gaussian_of_the_promised_full_width(edges: float, irr
     assert np.sqrt(-4.0 * np.log(2.0) / slope) == pytest.approx(
         width, rel=1.0 / edges**2 + (0.005 if irregular else 0.0)
     )
+
+
+@pytest.mark.parametrize("irregular", [0.0, 0.2])
+@pytest.mark.parametrize("edges", [2.0, 5.0, 12.0, 40.0])
+def test_the_variance_is_that_of_the_promised_width_from_two_edges_on(edges: float, irregular: float) -> None:
+    """Where a kernel spans few vertices its half maximum lies between them; its variance is known all the same.
+
+    The mean over the vertices far from the boundary: on this grid every other vertex has twice the area of its neighbours.
+    """
+    count = 2 * int(2.5 * edges) + 11
+    plane = rectangle(count, count, count - 1.0, count - 1.0).mesh
+    vertices = plane.vertices.copy()
+    inner = ((vertices[:, :2] > 0.5) & (vertices[:, :2] < count - 1.5)).all(axis=1)
+    vertices[inner, :2] += irregular * np.random.default_rng(1).uniform(-1.0, 1.0, (inner.sum(), 2))
+    plane = TriangleMesh(vertices, plane.faces)
+    far = (np.abs(vertices[:, :2] - 0.5 * (count - 1.0)) <= 3.0).all(axis=1)
+    x, mass = vertices[:, 0], fem(plane).mass
+    first, second = (sx.smooth(plane, values, edges).values for values in (x, x**2))
+    variance = np.average((second - 2.0 * x * first + x**2)[far], weights=mass[far])
+    assert np.sqrt(8.0 * np.log(2.0) * variance) == pytest.approx(edges, rel=0.01)
+
+
+@pytest.mark.parametrize("edges", [2.0, 5.0, 12.0])
+def test_on_a_sphere_the_mean_height_of_a_point_decays_as_the_heat_kernel_has_it(edges: float) -> None:
+    ball = sx.shape("icosphere", levels=4)
+    heights, mass = ball.mesh.vertices[:, 2], fem(ball.mesh).mass
+    source = int(np.argmax(heights))
+    width = edges * ball.mesh.edge_length
+    kernel = mass * sx.smooth(ball, np.eye(1, len(heights), source)[0], width).values
+    time = -0.5 * np.log(kernel @ heights / kernel.sum() / heights[source])
+    assert np.sqrt(16.0 * np.log(2.0) * time) == pytest.approx(width, rel=0.01)
 
 
 def test_slivers_are_smoothed_by_steps_and_say_so() -> None:

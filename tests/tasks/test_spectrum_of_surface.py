@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import eigh
 
 import surfexp as sx
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
+from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.fem import fem
 
 BODY = sx.shape("ellipsoid", levels=4)
 ALL = sx.eigenpairs(BODY, 120)
@@ -84,3 +91,53 @@ def test_fewer_pairs_have_the_facts_of_their_own_and_name_a_cluster_that_they_cu
     assert few.metrics["clusters"] == len(few.clusters) == len(alone.clusters)
     assert few.notes == alone.notes and "k = 6 cuts a cluster" in few.notes[0]
     assert spectrum.first(4).notes == ()
+
+
+SMALL = sx.shape("icosphere", levels=2)
+HALF = Surface(SMALL.mesh, mask=SMALL.mesh.vertices[:, 2] > -0.2)
+ASKED = {"multiple": sx.Spectrum(SMALL), "masked": sx.Spectrum(HALF), "lumped": sx.Spectrum(SMALL, mass="lumped")}
+
+
+@cache
+def every_value(name: str) -> np.ndarray:
+    """All eigenvalues by dense algebra, from matrices assembled anew."""
+    asked = ASKED[name]
+    operator = fem(asked.part.mesh)
+    mass = np.diag(operator.mass) if name == "lumped" else mass_matrix(operator).toarray()
+    return eigh(stiffness(operator).toarray(), mass, eigvals_only=True)
+
+
+@settings(max_examples=60)
+@given(
+    st.sampled_from(list(ASKED)),
+    *(st.integers(0, 18), st.integers(0, 12)),
+    *(st.sampled_from([-0.3, -1e-12, 0.0, 1e-12, 0.4]), st.sampled_from([-0.3, -1e-12, 0.0, 1e-12, 0.4])),
+)
+def test_a_random_window_is_complete(name: str, first: int, more: int, below: float, above: float) -> None:
+    """Ends that lie between eigenvalues or on one, simple or multiple: what is returned is what dense algebra has there."""
+    values = every_value(name)
+    low = float(values[first] + below * max(values[first], 1.0))
+    high = float(values[first + more] + above * max(values[first + more], 1.0))
+    if not low < high or 4 * int(((values >= low) & (values <= high * 1.02 + 0.02)).sum() + 8) > len(values):
+        return
+    found = ASKED[name].between(low, high)
+    near = 1e-7 * max(abs(low), abs(high), 1.0)
+    surely = values[(values > low + near) & (values < high - near)]
+    perhaps = values[(values > low - near) & (values < high + near)]
+    assert found.complete and len(surely) <= len(found.values) <= len(perhaps)
+    assert (len(found.values) == len(perhaps)) or len(surely) < len(perhaps)
+    # all that equal an end are in or out together
+    inside = values[(values >= low - 1e-9 * max(abs(low), 1.0)) & (values <= high + 1e-9 * max(abs(high), 1.0))]
+    assert found.values == pytest.approx(inside, rel=1e-7, abs=1e-8)
+
+
+@settings(max_examples=30)
+@given(st.sampled_from(list(ASKED)), st.integers(1, 38))
+def test_the_first_pairs_and_the_counts_are_those_of_dense_algebra(name: str, count: int) -> None:
+    values = every_value(name)
+    found = ASKED[name].first(count)
+    assert found.complete and found.values == pytest.approx(values[:count], rel=1e-7, abs=1e-8)
+    gap = values[count] - values[count - 1]
+    if gap > 0.01 * values[count]:
+        assert ASKED[name].count_below(float(values[count - 1] + 0.5 * gap)) == count
+    assert np.isnan(found.vectors[~np.isin(np.arange(len(SMALL.mesh.vertices)), ASKED[name].part.vertices)]).all()
