@@ -16,6 +16,7 @@ FACE = {
     "geodesic": "surfexp.tasks.skeletons",
     "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
+    "noise": "surfexp.tasks.noise_of_map",
     "null_maps": "surfexp.tasks.null_maps",
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",

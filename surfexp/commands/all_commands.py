@@ -23,6 +23,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
     "Surfaces and maps": {
         "modes": Entry("surface_commands", "Laplace-Beltrami eigenpairs of a surface, proved to be the lowest."),
         "denoise": Entry("map_commands", "Remove the noise of a map by total variation, which keeps its edges."),
+        "noise": Entry("noise", "What noise a map has: level, outliers, correlation."),
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
         "segment": Entry("segment", "Two regions of a surface with a short boundary and a proved lower bound."),
         "skeleton": Entry("surface_commands", "Reeb graph of a map on a surface."),
