@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.files import read as read
     from surfexp.tasks.files import write as write
     from surfexp.tasks.fingerprints import fingerprint as fingerprint
+    from surfexp.tasks.noise_of_map import noise as noise
     from surfexp.tasks.null_maps import null_maps as null_maps
     from surfexp.tasks.pictures import plot as plot
     from surfexp.tasks.repairing import check as check

@@ -17,6 +17,7 @@ FACE = {
     "ldlt": "surfexp.linalg.ldlt",
     "load": "surfexp.experiments",
     "mean_curvature": "surfexp.tasks.skeletons",
+    "noise": "surfexp.tasks.noise_of_map",
     "null_maps": "surfexp.tasks.null_maps",
     "plot": "surfexp.tasks.pictures",
     "read": "surfexp.tasks.files",

@@ -43,7 +43,7 @@ IMPORT: dict[str, str | bytes] = {
     "a loop": "while True:\n    pass",
     "closed files": "import os\nos.closerange(0, 4096)",
     "closed files and a loop": "import os\nos.closerange(0, 4096)\nwhile True:\n    pass",
-    "no kind": REGISTER + "@register('surfaec', 'x')\ndef x():\n    '''X.'''",
+    "no kind": REGISTER + "@register('surfaces', 'x')\ndef x():\n    '''X.'''",
     "a number for a name": REGISTER + "@register('surface', 3)\ndef x():\n    '''X.'''",
     "an option without a type": REGISTER + "@register('surface', 'x1')\ndef x(size=1.0):\n    '''X.'''",
     "no annotations": REGISTER + "@register('surface', 'x2')\ndef x(surface):\n    '''X.'''",

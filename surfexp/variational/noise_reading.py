@@ -1,60 +1,37 @@
-"""What a map says about its noise before it is denoised: its level in spite of ties, and outliers."""
+"""What a map says about its noise before it is denoised: level, correlation, outliers."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.noise_level import NORMAL_MEDIAN, affine_relations, noise_level
+from surfexp.variational.fitted_noise import TIED, VARYING, FittedNoise
+from surfexp.variational.noise_correlation import correlation
+from surfexp.variational.noise_level import NORMAL_MEDIAN, noise_level
+from surfexp.variational.noise_statistics import NoiseStatistics
 
-TIED = 0.05
 ROUNDING = 1e-12
-NEAREST = 3
-# levels; what is 3 standard deviations from its neighbourhood has three neighbours nearer than this
-FAR = 3.0
-FEW_OUTLIERS = 0.002
+PASSES = 4
 
 
-@dataclass(frozen=True, eq=False)
-class NoiseReading:
-    """The noise of a map.
-
-    Parameters
-    ----------
-    level : float
-        Standard deviation, in the unit of the map; 0 only for a map that is affine wherever it varies.
-    step : float
-        Of a map that is rounded; 0 where it is not.
-    tied : float
-        Share of the pairs of triangles on which the map is affine to rounding.
-    outliers : (k,) int64
-        Vertices whose value is far from that of all their neighbours.
-    notes : tuple of str
-        The same in words, where there is something to be said.
-    """
-
-    level: float
-    step: float
-    tied: float
-    outliers: Integers
-    notes: tuple[str, ...] = ()
-
-
-def read_noise(operator: SurfaceOperator, values: Floats, seed: int = 0) -> NoiseReading:
-    """Read the noise from a map: as `noise_level` where few values are tied.
+def read_noise(operator: SurfaceOperator, values: Floats, second: Floats | None = None, seed: int = 0) -> FittedNoise:
+    """Read the noise from a map, or from two measurements of it.
 
     A rounded map is dithered by half a step, for then the deviations are continuous again, and the variance of the
     dither is taken off; its noise counts as not less than that of rounding. In a map that is constant on a large part the
-    level is that of the rest.
+    level is that of the rest. Two measurements have the same map below them: half the square of their difference is
+    that of the noise, and nothing of the map enters.
 
     Parameters
     ----------
     operator : SurfaceOperator
     values : (n,) float64
+    second : (n,) float64, optional
+        Another measurement of the same map, with noise of the same kind.
     seed : int
         Of the dither.
 
@@ -63,36 +40,24 @@ def read_noise(operator: SurfaceOperator, values: Floats, seed: int = 0) -> Nois
     ValueError
         If the surface has under 20 pairs of neighbouring triangles.
     """
-    plain = noise_level(operator, values)
-    corners, relations = affine_relations(operator)
-    sizes = np.abs(np.einsum("ek,ek->e", relations, values[corners]))
-    free = sizes > ROUNDING * np.abs(values).max(initial=0.0)
-    found = NoiseReading(plain, 0.0, float(1.0 - free.mean()), np.empty(0, dtype=np.int64))
-    if found.tied >= TIED and free.any():
-        found = _of_tied_map(operator, values, found, float(np.median(sizes[free])) / NORMAL_MEDIAN, seed)
-    elif found.tied < TIED:
-        found = replace(found, outliers=outliers(operator, values, plain))
-    return _with_words(found, len(values))
-
-
-def outliers(operator: SurfaceOperator, values: Floats, level: float) -> Integers:
-    """Return the vertices from whose value the three nearest ones within two rings are three levels away, in the mean.
-
-    At an edge of the map a vertex has neighbours on its own side; an outlier has none that is near.
-    """
-    ends = operator.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    ring = csr_array((np.ones(len(ends)), ends.T), shape=2 * (len(values),))
-    ring = ring + ring.T
-    pairs = np.column_stack((ring + ring @ ring).nonzero())
-    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
-    sizes = np.abs(values[pairs[:, 0]] - values[pairs[:, 1]])
-    order = np.lexsort([sizes, pairs[:, 0]])
-    owner, sizes = pairs[order, 0], sizes[order]
-    counts = np.bincount(owner, minlength=len(values))
-    place = np.arange(len(owner)) - (np.cumsum(counts) - counts)[owner]
-    near = place < NEAREST
-    means = np.bincount(owner[near], sizes[near], len(values)) / np.maximum(np.minimum(counts, NEAREST), 1)
-    return np.flatnonzero(means > FAR * level)
+    noise_level(operator, values)
+    statistics = NoiseStatistics(operator)
+    plain = values if second is None else (values - second) / np.sqrt(2.0)
+    deviations = statistics.deviations(plain)
+    free = deviations > ROUNDING * np.abs(values).max(initial=0.0)
+    tied = float(1.0 - free.mean())
+    if not free.any():
+        blank = np.zeros(len(values))
+        return FittedNoise(0.0, blank, 1.0, 0.0, 1.0, 0.0, tied, np.empty(0, dtype=np.int64), 1 + (second is not None))
+    step = _step(values, tied) if second is None else 0.0
+    if step:
+        plain = plain + step * (np.random.default_rng(seed).random(len(values)) - 0.5)
+        free = np.ones(len(free), dtype=bool)
+    read = _fitted(statistics, plain, free, second is not None)
+    if step:
+        variance = max(read.level**2 - step**2 / 12.0, step**2 / 12.0)
+        read = read.with_level(float(np.sqrt(variance)))
+    return replace(read, step=step, tied=tied, measurements=1 + (second is not None))
 
 
 def without_outliers(operator: SurfaceOperator, values: Floats, places: Integers) -> Floats:
@@ -116,32 +81,47 @@ def without_outliers(operator: SurfaceOperator, values: Floats, places: Integers
     return filled
 
 
-def _of_tied_map(
-    operator: SurfaceOperator, values: Floats, found: NoiseReading, rest: float, seed: int
-) -> NoiseReading:
+def _fitted(statistics: NoiseStatistics, values: Floats, free: np.ndarray, noise_alone: bool) -> FittedNoise:
+    """Level, outliers and correlation of values that are not tied where it counts."""
+    outliers = np.empty(0, dtype=np.int64)
+    for _ in range(PASSES):
+        deviations = statistics.deviations(values)
+        whole = float(np.median(deviations[free])) / NORMAL_MEDIAN
+        levels = statistics.local_level(deviations, free)
+        # outliers near one another hide each other until the first of them are replaced
+        found_now = np.setdiff1d(statistics.outliers(values, np.maximum(whole, levels)), outliers)
+        if not len(found_now):
+            break
+        outliers = np.union1d(outliers, found_now)
+        values = without_outliers(statistics.operator, values, outliers)
+        good = np.ones(len(values), dtype=bool)
+        good[outliers] = False
+        if not (kept_pairs := free & good[statistics.relations[0]].all(axis=1)).any():
+            break
+        free = kept_pairs
+    seen = statistics.informative(free)
+    seen = seen if seen.any() else np.ones(len(values), dtype=bool)
+    spread = float(np.quantile(levels[seen], 0.9) / np.quantile(levels[seen], 0.1))
+    levels = np.where(seen, levels, whole) if spread > VARYING else np.full(len(values), whole)
+    rings = statistics.ring_medians(values, seen)
+    found = correlation(statistics, rings**2, noise_alone)
+    if noise_alone:
+        around = np.abs(values[seen] - np.median(values[seen]))
+        levels = levels * float(np.median(around)) / NORMAL_MEDIAN / whole
+    else:
+        levels = levels / found.level_ratio
+    growth = float(rings[2] / rings[1]) if rings[1] > 0 else np.inf
+    width = found.width * statistics.operator.edge_length
+    kept = np.delete(levels, outliers) if len(outliers) < len(levels) else levels
+    level = float(np.sqrt((kept**2).mean())) if spread > VARYING else float(levels[0])
+    return FittedNoise(level, levels, spread, width, growth, 0.0, 0.0, outliers)
+
+
+def _step(values: Floats, tied: float) -> float:
+    """Of a rounded map: many pairs are tied, and the distinct values are few beside the others."""
+    if tied < TIED:
+        return 0.0
     distinct = np.unique(values)
-    if 2 * len(distinct) > (1.0 - found.tied) * len(values):
-        return replace(found, level=rest)
-    step = float(np.median(np.diff(distinct)))
-    dither = step * (np.random.default_rng(seed).random(len(values)) - 0.5)
-    variance = noise_level(operator, values + dither) ** 2 - step**2 / 12.0
-    return replace(found, level=float(np.sqrt(max(variance, step**2 / 12.0))), step=step)
-
-
-def _with_words(found: NoiseReading, count: int) -> NoiseReading:
-    notes = []
-    if found.step:
-        notes.append(
-            f"The map is rounded to steps of {found.step:.3g}: its noise counts as not less than that of rounding. Labels "
-            "are no map to denoise."
-        )
-    elif found.tied >= TIED:
-        notes.append(
-            f"The map is constant or affine on {100 * found.tied:.0f} % of the surface: the noise is that of the rest."
-        )
-    if len(found.outliers) > FEW_OUTLIERS * count:
-        notes.append(
-            f"{len(found.outliers)} of {count} values are outliers, far from those of all their neighbours: method auto "
-            "replaces them, the others follow them."
-        )
-    return replace(found, notes=tuple(notes))
+    if 2 * len(distinct) > (1.0 - tied) * len(values):
+        return 0.0
+    return float(np.median(np.diff(distinct)))

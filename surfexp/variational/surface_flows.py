@@ -13,8 +13,10 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive
 
 
-def heat_flow(operator: SurfaceOperator, values: Floats, time: float, steps: int = 10) -> Floats:
-    """Return the solution of df/dt = Laplacian f after `time`, by implicit Euler steps.
+def heat_flow(
+    operator: SurfaceOperator, values: Floats, time: float, steps: int = 10, weights: Floats | None = None
+) -> Floats:
+    """Return the solution of w df/dt = Laplacian f after `time`, by implicit Euler steps.
 
     Parameters
     ----------
@@ -23,15 +25,18 @@ def heat_flow(operator: SurfaceOperator, values: Floats, time: float, steps: int
     time : float
         In squared units of length.
     steps : int
+    weights : (n,) float64, optional
+        w > 0, 1 if not given: where it is small, the map is smoothed more.
 
     Returns
     -------
     like `values`
-        With the same mean, and no new extremes on Delaunay triangulations.
+        With the same mean by w, and no new extremes on Delaunay triangulations.
     """
     check_positive("time", time)
-    system = ldlt(diags_array(operator.mass) + time / steps * stiffness(operator))
-    mass = operator.mass.reshape(-1, *[1] * (values.ndim - 1))
+    weighted = operator.mass if weights is None else operator.mass * weights
+    system = ldlt(diags_array(weighted) + time / steps * stiffness(operator))
+    mass = weighted.reshape(-1, *[1] * (values.ndim - 1))
     for _ in range(steps):
         values = system.solve(mass * values)
     return values

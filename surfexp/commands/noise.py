@@ -1,0 +1,43 @@
+"""`surfexp noise`: what noise a map has, in words, and its level as a map."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+
+from surfexp.commands.click_command import shown
+from surfexp.commands.surface_arguments import finish, map_of, opened, ready, result_option, surface_options
+
+EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to level.shape.gii")
+
+
+@click.command(**shown("noise", *EXAMPLES))
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="MAP", type=click.Path())
+@click.option("--second", "second_name", type=click.Path(), help="another measurement of the same map")
+@surface_options
+@result_option(required=False)
+def noise(path: str, map_name: str, second_name: str | None, target: Path | None, **given: Any) -> int:
+    """What noise a map has: level, outliers, correlation.
+
+    MAP is a file, or a map that the surface carries. With --to the level at each vertex is written.
+    """
+    from surfexp.tasks.files import check_target
+    from surfexp.tasks.noise_of_map import noise as task
+
+    surface, files = opened(path, **given)
+    values = map_of(surface, map_name, files)
+    second = map_of(surface, second_name, files) if second_name else None
+    if target is not None:
+        ready(target, files, check_target)
+    started = time.perf_counter()
+    found = task(surface, values, second)
+    seconds = time.perf_counter() - started
+    if target is None:
+        click.echo(str(found))
+        return 0
+    facts = found.facts | {"seconds": seconds}
+    return finish(target, {"noise": found.levels}, surface, "noise", {}, files, facts, found.notes)
