@@ -33,7 +33,7 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
     -------
     FittedNoise
         `level` and `levels` in the unit of the map, `kinds` ("outliers", "varying", "smooth", "rounded", "partly constant",
-        "hidden"; none for white noise), `notes` in words. `denoise` takes it as its noise.
+        "hidden"; none for white noise), `notes` in words.
 
     Raises
     ------
