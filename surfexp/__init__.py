@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from surfexp.mesh.surface import Surface as Surface
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth
+    from surfexp.tasks.denoising_path import denoise_path as denoise_path
     from surfexp.tasks.distance_transformer import SpectralDistance as SpectralDistance
     from surfexp.tasks.distances import align as align
     from surfexp.tasks.distances import distance as distance

@@ -9,6 +9,7 @@ FACE = {
     "align": "surfexp.tasks.distances",
     "check": "surfexp.tasks.repairing",
     "denoise": "surfexp.tasks.denoising",
+    "denoise_path": "surfexp.tasks.denoising_path",
     "distance": "surfexp.tasks.distances",
     "eigenpairs": "surfexp.tasks.spectra",
     "eigsh": "surfexp.tasks.spectra",

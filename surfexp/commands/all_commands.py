@@ -25,7 +25,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
             "surface_commands", "Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."
         ),
         "denoise": Entry("map_commands", "Remove the noise of a map by total variation, which keeps its edges."),
-        "noise": Entry("noise", "What noise a map has: level, outliers, correlation."),
+        "noise": Entry("noise", "Say what noise a map has: level, outliers, correlation."),
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
         "skeleton": Entry("surface_commands", "Find the Reeb graph of a map on a surface."),

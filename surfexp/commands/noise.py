@@ -21,7 +21,7 @@ EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to
 @surface_options
 @result_option(required=False)
 def noise(path: str, map_name: str, second_name: str | None, target: Path | None, **given: Any) -> int:
-    """What noise a map has: level, outliers, correlation.
+    """Say what noise a map has: level, outliers, correlation.
 
     MAP is a file, or a map that the surface carries. With --to the level at each vertex is written.
     """

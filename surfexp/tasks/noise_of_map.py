@@ -10,7 +10,6 @@ from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.noise_reading import read_noise
-from surfexp.variational.own_unit import own_unit
 
 
 def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) -> FittedNoise:
@@ -56,10 +55,7 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
         refuse_absurd_values(one, part.vertices)
     if np.ptp(inside[0]) == 0:
         raise ValueError(f"map is constant at {inside[0][0]:g}: it has no noise")
-    own = own_unit(inside[0])
-    again = own.normalised(inside[1]) if second is not None else None
-    read = read_noise(fem(part.mesh), own.normalised(inside[0]), again)
-    return read.in_unit(own.unit).on_whole(part)
+    return read_noise(fem(part.mesh), inside[0], inside[1] if second is not None else None).on_whole(part)
 
 
 def _one_channel(values: np.ndarray) -> Floats:

@@ -13,6 +13,7 @@ from surfexp.variational.fitted_noise import TIED, VARYING, FittedNoise
 from surfexp.variational.noise_correlation import correlation
 from surfexp.variational.noise_level import NORMAL_MEDIAN, noise_level
 from surfexp.variational.noise_statistics import NoiseStatistics
+from surfexp.variational.own_unit import own_unit
 
 ROUNDING = 1e-12
 PASSES = 4
@@ -40,6 +41,13 @@ def read_noise(operator: SurfaceOperator, values: Floats, second: Floats | None 
     ValueError
         If the surface has under 20 pairs of neighbouring triangles.
     """
+    own = own_unit(values)
+    again = None if second is None else own.normalised(second)
+    return _read(operator, own.normalised(values), again, seed).in_unit(own.unit)
+
+
+def _read(operator: SurfaceOperator, values: Floats, second: Floats | None, seed: int) -> FittedNoise:
+    """Read the noise of a map in its own unit."""
     noise_level(operator, values)
     statistics = NoiseStatistics(operator)
     plain = values if second is None else (values - second) / np.sqrt(2.0)

@@ -29,7 +29,7 @@ FOUND_BY_NAME = {
     "hydra-optuna-sweeper": ("docs/guide.md", "hydra/sweeper=optuna"),
     "snakemake-executor-plugin-slurm": ("profiles/slurm/config.yaml", "executor: slurm"),
 }
-TOOLS = ("dev", "bench", "site", "print", "all")
+TOOLS = ("dev", "bench", "reliability", "site", "print", "all")
 
 
 def name_of(requirement: str) -> str:

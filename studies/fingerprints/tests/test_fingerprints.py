@@ -215,9 +215,9 @@ def test_people_are_arranged_and_missing_ones_refused() -> None:
     assert [list(found.values()) for found in by_change(mixed).values()] == [[1, 3], [2, 0]]
     with pytest.raises(ValueError, match="has no level"):
         by_change(members(("original", "a", None)))
-    with pytest.raises(ValueError, match="2 people of class 'original' and 0 changes"):
+    with pytest.raises(ValueError, match="2 subjects of class 'original' and 0 changes"):
         by_change(members(("original", "a", 0.0), ("original", "a", 1.0)))
-    with pytest.raises(ValueError, match="change 'half' has 1 people, 'original' has 2"):
+    with pytest.raises(ValueError, match="change 'half' has 1 subjects, 'original' has 2"):
         by_change(members(("original", "a", 0.0), ("original", "a", 1.0), ("half", "a", 0.0)))
 
 

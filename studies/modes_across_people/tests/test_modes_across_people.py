@@ -121,7 +121,7 @@ def test_signs_are_rated_where_both_maps_agree(monkeypatch: pytest.MonkeyPatch) 
     assert found.rows == ("a, b", "a, c", "b, c")
     assert found.metrics["agreed"] == 2.0 and found.metrics["proved right"] == 1.0
     assert found.metrics["order, skewness right"] == 0.5
-    with pytest.raises(ValueError, match="0 people"):
+    with pytest.raises(ValueError, match="0 subjects"):
         agreed.agreed_signs({}, {})
 
 
@@ -148,7 +148,7 @@ def test_people_are_compared_in_pairs_and_structures_are_pooled() -> None:
     assert both.metrics["signs proved"] == pytest.approx(0.5 * found.metrics["signs proved"])
     with pytest.raises(ValueError, match="equal numbers are needed"):
         pooled({Member("x"): found, Member("y"): replace(found, metrics=found.metrics | {"pairs": 1.0})})
-    with pytest.raises(ValueError, match="1 people, at least 2"):
+    with pytest.raises(ValueError, match="1 subjects, at least 2"):
         modes_of_people({Member("a"): BODY}, {Member("a"): ORIGINAL[1]})
 
 

@@ -1,0 +1,165 @@
+"""Denoising a map for every weight at once, with a gap that is proved at all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from surfexp.contract.arrays import Floats
+from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import real_number, real_pair
+from surfexp.mesh.surface_part import SurfacePart
+from surfexp.operators.fem import fem
+from surfexp.smoothing.absurd_values import refuse_absurd_values
+from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.variational.noise_level import noise_level
+from surfexp.variational.noise_reading import read_noise
+from surfexp.variational.rof_path import RofPath, rof_path
+
+Progress = Callable[[int, float], None]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DenoisingPath(Summarized):
+    """A map denoised by total variation, for every weight of a range.
+
+    Parameters
+    ----------
+    weights : (k,) float64
+        That were solved, growing; between them results are interpolated, with their gap.
+    certificate : dict
+        relative_gap (none at any weight of the range is larger), solves, noise.
+    notes : tuple of str
+    name : str
+        Under which the surface carries the map that it was made of.
+    _path : RofPath
+        What `at` interpolates.
+    _part : SurfacePart
+        Where its values lie on the surface.
+    """
+
+    weights: Floats
+    certificate: dict[str, Any]
+    notes: tuple[str, ...] = ()
+    name: str = "map"
+    _path: RofPath | None = field(default=None, repr=False)
+    _part: SurfacePart | None = field(default=None, repr=False)
+
+    def at(self, weight: float) -> DenoisedMap:
+        """Return the denoised map at a weight.
+
+        Parameters
+        ----------
+        weight : float
+            Between the first and the last of `weights`; dimensionless, as in `surfexp.denoise`.
+
+        Returns
+        -------
+        DenoisedMap
+            With its own relative_gap and error_bound, computed for this weight.
+
+        Raises
+        ------
+        ValueError
+            If the weight is outside of the range.
+        """
+        assert self._path is not None and self._part is not None  # noqa: S101, narrows a type
+        weight = real_number(weight, "weight", above=0.0)
+        if not self.weights[0] <= weight <= self.weights[-1]:
+            raise ValueError(
+                f"weight = {weight:g} is outside of the path, choose one from {self.weights[0]:g} to {self.weights[-1]:g}"
+            )
+        mus = self._path.mus
+        scale = float(mus[0] / self.weights[0])
+        solution = self._path.at(float(np.clip(weight * scale, mus[0], mus[-1])))
+        error = float((solution.error_bound or 0.0) / np.sqrt(self._path.operator.mass.sum()))
+        facts = {"noise": self.certificate["noise"], "weight": weight}
+        facts |= {"relative_gap": solution.relative_gap, "error_bound": error}
+        return DenoisedMap(self._part.extend(solution.values), "rof", facts, self.notes, self.name)
+
+    def _summary(self) -> Summary:
+        facts = {"weights": f"{self.weights[0]:g} to {self.weights[-1]:g}"}
+        facts |= {name.replace("_", " "): value for name, value in self.certificate.items()}
+        return Summary("a map denoised for every weight", facts, self.notes)
+
+
+def denoise_path(
+    surface: SurfaceLike,
+    values: MapLike,
+    *,
+    weights: tuple[float, float] = (0.03, 30.0),
+    noise: float | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+) -> DenoisingPath:
+    """Remove noise from a map by total variation, for every weight of a range at once.
+
+    The model is that of ``surfexp.denoise(method="rof")``. Some weights are solved; between two of them the results and their
+    dual fields are interpolated. That pair proves a gap at every weight, and more weights are solved until none exceeds the
+    tolerance.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+        The map is denoised inside the mask, or where it is finite if there is no mask.
+    values : str or (n,) or (n, c) float64
+        Name of a map of the surface, or the map; NaN where nothing is known.
+    weights : (float, float)
+        The range, dimensionless; small is smooth. The default is a factor of 1,000 about 0.9, the weight of `denoise`.
+    noise : float, optional
+        Standard deviation of the noise, in the unit of the map; estimated from the map if not given.
+    tolerance : float
+        Largest relative duality gap at any weight of the range.
+    progress : callable, optional
+        Receives the number of solves so far and the largest gap that is left.
+
+    Returns
+    -------
+    DenoisingPath
+        `at(weight)` is the map at a weight, with its certificate.
+
+    Raises
+    ------
+    ValueError
+        If the map does not fit or is constant, the range is empty, or a parameter is out of its range.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=3)
+    >>> noisy = sphere.mesh.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(642)
+    >>> path = sx.denoise_path(sphere, noisy, tolerance=1e-2)
+    >>> bool(path.at(0.5).certificate["relative_gap"] <= path.certificate["relative_gap"] <= 1e-2)
+    True
+    """
+    low, high = (real_number(weight, "weights", above=0.0) for weight in real_pair(weights, "weights"))
+    if not low < high:
+        raise ValueError(f"weights = ({low:g}, {high:g}) is no range, give the smaller one first")
+    tolerance = real_number(tolerance, "tolerance", above=1e-8, below=1.0)
+    owner = as_surface(surface)
+    noisy = as_map(owner, values)
+    part = part_for(owner, noisy)
+    operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
+    refuse_absurd_values(image, part.vertices)
+    if np.ptp(image) == 0:
+        raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove, give one that varies")
+    notes: tuple[str, ...] = ()
+    if noise is not None:
+        sigma = real_number(noise, "noise", above=0.0)
+    elif image.ndim > 1:
+        sigma = noise_level(operator, image)
+    else:
+        found = read_noise(operator, image)
+        sigma, notes = found.level, found.notes
+    if not sigma > 0:
+        raise ValueError("the noise of the map is 0: give it, noise=")
+    scale = 1.0 / (sigma * operator.edge_length)
+    path = rof_path(operator, image, low * scale, high * scale, tolerance=tolerance, progress=progress)
+    solved = np.clip(path.mus / scale, low, high)
+    solved[0], solved[-1] = low, high
+    certificate = {"relative_gap": path.largest_gap, "solves": len(solved), "noise": sigma}
+    return DenoisingPath(solved, certificate, part.notes + notes, name_of(values), path, part)
