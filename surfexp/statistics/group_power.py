@@ -67,7 +67,7 @@ def group_power(
         raise ValueError(f"the collection has the classes {', '.join(names)}: a comparison of groups needs exactly 2")
     for name in (unit, permuted or unit):
         if name not in ("member", "person"):
-            raise ValueError(f"unit {name!r} is unknown, choose member or person")
+            raise ValueError(f"unit {name!r} is unknown, choose 'member' or 'person'")
     first, second = (np.flatnonzero(np.array(matrix.classes) == name) for name in names)
     owners = np.unique(np.array(matrix.groups), return_inverse=True)[1]
     units = owners if (permuted or unit) == "person" else np.arange(len(owners))

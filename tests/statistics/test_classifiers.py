@@ -239,7 +239,7 @@ def test_power_by_person_on_planted_and_equal_classes() -> None:
     assert not found.notes and "p-value under 0.1" in group_power(matrix, [3], draws=10, unit="person").notes[0]
     with pytest.raises(ValueError, match="take at most half"):
         group_power(matrix, [4], unit="person")
-    with pytest.raises(ValueError, match="choose member or person"):
+    with pytest.raises(ValueError, match="choose 'member' or 'person'"):
         group_power(matrix, [2], unit="side")
 
 
@@ -252,7 +252,7 @@ def test_permuting_members_of_people_drawn_whole_raises_false_alarms() -> None:
     assert by_person["false_alarms"] == 0.1 and by_member["false_alarms"] > 0.3
     assert by_member["draws"] == by_person["draws"] == 20.0
     assert by_member["least_p"] == pytest.approx(2.0 / 924.0) and by_person["least_p"] == 0.1
-    with pytest.raises(ValueError, match="unit 'side' is unknown, choose member or person"):
+    with pytest.raises(ValueError, match="unit 'side' is unknown, choose 'member' or 'person'"):
         group_power(matrix, [2], permuted="side")
 
 
