@@ -104,25 +104,39 @@ def main() -> None:
     parser.add_argument("--budget", type=float, default=15.0, help="seconds of tests for a fault (default 15)")
     parser.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
     parser.add_argument("--survivors", type=Path, help="results of an earlier run, of which survivors are tried again")
+    parser.add_argument("--tests", nargs="*", default=[], help="test files that concern every fault as well")
     parser.add_argument("--results", type=Path, default=ROOT / "results" / "mutation" / "blind.jsonl")
     options = parser.parse_args()
-    sample = blind_sample(options.each, options.seed)
-    if options.survivors:
-        alive = {
-            (row["path"], row["old"], row["new"]) for row in _rows(options.survivors) if row["verdict"] == "survived"
-        }
-        sample = [(subject, change) for subject, change in sample if (change.path, *change.texts) in alive]
+    sample = _again(_rows(options.survivors)) if options.survivors else blind_sample(options.each, options.seed)
     known = {row["identity"] for row in _rows(options.results)}
     wanted = {change: subject for subject, change in sample if change.identity not in known}
     if wanted:
         prepare()
-        baseline = measured_baseline(wanted, options.workers, concerned_tests)
-        trials = [selected(change, baseline, options.budget, concerned_tests) for change in wanted]
+        more = [ROOT / name for name in options.tests]
+
+        def concerned(target: Path) -> list[Path]:
+            reaching = [test for test in more if target in distances(test)]
+            return list(dict.fromkeys([*concerned_tests(target), *reaching]))
+
+        baseline = measured_baseline(wanted, options.workers, concerned)
+        trials = [selected(change, baseline, options.budget, concerned) for change in wanted]
         for trial in (trial for trial in trials if not trial.arguments):
             _note(options.results, wanted, trial, Outcome("survived", (), {}, 0.0))
         for trial, outcome in run_all([trial for trial in trials if trial.arguments], options.workers):
             _note(options.results, wanted, trial, outcome)
     print(table(_rows(options.results)))
+
+
+def _again(rows: list[dict[str, Any]]) -> list[tuple[str, Change]]:
+    """The faults that survived, where their lines still stand."""
+    alive = {(row["path"], row["old"], row["new"]): row["subject"] for row in rows if row["verdict"] == "survived"}
+    found: dict[tuple[str, str, str], tuple[str, Change]] = {}
+    for path in sorted({path for path, _, _ in alive}):
+        for change in changes(path, source_of(ROOT / path)):
+            key = (path, *change.texts)
+            if key in alive:
+                found.setdefault(key, (alive[key], change))
+    return list(found.values())
 
 
 def table(rows: list[dict[str, Any]]) -> str:

@@ -223,7 +223,7 @@ def convert(path: str, target: Path, **given: Any) -> None:
 def plot(path: str, map_name: str | None, width: int, label: str, target: Path, **given: Any) -> None:
     """Draw a surface, coloured by a map.
 
-    The picture is .png or .svg.
+    The picture is .png, or a drawing: .svg, .pdf.
     """
     from surfexp.tasks.pictures import check_picture_target
     from surfexp.tasks.pictures import plot as task

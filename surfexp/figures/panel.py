@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import Scales, draw_bars, fitted_scales, values_on
 from surfexp.figures.figure import Figure
 from surfexp.figures.panel_layout import MARGIN, Grid, Layout, arrange
 from surfexp.figures.render import SurfaceView, draw
-from surfexp.figures.typography import canvas, drawn, points
+from surfexp.figures.typography import canvas, drawn, points, saved
 
 
 def surface_panel(
@@ -46,7 +49,38 @@ def surface_panel(
     ValueError
         If a row is empty, or the width too small.
     """
-    grid = _rows(views)
+    return _composed(_rows(views), width, title, caption, field_of_view, supersampling)[0]
+
+
+def vector_panel(views: Sequence[SurfaceView], form: Literal["svg", "pdf"], *, width: int = 1600) -> bytes:
+    """The panel of `surface_panel` as a drawing: surfaces as pictures, words and colour bars as lines and letters.
+
+    Parameters
+    ----------
+    views : sequence of SurfaceView
+        One row.
+    form : "svg" or "pdf"
+    width : int
+        In pixels of the pictures.
+
+    Raises
+    ------
+    ValueError
+        As `surface_panel`.
+    """
+    return _composed(_rows(views), width, "", "", 0.0, 2, form)[1]
+
+
+def _composed(
+    grid: list[list[SurfaceView]],
+    width: int,
+    title: str,
+    caption: str,
+    field_of_view: float,
+    supersampling: int,
+    form: Literal["", "svg", "pdf"] = "",
+) -> tuple[Figure, bytes]:
+    """Return the panel in pixels, and as a drawing where one is asked for."""
     if not grid or not all(grid) or width < 200:
         counts = [len(row) for row in grid]
         raise ValueError(
@@ -59,14 +93,26 @@ def surface_panel(
         _write(figure, layout, grid, title)
         draw_bars(figure, layout, grid, scales)
         pixels = drawn(figure)
-    for i, row in enumerate(grid):
-        for j, view in enumerate(row):
-            size = (layout.columns[j], layout.rows[i])
-            camera = fit_camera(view.mesh, view.view, size, field_of_view, scale=layout.scale)
-            fitted = replace(view, scale=scales.get(view.scale, view.scale))
-            top, left = layout.top(i), layout.left(j, len(row))
-            pixels[top : top + size[1], left : left + size[0]] = draw(fitted, camera, supersampling)
-    return Figure(pixels, caption, title, notes=_notes(everything, scales))
+        for i, row in enumerate(grid):
+            for j, view in enumerate(row):
+                size = (layout.columns[j], layout.rows[i])
+                camera = fit_camera(view.mesh, view.view, size, field_of_view, scale=layout.scale)
+                fitted = replace(view, scale=scales.get(view.scale, view.scale))
+                top, left = layout.top(i), layout.left(j, len(row))
+                picture = draw(fitted, camera, supersampling)
+                pixels[top : top + size[1], left : left + size[0]] = picture
+                if form:
+                    _put(figure, picture, (left / width, 1.0 - (top + size[1]) / layout.height))
+        drawing = saved(figure, form) if form else b""
+    return Figure(pixels, caption, title, notes=_notes(everything, scales)), drawing
+
+
+def _put(figure: Any, picture: NDArray[np.uint8], corner: tuple[float, float]) -> None:
+    """Put a picture into a figure, pixel for pixel, its lower left corner at a place in shares of the figure."""
+    width, height = figure.get_size_inches() * figure.dpi
+    place = figure.add_axes((*corner, picture.shape[1] / width, picture.shape[0] / height))
+    place.imshow(picture, aspect="auto", interpolation="none")
+    place.set_axis_off()
 
 
 def _rows(views: Sequence[SurfaceView] | Sequence[Sequence[SurfaceView]]) -> list[list[SurfaceView]]:

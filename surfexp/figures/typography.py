@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from io import StringIO
+from io import BytesIO, StringIO
 from typing import Any
 
 import numpy as np
@@ -77,3 +77,15 @@ def vector(figure: Any, outlines: bool = True) -> str:
         figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     text = re.sub(r"<!--.*?-->\s*", "", sink.getvalue(), flags=re.DOTALL)
     return text[text.index("<svg") :] if len(text) <= LONGEST_DRAWING else ""
+
+
+def saved(figure: Any, form: str) -> bytes:
+    """A matplotlib figure as SVG or PDF, the same bytes for the same figure; letters stay text in PDF, outlines in SVG."""
+    import matplotlib as mpl
+
+    sink = BytesIO()
+    fonts = {"svg.hashsalt": "surfexp", "svg.fonttype": "path", "pdf.fonttype": 42}
+    undated = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
+    with mpl.rc_context(fonts):
+        figure.savefig(sink, format=form, metadata=undated[form])
+    return sink.getvalue()

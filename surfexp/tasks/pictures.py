@@ -15,7 +15,7 @@ from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
-from surfexp.figures.panel import surface_panel
+from surfexp.figures.panel import surface_panel, vector_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_arrays import one_of, real_pair, whole_number
@@ -25,7 +25,7 @@ from surfexp.tasks.soundness import usable_vertices
 
 # pixels
 NARROWEST, WIDEST = 200, 20_000
-SUFFIXES = (".png", ".svg")
+SUFFIXES = (".png", ".svg", ".pdf")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,12 +35,15 @@ class Picture:
     Parameters
     ----------
     figure : Figure
+    views : tuple of SurfaceView
+        What it shows, from which drawings are made; none for a picture of pixels alone.
     """
 
     figure: Figure
+    views: tuple[SurfaceView, ...] = ()
 
     def save(self, path: Path | str) -> None:
-        """Write the picture as .png or .svg: in lines and letters where it is a plot, else with its pixels inside.
+        """Write the picture as .png, .svg or .pdf: drawings hold surfaces as pictures, words and colour bars as vectors.
 
         Parameters
         ----------
@@ -54,10 +57,16 @@ class Picture:
         target = Path(path)
         check_picture_target(target)
         with replacing(target) as temporary:
-            if target.suffix.lower() == ".png":
-                temporary.write_bytes(encode_png(self.figure.pixels))
-            else:
-                temporary.write_text(_as_svg(self.figure), encoding="utf-8")
+            temporary.write_bytes(self._encoded(target.suffix.lower()))
+
+    def _encoded(self, suffix: str) -> bytes:
+        if suffix == ".png":
+            return encode_png(self.figure.pixels)
+        if self.views:
+            return vector_panel(self.views, "pdf" if suffix == ".pdf" else "svg", width=self.figure.pixels.shape[1])
+        if suffix == ".svg" and self.figure.svg:
+            return self.figure.svg.encode()
+        raise ValueError(f"a picture of pixels alone has no {suffix} drawing: choose .png")
 
     def __repr__(self) -> str:
         height, width = self.figure.pixels.shape[:2]
@@ -65,17 +74,6 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         return encode_png(self.figure.pixels)
-
-
-def _as_svg(figure: Figure) -> str:
-    import base64
-
-    if figure.svg:
-        return figure.svg
-    height, width = figure.pixels.shape[:2]
-    data = base64.b64encode(encode_png(figure.pixels)).decode()
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}">'
-    return f'{head}<image width="{width}" height="{height}" href="data:image/png;base64,{data}"/></svg>\n'
 
 
 def plot(
@@ -110,7 +108,7 @@ def plot(
     Returns
     -------
     Picture
-        `save(path)` writes .png or .svg.
+        `save(path)` writes .png, .svg or .pdf.
 
     Raises
     ------
@@ -149,7 +147,7 @@ def plot(
     if field is not None:
         field = np.asarray(part.restrict(field), dtype=np.float64)
     panels = [SurfaceView(part.mesh, field, view, scale) for view in shown]
-    return Picture(surface_panel(panels, width=width))
+    return Picture(surface_panel(panels, width=width), tuple(panels))
 
 
 def _checked_view(given: Any) -> View:

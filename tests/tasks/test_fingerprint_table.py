@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -166,3 +167,12 @@ def test_a_volume_with_a_single_fraction_holds_no_labels(tmp_path: Path) -> None
     nibabel.save(nibabel.Nifti1Image(values, np.eye(4)), tmp_path / "volume.nii.gz")
     with pytest.raises(ValueError, match="holds fractions"):
         read_label_volume(tmp_path / "volume.nii.gz")
+
+
+def test_the_summary_names_the_largest_residual(working_folder: Path) -> None:
+    for name, scale in (("one", 1.0), ("two", [1.0, 1.3, 0.8])):
+        ball = sx.shape("icosphere", levels=3).mesh
+        sx.write(f"{name}.off", Surface(TriangleMesh(ball.vertices * np.array(scale), ball.faces)))
+    table = sx.fingerprint(".", 10)
+    table = replace(table, residuals=dict(zip(table.residuals, (3e-9, 5e-12), strict=True)))
+    assert "3e-09" in repr(table) and "5e-12" not in repr(table)

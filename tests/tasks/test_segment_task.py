@@ -140,3 +140,14 @@ def test_a_labelling_that_meets_its_bound_is_proved_optimal() -> None:
 def test_a_constant_map_has_no_regions() -> None:
     with pytest.raises(ValueError, match="constant at 3, two regions need two values"):
         sx.segment(SPHERE, np.full(len(Z), 3.0))
+
+
+def test_the_summary_counts_the_vertices_of_each_region() -> None:
+    ball = sx.shape("icosphere", levels=3)
+    values = np.where(ball.mesh.vertices[:, 2] > 0.4, 1.0, 0.0)
+    values[:5] = np.nan
+    found = sx.segment(ball, values)
+    text = repr(found)
+    for name, label in (("darker", 0), ("brighter", 1)):
+        count = int((found.labels == label).sum())
+        assert 0 < count < 642 and f"vertices {name} {count}" in text

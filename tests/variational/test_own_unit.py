@@ -97,3 +97,12 @@ def test_the_certificate_is_that_of_the_definition() -> None:
     found = certify(data, OPERATOR, MAP, load)
     assert found.energy == pytest.approx(total_variation(OPERATOR, MAP))
     assert found.lower_bound == pytest.approx(load @ MAP - (load**2 / OPERATOR.mass).sum() / (2.0 * MU))
+
+
+@pytest.mark.parametrize("name", ["primary", "tgv"])
+def test_metrics_are_in_the_unit_of_the_map_as_the_solution_is(name: str) -> None:
+    found = solved("tgv" if name == "tgv" else "primal_dual", 250.0, 3.0)
+    assert found.metrics["energy"] == pytest.approx(found.energy, rel=1e-12)
+    for metric, value in (("lower_bound", found.lower_bound), ("error_bound", found.error_bound)):
+        if metric in found.metrics:
+            assert found.metrics[metric] == pytest.approx(value, rel=1e-12)
