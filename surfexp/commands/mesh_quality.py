@@ -60,16 +60,18 @@ def repair(file: str, largest_component: bool, target: Path) -> None:
 
     Maps are taken along where the format of the result holds some.
     """
-    from surfexp.io.reading import read_mesh
+    from surfexp.io.reading import hemisphere_of_file, read_mesh_file
     from surfexp.io.writing import WITH_MAPS, check_mesh_target, write_mesh
     from surfexp.mesh.repair import repair as task
 
     files = Inputs(file)
     ready(target, files, check_mesh_target)
-    vertices, faces, maps = read_mesh(file)
-    mesh, changes, origin = task(vertices, faces, largest_component=largest_component)
-    kept = {name: values[origin] for name, values in maps.items()} if target.suffix.lower() in WITH_MAPS else {}
-    write_mesh(target, mesh, kept)
+    given = read_mesh_file(file)
+    mesh, changes, origin = task(given.vertices, given.faces, largest_component=largest_component)
+    kept = (
+        {name: values[origin] for name, values in given.scalars.items()} if target.suffix.lower() in WITH_MAPS else {}
+    )
+    write_mesh(target, mesh, kept, given.frame, hemisphere_of_file(file))
     facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
     proof = write_certificate(target, "repair", {"largest_component": largest_component}, files, facts, tuple(changes))
     click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")

@@ -30,12 +30,16 @@ FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness
 
 
 def write_mesh(
-    path: Path | str, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None, frame: SpatialFrame | None = None
+    path: Path | str,
+    mesh: TriangleMesh,
+    scalars: dict[str, Floats] | None = None,
+    frame: SpatialFrame | None = None,
+    hemisphere: str = "",
 ) -> None:
     """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
 
     .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision. GIFTI and
-    FreeSurfer's files carry their own part of `frame`, the space of the vertices.
+    FreeSurfer's files carry their own part of `frame`, the space of the vertices, and GIFTI the hemisphere.
 
     Raises
     ------
@@ -51,7 +55,7 @@ def write_mesh(
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
         maps[name] = values
-    writer = _writer(path, mesh, maps, frame)
+    writer = _writer(path, mesh, maps, frame, hemisphere)
     with replacing(path) as temporary:
         writer(temporary)
 
@@ -78,7 +82,7 @@ def _is_freesurfer(path: Path) -> bool:
 
 
 def _writer(
-    path: Path, mesh: TriangleMesh, maps: dict[str, Floats], frame: SpatialFrame | None
+    path: Path, mesh: TriangleMesh, maps: dict[str, Floats], frame: SpatialFrame | None, hemisphere: str
 ) -> Callable[[Path], None]:
     """Return what writes the mesh, once the format is known to hold it."""
     check_mesh_target(path)
@@ -93,7 +97,7 @@ def _writer(
         if freesurfer:
             return lambda place: write_freesurfer_geometry(place, mesh, frame.volume if frame is not None else None)
         if suffix == ".gii":
-            return lambda place: write_gifti(place, mesh, frame=frame)
+            return lambda place: write_gifti(place, mesh, hemisphere, frame)
     return lambda place: WITHOUT_MAPS[suffix](place, mesh)
 
 

@@ -169,7 +169,7 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
         if not len(what.mesh.faces):
             raise ValueError(f"surface has {len(what.mesh.vertices)} vertices and 0 faces, at least one face is needed")
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
-        write_mesh(target, what.mesh, scalars, what.frame)
+        write_mesh(target, what.mesh, scalars, what.frame, what.hemisphere)
         return
     table = getattr(what, "label_map", None)
     if target.name.endswith(LABEL_SUFFIXES) and table is not None:
