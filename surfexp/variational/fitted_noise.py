@@ -22,6 +22,8 @@ VARYING = 2.3
 HIDDEN = 2.2
 # bounds of the weights by precision; outliers have the least
 LEAST_WEIGHT, LARGEST_WEIGHT = 0.1, 10.0
+# outliers that a text names
+MOST_SHOWN = 8
 ONE_MAP = "Smooth noise cannot be told from the map by one measurement for certain: give a second measurement, if there is one."
 
 
@@ -117,7 +119,13 @@ class FittedNoise(Summarized):
 
     def __str__(self) -> str:
         rows = self._summary().rows()
-        return "\n".join([*(f"{name}: {value}" for name, value in rows.items()), *self.notes])
+        said = list(self.notes)
+        if not self.kinds:
+            said.append("The noise is white: of one level, and independent from vertex to vertex.")
+        if len(self.outliers):
+            more = ", ..." if len(self.outliers) > MOST_SHOWN else ""
+            said.append(f"Outliers are at vertices {', '.join(map(str, self.outliers[:MOST_SHOWN]))}{more}.")
+        return "\n".join([*(f"{name}: {value}" for name, value in rows.items()), *said])
 
     def _summary(self) -> Summary:
         return Summary(

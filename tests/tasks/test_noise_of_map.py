@@ -99,3 +99,10 @@ def test_the_command_says_it_in_words_and_writes_the_level(
     assert "kind: outliers" in said and "values are outliers, far from those of all their neighbours" in said
     assert main(["noise", "ball.vtk", "height", "--to", "level.vtk"]) == 0
     assert json.loads(Path("level.vtk.json").read_text())["standard_deviation"] == pytest.approx(0.3, rel=0.1)
+
+
+def test_a_text_says_that_noise_is_white_and_where_outliers_are() -> None:
+    values = BALL.mesh.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(len(BALL.mesh.vertices))
+    assert "The noise is white: of one level" in str(sx.noise(BALL, values))
+    values[100] = 9.0
+    assert "Outliers are at vertices 100." in str(sx.noise(BALL, values))
