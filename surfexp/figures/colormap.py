@@ -71,6 +71,14 @@ class ColorScale:
 
         Of values with one sign no colour may mean zero: they get a sequential map in place of a diverging one. Values that
         are all the same, or none at all, get limits 0.5 to either side.
+
+        Parameters
+        ----------
+        values : (...) float64
+
+        Returns
+        -------
+        ColorScale
         """
         if self.limits is not None:
             return self
@@ -85,26 +93,62 @@ class ColorScale:
         return replace(self, colormap=colormap, limits=(float(low), float(high)))
 
     def position(self, values: Floats) -> Floats:
-        """Where values lie between the limits, 0 to 1; outside beyond them, NaN stays."""
+        """Return where values lie between the limits.
+
+        Parameters
+        ----------
+        values : (...) float64
+
+        Returns
+        -------
+        (...) float64
+            0 to 1, outside beyond the limits; NaN stays.
+        """
         low, high = self._known_limits()
         return (np.asarray(values, dtype=float) - low) / (high - low)
 
     def rgb(self, values: Floats) -> Floats:
-        """(..., 3) colours in 0..1; the end colours beyond the limits, grey where values are NaN."""
+        """Return the colours of values.
+
+        Parameters
+        ----------
+        values : (...) float64
+
+        Returns
+        -------
+        (..., 3) float64
+            In 0..1; the end colours beyond the limits, grey where values are NaN.
+        """
         import matplotlib
 
         colormap = matplotlib.colormaps[self.colormap].with_extremes(bad=MISSING)
         return np.asarray(colormap(self.position(values)))[..., :3]
 
     def table(self) -> Floats:
-        """(k, 3) all colours of the map from the lower limit to the upper."""
+        """Return all colours of the map.
+
+        Returns
+        -------
+        (k, 3) float64
+            From the lower limit to the upper.
+        """
         import matplotlib
 
         colormap = matplotlib.colormaps[self.colormap]
         return np.asarray(colormap(np.arange(colormap.N)))[:, :3]
 
     def share_beyond(self, values: Floats) -> tuple[float, float]:
-        """Shares of the finite values below and above the limits."""
+        """Return how many of the finite values lie below and above the limits.
+
+        Parameters
+        ----------
+        values : (...) float64
+
+        Returns
+        -------
+        below, above : float
+            Shares.
+        """
         low, high = self._known_limits()
         finite = values[np.isfinite(values)]
         return (float((finite < low).mean()), float((finite > high).mean())) if finite.size else (0.0, 0.0)
