@@ -45,7 +45,7 @@ def export_sulci(folder: Path | str, name: str, surface: Surface, named: NamedSu
     folder.mkdir(parents=True, exist_ok=True)
     files = tuple(folder / f"{stem}{suffix}" for suffix in (".label.gii", ".annot", ".vtk"))
     for path in files[:2]:
-        write_labels(path, named.own + 1, sulcus_names(count))
+        write_labels(path, named.own + 1, sulcus_names(count), surface.hemisphere)
     maps = {"own region": (named.own + 1).astype(np.float64), "carried region": (named.carried + 1).astype(np.float64)}
     write_mesh(files[2], surface.mesh, maps)
     return files

@@ -190,13 +190,13 @@ def image_code(intent: str) -> int:
     return int(intent_codes[intent])
 
 
-def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "", frame: SpatialFrame | None = None) -> None:
+def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str, frame: SpatialFrame | None) -> None:
     """Write points (float32, as the format has them) with their space, and triangles, compressed inside the XML."""
     import nibabel
 
     gifti = nibabel.gifti
     said = dict(frame.metadata) if frame is not None else {}
-    meta = gifti.GiftiMetaData(said | ({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {}))
+    meta = gifti.GiftiMetaData(said | _structure(hemisphere))
     # nibabel holds one transform of each array
     transform = frame.transforms[0] if frame is not None and frame.transforms else None
     system = None
@@ -208,12 +208,12 @@ def write_gifti(path: Path, mesh: TriangleMesh, hemisphere: str = "", frame: Spa
     nibabel.save(gifti.GiftiImage(darrays=[points, triangles]), path)
 
 
-def write_gifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str = "") -> None:
+def write_gifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str) -> None:
     """Write maps as one array each, single precision, NaN included."""
     import nibabel
 
     gifti = nibabel.gifti
-    meta = gifti.GiftiMetaData({STRUCTURE: CORTEX[hemisphere]} if hemisphere else {})
+    meta = gifti.GiftiMetaData(_structure(hemisphere))
     intent = "NIFTI_INTENT_SHAPE" if path.name.endswith(".shape.gii") else "NIFTI_INTENT_NONE"
     arrays = [
         gifti.GiftiDataArray(
@@ -224,7 +224,9 @@ def write_gifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str = "") 
     nibabel.save(gifti.GiftiImage(darrays=arrays, meta=meta), path)
 
 
-def write_gifti_labels(path: Path, keys: Integers, names: dict[int, str], colors: NDArray[np.int64]) -> None:
+def write_gifti_labels(
+    path: Path, keys: Integers, names: dict[int, str], colors: NDArray[np.int64], hemisphere: str
+) -> None:
     """Write labels with their names and a colour for each, 0 to 255."""
     import nibabel
 
@@ -235,4 +237,10 @@ def write_gifti_labels(path: Path, keys: Integers, names: dict[int, str], colors
         entry.label = name
         table.labels.append(entry)
     array = gifti.GiftiDataArray(keys.astype(np.int32), LABELS, datatype="NIFTI_TYPE_INT32")
-    nibabel.save(gifti.GiftiImage(labeltable=table, darrays=[array]), path)
+    meta = gifti.GiftiMetaData(_structure(hemisphere))
+    nibabel.save(gifti.GiftiImage(labeltable=table, darrays=[array], meta=meta), path)
+
+
+def _structure(hemisphere: str) -> dict[str, str]:
+    """The metadata that name a hemisphere; none for what is no hemisphere."""
+    return {STRUCTURE: CORTEX[hemisphere]} if hemisphere else {}

@@ -22,7 +22,7 @@ def label_colors(count: int) -> NDArray[np.int64]:
     return np.stack([(97 * k + 128) % 256, (157 * k + k // 256 + 128) % 256, (211 * k + 128) % 256], axis=1)
 
 
-def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> None:
+def write_labels(path: Path | str, labels: Integers, names: Sequence[str], hemisphere: str = "") -> None:
     """Write labels as .label.gii (or .gii) or .annot, by the file's name, with a colour for each.
 
     Parameters
@@ -31,6 +31,8 @@ def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> No
         From 0 to the number of names less 1; by use 0 is "unknown".
     names : sequence of str
         One for each label.
+    hemisphere : {"", "left", "right"}
+        GIFTI says it; an annotation says it by its name alone.
 
     Raises
     ------
@@ -46,7 +48,7 @@ def write_labels(path: Path | str, labels: Integers, names: Sequence[str]) -> No
         raise ValueError(f"{path} has an unknown format of labels, choose one of .label.gii, .annot")
     with replacing(path) as temporary:
         if path.suffix == ".gii":
-            write_gifti_labels(temporary, labels, dict(table.names), label_colors(len(names)))
+            write_gifti_labels(temporary, labels, dict(table.names), label_colors(len(names)), hemisphere)
         else:
             _write_annotation(temporary, labels, names)
 

@@ -24,8 +24,10 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 Writer = Callable[[Path, TriangleMesh], None]
 WriterOfMaps = Callable[[Path, TriangleMesh, dict[str, Floats]], None]
 WITH_MAPS: dict[str, WriterOfMaps] = {".ply": write_ply, ".vtk": write_vtk, ".vtp": write_vtp, ".npz": write_npz_mesh}
-WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".gii": write_gifti, ".stl": write_stl}
-SINGLE_PRECISION = (".gii", ".stl")
+WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".stl": write_stl}
+GIFTI = ".gii"
+SUFFIXES = (*WITHOUT_MAPS, GIFTI, *WITH_MAPS)
+SINGLE_PRECISION = (GIFTI, ".stl")
 FREESURFER = (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness")
 
 
@@ -70,15 +72,15 @@ def check_mesh_target(path: Path | str) -> None:
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    if suffix not in (*WITH_MAPS, *WITHOUT_MAPS) and not _is_freesurfer(path):
-        known = ", ".join([*WITHOUT_MAPS, *WITH_MAPS, *FREESURFER])
+    if suffix not in SUFFIXES and not _is_freesurfer(path):
+        known = ", ".join([*SUFFIXES, *FREESURFER])
         raise ValueError(f"{path} has an unknown format, choose one of {known}")
     check_writable(path)
 
 
 def _is_freesurfer(path: Path) -> bool:
     suffix = path.suffix.lower()
-    return suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in (*WITH_MAPS, *WITHOUT_MAPS))
+    return suffix in FREESURFER or (bool(hemisphere_of(path)) and suffix not in SUFFIXES)
 
 
 def _writer(
@@ -96,7 +98,7 @@ def _writer(
         check_single_precision_points(mesh.vertices, mesh.faces)
         if freesurfer:
             return lambda place: write_freesurfer_geometry(place, mesh, frame.volume if frame is not None else None)
-        if suffix == ".gii":
+        if suffix == GIFTI:
             return lambda place: write_gifti(place, mesh, hemisphere, frame)
     return lambda place: WITHOUT_MAPS[suffix](place, mesh)
 
@@ -105,4 +107,4 @@ def format_of(path: Path) -> str:
     """Return "FreeSurfer", "GIFTI", or the suffix of the format in which a mesh is written."""
     if _is_freesurfer(path):
         return "FreeSurfer"
-    return "GIFTI" if path.suffix.lower() == ".gii" else path.suffix.lower()
+    return "GIFTI" if path.suffix.lower() == GIFTI else path.suffix.lower()

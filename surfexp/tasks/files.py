@@ -171,9 +171,10 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
         scalars = what.scalars if target.suffix.lower() in WITH_MAPS else {}
         write_mesh(target, what.mesh, scalars, what.frame, what.hemisphere)
         return
+    side = surface.hemisphere if surface is not None else ""
     table = getattr(what, "label_map", None)
     if target.name.endswith(LABEL_SUFFIXES) and table is not None:
-        write_labels(target, table.keys, list(table.names.values()))
+        write_labels(target, table.keys, list(table.names.values()), side)
         return
     if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
         arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
@@ -188,7 +189,7 @@ def write(path: PathLike, what: Any, surface: Surface | None = None) -> None:
             )
         write_mesh(target, surface.mesh, maps)
         return
-    write_maps(target, maps, surface.hemisphere if surface is not None else "")
+    write_maps(target, maps, side)
 
 
 def maps_of(what: Any) -> dict[str, Floats]:

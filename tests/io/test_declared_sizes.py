@@ -51,7 +51,7 @@ def test_a_gifti_array_with_impossible_dimensions_is_refused_at_once(
     if "surf" in name:
         write_mesh(sound, MESH)
     elif "label" in name:
-        write_gifti_labels(sound, np.arange(len(MESH.vertices)) % 2, {0: "a", 1: "b"}, np.zeros((2, 3), np.int64))
+        write_gifti_labels(sound, np.arange(len(MESH.vertices)) % 2, {0: "a", 1: "b"}, np.zeros((2, 3), np.int64), "")
     else:
         write_gifti_maps(sound, {"thickness": VALUES}, "left")
     check_declared_sizes(sound)
@@ -171,7 +171,7 @@ def test_spoilt_arrays_of_numpy_are_refused_in_a_line(tmp_path: Path) -> None:
 
 def test_masks_and_labels_are_checked_too(tmp_path: Path) -> None:
     path = tmp_path / "a.label.gii"
-    write_gifti_labels(path, np.arange(len(MESH.vertices)) % 2, {0: "unknown", 1: "b"}, np.zeros((2, 3), np.int64))
+    write_gifti_labels(path, np.arange(len(MESH.vertices)) % 2, {0: "unknown", 1: "b"}, np.zeros((2, 3), np.int64), "")
     assert read_mask(path, len(MESH.vertices)).sum() == len(MESH.vertices) // 2
     path.write_bytes(path.read_bytes().replace(b'Dimensionality="1"', b'Dimensionality="4294967296"'))
     with pytest.raises(ValueError, match="not a readable file of labels: a data array has Dimensionality"):

@@ -67,7 +67,7 @@ def test_gifti_transform_metadata_and_maps_are_carried(tmp_path: Path) -> None:
 def test_the_hemisphere_of_a_gifti_is_read_wherever_it_stands(tmp_path: Path, place: str, side: str) -> None:
     """Workbench writes it beside the file's other facts, FreeSurfer beside the positions; the name says nothing here."""
     path = tmp_path / "some.surf.gii"
-    write_gifti(path, MESH, side)
+    write_gifti(path, MESH, side, None)
     image = nibabel.load(path)
     said = {"AnatomicalStructurePrimary": f"Cortex{side.title()}"}
     image.meta = nibabel.gifti.GiftiMetaData(said if place == "image" else {})

@@ -7,6 +7,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.commands.command_line import main
+from surfexp.io.reading import hemisphere_of_file
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -41,3 +42,16 @@ def test_repair_keeps_side_and_space(working_folder) -> None:
     assert main(["repair", "broken.surf.gii", "--to", "mended.surf.gii"]) == 0
     mended = sx.read("mended.surf.gii")
     assert mended.hemisphere == "left" and mended.frame.metadata["GeometricType"] == "Anatomical"
+
+
+@pytest.mark.parametrize("side", ["left", "right", ""])
+def test_labels_say_their_side_and_are_refused_on_the_other(working_folder, side: str) -> None:
+    surface = Surface(BALL, hemisphere=side)
+    sx.write("parts.label.gii", sx.segment(surface, BALL.vertices[:, 2]), surface)
+    assert hemisphere_of_file("parts.label.gii") == side
+    sx.write("rh.ball.off", Surface(BALL))
+    if side == "left":
+        with pytest.raises(ValueError, match="left"):
+            sx.read("rh.ball.off", labels={"parts": "parts.label.gii"})
+    else:
+        assert sx.read("rh.ball.off", labels={"parts": "parts.label.gii"}).labels

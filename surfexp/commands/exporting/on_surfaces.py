@@ -38,9 +38,9 @@ def _surface(surface: Surface, place: Place) -> None:
     write_mesh(place.file(".vtp"), surface.mesh, maps)
     if surface.hemisphere:
         check_single_precision_points(surface.mesh.vertices, surface.mesh.faces)
-        write_gifti(place.file(".surf.gii"), surface.mesh, surface.hemisphere)
+        write_gifti(place.file(".surf.gii"), surface.mesh, surface.hemisphere, surface.frame)
     for name, table in surface.labels.items():
-        _write_labels(place, name, table.keys, table.names)
+        _write_labels(place, name, table.keys, table.names, surface.hemisphere)
 
 
 @write.register(Image)
@@ -49,7 +49,7 @@ def _map(result: Image | Feature, place: Place) -> None:
     """The maps as .shape.gii; reference segmentations of an image as .label.gii."""
     _write_maps(place, maps_of(result), result.name)
     for name, inside in getattr(result, "labels", {}).items():
-        _write_labels(place, name, inside.astype(np.int64), {0: f"not {name}", 1: name})
+        _write_labels(place, name, inside.astype(np.int64), {0: f"not {name}", 1: name}, _side(place))
 
 
 @write.register
@@ -59,7 +59,7 @@ def _solution(solution: Solution, place: Place) -> None:
     _write_maps(place, {"": solution.values}, solution.model or "solution")
     if solution.segmentation is not None:
         keys = solution.segmentation.astype(np.int64)
-        _write_labels(place, "segmentation", keys, {int(key): f"region {key}" for key in np.unique(keys)})
+        _write_labels(place, "segmentation", keys, {int(key): f"region {key}" for key in np.unique(keys)}, _side(place))
     if solution.history:
         write_csv(place.file("-history.csv"), list(solution.history), zip(*solution.history.values(), strict=True))
 
@@ -89,15 +89,20 @@ def _write_maps(place: Place, maps: Mapping[str, Floats], name: str) -> None:
     """Write maps as one .shape.gii, and where the surface was cut out of another, as one more for the whole of that."""
     named = scalar_channels({printable_name(f"{name} {part}"): values for part, values in maps.items()})
     surface = place.surface
-    write_maps(place.file(".shape.gii"), named, surface.hemisphere if surface else "")
+    write_maps(place.file(".shape.gii"), named, _side(place))
     if surface is not None and surface.part is not None and not surface.part.is_whole:
         whole = {key: surface.part.extend(values) for key, values in named.items()}
         write_maps(place.file("-whole.shape.gii"), whole, surface.hemisphere)
 
 
-def _write_labels(place: Place, name: str, keys: Integers, names: Mapping[Any, str]) -> None:
+def _side(place: Place) -> str:
+    """The hemisphere that a result on a surface belongs to."""
+    return place.surface.hemisphere if place.surface is not None else ""
+
+
+def _write_labels(place: Place, name: str, keys: Integers, names: Mapping[Any, str], hemisphere: str) -> None:
     """Write labels with a name for every key that occurs; keys that were stored have become text."""
     named = {int(key): label for key, label in names.items()}
     table = {**{int(key): f"no label {key}" for key in np.unique(keys)}, **named}
     path = place.file(f"-{slug(name, 40) or 'labels'}.label.gii")
-    write_gifti_labels(path, keys, dict(sorted(table.items())), label_colors(len(table)))
+    write_gifti_labels(path, keys, dict(sorted(table.items())), label_colors(len(table)), hemisphere)
