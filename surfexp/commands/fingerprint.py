@@ -31,7 +31,7 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     The layout is BrainPrint's, a column a structure, with the rows residual, complete and repairs below.
     """
     from surfexp.io.replacing import check_writable
-    from surfexp.mesh.given_arrays import whole_number
+    from surfexp.mesh.given_numbers import whole_number
     from surfexp.tasks.fingerprints import fingerprint as task
     from surfexp.tasks.fingerprints import structures
 

@@ -8,22 +8,20 @@ SuperLU knows no symmetry and takes three to four times as long, qdldl works col
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_array, issparse, sparray, spmatrix
+from scipy.sparse import csr_array, sparray, spmatrix
 
 from surfexp.contract.arrays import Floats
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve import solve_lanes
 from surfexp.linalg.ldlt_solve_one import solve_one
-from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, both_triangles, permuted
+from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
+from surfexp.linalg.symmetric_matrix import entries_outside, symmetric_rows
 
 SMALLEST_PIVOT = 1e-14
-# largest |A - A^T| over the largest |A| that is taken for rounding
-SYMMETRY = 1e-12
 # backward error of a first solve above which solves are refined, and its residual above which the factors are refused
 REFINED, REFUSED = 1e-14, 1e-3
 REFINEMENTS = 3
@@ -88,11 +86,11 @@ class LDLT:
             If the matrix is not symmetric, has entries elsewhere, or is singular to rounding. The factors are then those of
             no matrix.
         """
-        given = _symmetric(matrix)
+        given = symmetric_rows(matrix)
         if given.shape[0] != self.symbolic.size:
             raise ValueError(f"matrix has {given.shape[0]} rows, the factors are of one with {self.symbolic.size}")
         ordered = permuted(given, self.symbolic.permutation)
-        outside = _entries_outside(ordered, self.matrix)
+        outside = entries_outside(ordered, self.matrix)
         if outside:
             raise ValueError(
                 f"matrix has {outside} entries where the factorised one has none: factorise it anew, with ldlt(matrix)"
@@ -311,43 +309,10 @@ def ldlt(matrix: ArrayLike | sparray | spmatrix, symbolic: SymbolicFactor | None
     >>> factor.inertia  # 35 eigenvalues 2 - 2 cos(k pi / 101) are below 1.1
     (35, 65)
     """
-    given = _symmetric(matrix)
+    given = symmetric_rows(matrix)
     symbolic = analyse(given) if symbolic is None else symbolic
     if given.shape[0] != symbolic.size:
         raise ValueError(f"matrix has {given.shape[0]} rows, the analysis is of one with {symbolic.size}")
     factor = LDLT(permuted(given, symbolic.permutation), symbolic)
     factor._require_regular()
     return factor
-
-
-def _symmetric(matrix: ArrayLike | sparray | spmatrix) -> csr_array:
-    """The matrix as float64 rows, refused unless it is real, square and symmetric."""
-    given: Any = matrix if issparse(matrix) else np.asarray(matrix)
-    if np.iscomplexobj(given):
-        raise ValueError(
-            "matrix is complex, a real symmetric one is needed: factorise [[Re, -Im], [Im, Re]] in its place"
-        )
-    if given.ndim != 2 or given.shape[0] != given.shape[1] or not given.shape[0]:
-        shape = " x ".join(map(str, given.shape)) or "()"
-        raise ValueError(f"matrix has shape {shape}, a factorisation needs a square one of at least 1 x 1")
-    rows = csr_array(given, dtype=np.float64)
-    rows.sum_duplicates()
-    if not np.isfinite(rows.data).all():
-        raise ValueError(f"matrix has {int((~np.isfinite(rows.data)).sum())} entries that are not finite")
-    difference = abs(rows - rows.T)
-    largest, bound = difference.max() if difference.nnz else 0.0, SYMMETRY * abs(rows.data).max(initial=0.0)
-    if largest > bound:
-        raise ValueError(
-            f"matrix is not symmetric, |A - A^T| is up to {largest:.1e}, at most {bound:.1e} is taken for rounding: "
-            "give both triangles, or (A + A.T) / 2"
-        )
-    return rows
-
-
-def _entries_outside(matrix: csr_array, pattern: csr_array) -> int:
-    """How many entries that are not 0 lie outside of the pattern."""
-    if np.array_equal(matrix.indptr, pattern.indptr) and np.array_equal(matrix.indices, pattern.indices):
-        return 0
-    ones = both_triangles(pattern)
-    other = csr_array((np.asarray(matrix.data != 0.0, dtype=float), matrix.indices, matrix.indptr), shape=matrix.shape)
-    return int(other.sum() - other.multiply(ones > 0).sum())

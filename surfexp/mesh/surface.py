@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.mesh.given_arrays import frozen, map_array, mask_array, one_of
+from surfexp.mesh.given_arrays import frozen, map_array, mask_array
+from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.smooth_shape import SmoothShape
 from surfexp.mesh.spatial_frame import SpatialFrame

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import one_of, real_number
+from surfexp.mesh.given_numbers import one_of, real_number
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -17,10 +17,9 @@ from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalu
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.tasks.noisy_image import noisy_image
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.generalised_variation import GeneralisedVariation
-from surfexp.variational.noise_level import noise_level
-from surfexp.variational.noise_reading import read_noise
 from surfexp.variational.own_unit import own_unit
 from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
 from surfexp.variational.solution import Solution
@@ -102,39 +101,17 @@ def denoise(
     weight = real_number(weight, "weight", above=0.0)
     ratio = real_number(ratio, "ratio", above=0.0)
     tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
-    owner = as_surface(surface)
-    noisy = as_map(owner, values)
-    part = part_for(owner, noisy)
-    operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
-    refuse_absurd_values(image, part.vertices)
-    if np.ptp(image) == 0 and noise is None:
-        raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
-    given = None if noise is None else real_number(noise, "noise", above=0.0)
+    image = noisy_image(surface, values, noise)
+    part, operator = image.part, image.operator
     if method == "auto":
-        found = automatically_denoised(part, operator, image, given)
-        return replace(found, name=name_of(values))
-    sigma, said = _noise(operator, image, given)
+        return replace(automatically_denoised(part, operator, image.values, image.given_noise), name=image.name)
+    sigma, said = image.noise()
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
-    solution = _minimised(method, _data(operator, image, sigma, weight), operator, ratio, tolerance, progress)
+    data = rof(operator.mass, image.values, image.data_weight(weight, sigma))
+    solution = _minimised(method, data, operator, ratio, tolerance, progress)
     notes = part.notes + solution.notes + said
-    certificate = facts | _proof(solution, operator)
-    return DenoisedMap(part.extend(solution.values), method, certificate, notes, name_of(values))
-
-
-def _noise(operator: SurfaceOperator, image: Floats, given: float | None) -> tuple[float, tuple[str, ...]]:
-    """The noise of a map, and what is to be said about it; several channels are pooled, and nothing is said of them."""
-    if image.ndim > 1:
-        return (noise_level(operator, image) if given is None else given), ()
-    found = read_noise(operator, image)
-    return (found.level if given is None else given), found.notes
-
-
-def _data(operator: SurfaceOperator, image: Floats, noise: float, weight: float) -> SeparableQuadratic:
-    """The distance to the map, by its dimensionless weight."""
-    if not (noise > 0 and weight > 0):
-        raise ValueError(f"noise is {noise:g} and weight {weight:g}, both must be positive: give the noise of the map")
-    return rof(operator.mass, image, weight / (noise * operator.edge_length))
+    return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes, image.name)
 
 
 def _minimised(

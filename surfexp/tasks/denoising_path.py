@@ -10,14 +10,11 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.mesh.given_arrays import real_number, real_pair
+from surfexp.mesh.given_numbers import real_number, real_pair
 from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.fem import fem
-from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
-from surfexp.variational.noise_level import noise_level
-from surfexp.variational.noise_reading import read_noise
+from surfexp.tasks.inputs import MapLike, SurfaceLike
+from surfexp.tasks.noisy_image import noisy_image
 from surfexp.variational.rof_path import RofPath, rof_path
 
 Progress = Callable[[int, float], None]
@@ -125,7 +122,7 @@ def denoise_path(
     Raises
     ------
     ValueError
-        If the map does not fit or is constant, the range is empty, or a parameter is out of its range.
+        If the map does not fit, is constant while its noise is not given, the range is empty, or a parameter is out of its range.
 
     Examples
     --------
@@ -140,26 +137,11 @@ def denoise_path(
     if not low < high:
         raise ValueError(f"weights = ({low:g}, {high:g}) is no range, give the smaller one first")
     tolerance = real_number(tolerance, "tolerance", above=1e-8, below=1.0)
-    owner = as_surface(surface)
-    noisy = as_map(owner, values)
-    part = part_for(owner, noisy)
-    operator, image = fem(part.mesh), np.asarray(part.restrict(noisy), dtype=np.float64)
-    refuse_absurd_values(image, part.vertices)
-    if np.ptp(image) == 0:
-        raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove, give one that varies")
-    notes: tuple[str, ...] = ()
-    if noise is not None:
-        sigma = real_number(noise, "noise", above=0.0)
-    elif image.ndim > 1:
-        sigma = noise_level(operator, image)
-    else:
-        found = read_noise(operator, image)
-        sigma, notes = found.level, found.notes
-    if not sigma > 0:
-        raise ValueError("the noise of the map is 0: give it, noise=")
-    scale = 1.0 / (sigma * operator.edge_length)
-    path = rof_path(operator, image, low * scale, high * scale, tolerance=tolerance, progress=progress)
+    image = noisy_image(surface, values, noise)
+    sigma, said = image.noise()
+    scale = image.data_weight(1.0, sigma)
+    path = rof_path(image.operator, image.values, low * scale, high * scale, tolerance=tolerance, progress=progress)
     solved = np.clip(path.mus / scale, low, high)
     solved[0], solved[-1] = low, high
     certificate = {"relative_gap": path.largest_gap, "solves": len(solved), "noise": sigma}
-    return DenoisingPath(solved, certificate, part.notes + notes, name_of(values), path, part)
+    return DenoisingPath(solved, certificate, image.part.notes + said, image.name, path, image.part)

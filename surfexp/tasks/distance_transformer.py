@@ -10,7 +10,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
-from surfexp.mesh.given_arrays import one_of, whole_number
+from surfexp.mesh.given_numbers import one_of, whole_number
 from surfexp.tasks.distances import embedded
 from surfexp.tasks.inputs import SurfaceLike
 from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each

@@ -17,7 +17,7 @@ from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights, spectral_embedding
-from surfexp.mesh.given_arrays import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.spectrum.lowest_pairs import lowest_pairs

@@ -16,7 +16,8 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import hemisphere_of_file, read_mesh_file
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import WITH_MAPS, write_mesh
-from surfexp.mesh.given_arrays import map_array, mask_array, one_of
+from surfexp.mesh.given_arrays import map_array, mask_array
+from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.repair import repair as repair_mesh
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh

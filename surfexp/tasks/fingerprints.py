@@ -18,7 +18,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
 from surfexp.io.mesh_patterns import MESH_PATTERNS
-from surfexp.mesh.given_arrays import real_number, whole_number
+from surfexp.mesh.given_numbers import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.files import PathLike, read

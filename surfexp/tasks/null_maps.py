@@ -9,7 +9,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.mesh.given_arrays import one_of, whole_number
+from surfexp.mesh.given_numbers import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh

@@ -18,7 +18,7 @@ from surfexp.figures.figure import Figure
 from surfexp.figures.panel import surface_panel, vector_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
-from surfexp.mesh.given_arrays import one_of, real_pair, whole_number
+from surfexp.mesh.given_numbers import one_of, real_pair, whole_number
 from surfexp.mesh.surface_part import surface_part
 from surfexp.tasks.inputs import SurfaceLike, as_map, as_surface
 from surfexp.tasks.soundness import usable_vertices

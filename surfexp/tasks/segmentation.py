@@ -8,7 +8,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.mesh.given_arrays import real_number
+from surfexp.mesh.given_numbers import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
-from surfexp.mesh.given_arrays import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.validate import LARGEST_COORDINATE, SMALLEST_EXTENT
 

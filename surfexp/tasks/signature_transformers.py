@@ -6,7 +6,7 @@ from typing import get_args
 
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import one_of, whole_number
+from surfexp.mesh.given_numbers import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.mesh.given_arrays import index_array, mask_array, one_of, real_number, whole_number
+from surfexp.mesh.given_arrays import index_array, mask_array
+from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.geodesic_distance import geodesic_bounds, geodesic_distance

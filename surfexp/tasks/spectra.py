@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, issparse
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs

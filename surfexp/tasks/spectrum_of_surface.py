@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TypeVar, get_args
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements
 from surfexp.operators.fem import fem

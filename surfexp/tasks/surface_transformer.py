@@ -12,7 +12,7 @@ from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import check_is_fitted
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_arrays import whole_number
+from surfexp.mesh.given_numbers import whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.inputs import SurfaceLike
 

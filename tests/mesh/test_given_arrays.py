@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from surfexp.mesh.given_arrays import index_array, mask_array, real_array, real_number, whole_number
+from surfexp.mesh.given_arrays import index_array, mask_array, real_array
+from surfexp.mesh.given_numbers import real_number, whole_number
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh

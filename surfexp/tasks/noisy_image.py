@@ -1,0 +1,90 @@
+"""A map and its noise, as every model of denoising takes them: from what a person hands in to numbers inside the mask."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from surfexp.contract.arrays import Floats
+from surfexp.mesh.given_numbers import real_number
+from surfexp.mesh.surface_part import SurfacePart
+from surfexp.operators.fem import fem
+from surfexp.operators.surface_operator import SurfaceOperator
+from surfexp.smoothing.absurd_values import refuse_absurd_values
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.variational.noise_level import noise_level
+from surfexp.variational.noise_reading import read_noise
+
+
+@dataclass(frozen=True, eq=False)
+class NoisyImage:
+    """A map inside the mask of a surface.
+
+    Parameters
+    ----------
+    part : SurfacePart
+    operator : SurfaceOperator
+        On the part.
+    values : (p,) or (p, c) float64
+    given_noise : float, optional
+        Standard deviation, as the caller says.
+    name : str
+        Under which the surface carries the map.
+    """
+
+    part: SurfacePart
+    operator: SurfaceOperator
+    values: Floats
+    given_noise: float | None
+    name: str
+
+    def noise(self) -> tuple[float, tuple[str, ...]]:
+        """Return the noise, as given or read from the map, and what is to be said of it.
+
+        Several channels are pooled, and nothing is said of them.
+
+        Raises
+        ------
+        ValueError
+            If the map has no noise.
+        """
+        notes: tuple[str, ...] = ()
+        level = self.given_noise
+        if self.values.ndim == 1:
+            found = read_noise(self.operator, self.values)
+            level, notes = (found.level if level is None else level), found.notes
+        elif level is None:
+            level = noise_level(self.operator, self.values)
+        if not level > 0:
+            raise ValueError(f"noise is {level:g}, it must be positive: give the noise of the map")
+        return level, notes
+
+    def data_weight(self, weight: float, noise: float) -> float:
+        """Return mu of the model TV(u) + mu/2 |u - f|^2 for a dimensionless weight."""
+        return weight / (noise * self.operator.edge_length)
+
+
+def noisy_image(surface: SurfaceLike, values: MapLike, noise: float | None) -> NoisyImage:
+    """Check a map and cut it out of its surface.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces)
+    values : str or (n,) or (n, c) float64
+    noise : float, optional
+
+    Raises
+    ------
+    ValueError
+        If the map does not fit, has values far from all others, or is constant while its noise is not given.
+    """
+    owner = as_surface(surface)
+    noisy = as_map(owner, values)
+    part = part_for(owner, noisy)
+    image = np.asarray(part.restrict(noisy), dtype=np.float64)
+    refuse_absurd_values(image, part.vertices)
+    if np.ptp(image) == 0 and noise is None:
+        raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
+    given = None if noise is None else real_number(noise, "noise", above=0.0)
+    return NoisyImage(part, fem(part.mesh), image, given, name_of(values))
