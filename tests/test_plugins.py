@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import typing
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,15 +27,20 @@ from surfexp.report.declared import declared
 load_all(Path("/nonexistent"))
 PLUGINS = sorted(key for key in registry.PLUGINS if not key[1].startswith("toy_"))
 
+
+def labelled(items: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{"label": label, **item} for label, item in items.items()]
+
+
 SPHERE = {"name": "icosphere", "levels": 3}
 GEOMETRY = {"solver": {"solver": "normal_filtering"}, "noisy": {}, "clean": {"surface": SPHERE}}
 PIAL = {"template": {"surface": {"name": "labelled_fsaverage5", "sheet": "pial"}}}
 # any closed surface with a concave region is a template; that of a cortex would take minutes
 WORM = {"template": {"surface": {"name": "articulated", "body": "worm", "vertices": 600}}}
 POPULATION = {"name": "sulcal_population", "subjects": 3, "regions": 1, "lines": False, "inputs": WORM}
-LENGTHS = {"lengths": {"over": "blocks", "statistic": POPULATION}}
+LENGTHS = {"lengths": {"dataset": "blocks", "statistic": POPULATION}}
 SMALL_ERROR = {"name": "spectrum_error", "low": 3, "high": 8}
-RATIOS = {"reference": "weak", "baseline": "strong", "inputs": {"solutions": {"over": "smoothed"}}}
+RATIOS = {"reference": "weak", "baseline": "strong", "inputs": {"solutions": {"dataset": "smoothed"}}}
 BODY = {"name": "ellipsoid", "levels": 3}
 REBUILT = {
     "name": "mode_reconstruction",
@@ -42,12 +48,12 @@ REBUILT = {
     "seeds": 2,
     "first": 2,
     "last": 20,
-    "inputs": {"bases": {"over": "bases"}},
+    "inputs": {"bases": {"dataset": "bases"}},
 }
 PEOPLE = {
     "name": "modes_of_people",
     "count": 12,
-    "inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}},
+    "inputs": {"surfaces": {"dataset": "members"}, "systems": {"dataset": "members"}},
 }
 STRIP = {"name": "strip", "length": 14.0, "width": 4.0}
 GRID = {
@@ -55,7 +61,7 @@ GRID = {
     "across": 3,
     "permutations": 20,
     "halvings": 2,
-    "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+    "inputs": {"first": {"dataset": "strips"}, "second": {"dataset": "strips"}},
 }
 REJECTIONS = {
     "name": "null_rejections",
@@ -94,12 +100,12 @@ SMALL = {
     ("figure", "geometry"): {
         "inputs": {**GEOMETRY, "statistic": {"statistic": {"name": "geometry_error", "inputs": GEOMETRY}}}
     },
-    ("figure", "convergence"): {"inputs": {"solvers": {"over": "levels"}}},
+    ("figure", "convergence"): {"inputs": {"solvers": {"dataset": "levels"}}},
     ("figure", "order"): {
         "errors": {"gradient": "gradient_error"},
-        "inputs": {"statistics": {"over": "levels", "statistic": "operator_errors"}},
+        "inputs": {"statistics": {"dataset": "levels", "statistic": "operator_errors"}},
     },
-    ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"over": "levels"}}},
+    ("figure", "sweep"): {"metric": "rmse", "x_label": "level", "inputs": {"solvers": {"dataset": "levels"}}},
     ("surface", "subcortical"): {"vertices": 800},
     ("surface", "articulated"): {"vertices": 900},
     ("surface", "rectangle"): {"n_x": 20, "n_y": 14},
@@ -109,18 +115,18 @@ SMALL = {
     ("signature", "spectral"): {"count": 24},
     ("signature", "brainprint"): {"count": 20},
     ("surface", "flat_torus"): {"n": 8},
-    ("distance_matrix", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
+    ("distance_matrix", "signatures"): {"inputs": {"signatures": {"dataset": "members"}}},
     ("classifier", "random_forest"): {"permutations": 2},
     ("statistic", "isospectral_drums"): {"divisions": 4, "count": 8},
     ("statistic", "drum_values"): {"count": 10, "divisions": [4, 6, 8]},
     ("statistic", "torus_trend"): {"count": 40},
     ("statistic", "spectrum_error"): {"low": 3, "high": 8},
-    ("statistic", "convergence_orders"): {"inputs": {"errors": {"over": "levels", "statistic": SMALL_ERROR}}},
+    ("statistic", "convergence_orders"): {"inputs": {"errors": {"dataset": "levels", "statistic": SMALL_ERROR}}},
     ("statistic", "count_agreement"): {
         "part": "nodal_counts",
-        "inputs": {"reference": {}, "others": {"over": "members"}},
+        "inputs": {"reference": {}, "others": {"dataset": "members"}},
     },
-    ("statistic", "signature_change"): {"inputs": {"reference": {}, "others": {"over": "members"}}},
+    ("statistic", "signature_change"): {"inputs": {"reference": {}, "others": {"dataset": "members"}}},
     ("statistic", "eigenfunction_error"): {"level": 2, "count": 8},
     ("statistic", "midpoint_gain"): {"level": 1, "count": 8},
     ("statistic", "values_below"): {"level": 2, "count": 8},
@@ -135,12 +141,14 @@ SMALL = {
         },
     },
     ("statistic", "group_power"): {"sizes": [1], "draws": 10, "permutations": 19},
-    ("figure", "signatures"): {"inputs": {"signatures": {"over": "members"}}},
-    ("figure", "accuracies"): {"inputs": {"classifiers": {"over": "members"}}},
+    ("figure", "signatures"): {"inputs": {"signatures": {"dataset": "members"}}},
+    ("figure", "accuracies"): {"inputs": {"classifiers": {"dataset": "members"}}},
     ("figure", "curves"): {"x": "mode", "y": ["count"]},
-    ("figure", "joint_curves"): {"x": "mode", "y": ["count"], "inputs": {"statistics": {"over": "members"}}},
-    ("figure", "search_effort"): {"inputs": {"distances": {"over": "maps"}}},
-    ("figure", "embedded_surfaces"): {"inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
+    ("figure", "joint_curves"): {"x": "mode", "y": ["count"], "inputs": {"statistics": {"dataset": "members"}}},
+    ("figure", "search_effort"): {"inputs": {"distances": {"dataset": "maps"}}},
+    ("figure", "embedded_surfaces"): {
+        "inputs": {"surfaces": {"dataset": "members"}, "systems": {"dataset": "members"}}
+    },
     ("surface", "strip"): STRIP,
     ("surface", "y_patch"): {"edge_length": 0.5},
     ("surface", "callosum"): {"edge_length": 1.0, "pixel": 1.0},
@@ -155,13 +163,13 @@ SMALL = {
     ("skeleton", "hamilton_jacobi"): {"inputs": {"surface": {"surface": STRIP}}},
     ("skeleton", "reeb_graph"): {"count": 8},
     ("statistic", "genus_check"): {"directions": 2, "counts": [10]},
-    ("statistic", "skeleton_study"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
-    ("statistic", "skeleton_topology"): {"inputs": {"skeletons": {"over": "levels"}}},
-    ("statistic", "graph_agreement"): {"inputs": {"skeletons": {"over": "levels"}}},
+    ("statistic", "skeleton_study"): {"count": 12, "inputs": {"surfaces": {"dataset": "strips"}}},
+    ("statistic", "skeleton_topology"): {"inputs": {"skeletons": {"dataset": "levels"}}},
+    ("statistic", "graph_agreement"): {"inputs": {"skeletons": {"dataset": "levels"}}},
     ("statistic", "width_test"): {
         "permutations": 20,
         "halvings": 2,
-        "inputs": {"first": {"over": "strips"}, "second": {"over": "strips"}},
+        "inputs": {"first": {"dataset": "strips"}, "second": {"dataset": "strips"}},
     },
     ("surface", "donor_cingulate"): {"edge_length": 3.0},
     ("statistic", "level_set_parametrization"): GRID,
@@ -171,10 +179,14 @@ SMALL = {
             "statistic": {"statistic": {"name": "level_set_parametrization", **GRID}},
         }
     },
-    ("figure", "skeleton_shares"): {"inputs": {"statistics": {"over": "studies"}}},
-    ("figure", "skeleton_group"): {"count": 12, "inputs": {"surfaces": {"over": "strips"}}},
+    ("figure", "skeleton_shares"): {"inputs": {"statistics": {"dataset": "studies"}}},
+    ("figure", "skeleton_group"): {"count": 12, "inputs": {"surfaces": {"dataset": "strips"}}},
     ("figure", "level_sets"): {
-        "inputs": {"weights": {"over": "alphas"}, "features": {"over": "alphas"}, "skeletons": {"over": "alphas"}}
+        "inputs": {
+            "weights": {"dataset": "alphas"},
+            "features": {"dataset": "alphas"},
+            "skeletons": {"dataset": "alphas"},
+        }
     },
     ("surface", "clover"): {"levels": 2},
     ("surface", "coarse"): {"count": 300, "inputs": {"original": {"surface": SPHERE}}},
@@ -182,10 +194,10 @@ SMALL = {
     ("surface", "slivers"): {"inputs": {"original": {"surface": SPHERE}}},
     ("statistic", "missing_pairs"): {"counts": [10]},
     ("statistic", "null_rejections"): REJECTIONS,
-    ("statistic", "rejections_by_length"): {"inputs": {"statistics": {"over": "levels", "statistic": REJECTIONS}}},
+    ("statistic", "rejections_by_length"): {"inputs": {"statistics": {"dataset": "levels", "statistic": REJECTIONS}}},
     ("image", "gaussian_fields"): {"length": 0.6, "ratio": 2.0, "count": 3},
     ("statistic", "missing_by_kind"): {
-        "inputs": {"statistics": {"over": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
+        "inputs": {"statistics": {"dataset": "members", "statistic": {"name": "missing_pairs", "counts": [10]}}}
     },
     ("image", "repeated_map"): {"inputs": {"surface": {"surface": "masked_fsaverage5"}}},
     ("statistic", "carried_over_mask"): {
@@ -194,38 +206,38 @@ SMALL = {
     },
     ("statistic", "error_ratios"): RATIOS,
     ("figure", "ratio_table"): {
-        "inputs": {"statistics": {"over": "sets", "statistic": {"name": "error_ratios"} | RATIOS}}
+        "inputs": {"statistics": {"dataset": "sets", "statistic": {"name": "error_ratios"} | RATIOS}}
     },
     ("surface", "masked_by_map"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "sphere"}}}},
     ("statistic", "mode_reconstruction"): REBUILT,
     ("statistic", "reconstruction_differences"): {
         "maps": ["twin of own", "twin of shuffled"],
-        "inputs": {"statistics": {"over": "maps", "statistic": REBUILT}},
+        "inputs": {"statistics": {"dataset": "maps", "statistic": REBUILT}},
     },
     ("figure", "difference_curves"): {"x": "mode", "differences": {"none": ("count", "count")}},
     ("statistic", "modes_of_people"): PEOPLE,
     ("statistic", "agreed_signs"): PEOPLE | {"name": "agreed_signs"},
-    ("statistic", "modes_of_people_pooled"): {"inputs": {"statistics": {"over": "maps", "statistic": PEOPLE}}},
+    ("statistic", "modes_of_people_pooled"): {"inputs": {"statistics": {"dataset": "maps", "statistic": PEOPLE}}},
     ("statistic", "modes_of_twins"): {
         "count": 12,
         "inputs": {
             "surface": {"surface": BODY},
             "eigensolver": {"surface": BODY},
-            "twins": {"over": "twins"},
-            "systems": {"over": "twins"},
+            "twins": {"dataset": "twins"},
+            "systems": {"dataset": "twins"},
         },
     },
     ("surface", "subcortical_person"): {"vertices": 800, "change": "segmented"},
     ("surface", "cortical_person"): {"change": "half", "inputs": {"template": {"surface": SPHERE}}},
     ("signature", "fingerprint"): {"count": 60},
     ("statistic", "identification"): {
-        "inputs": {"signatures": {"over": "seen", "signature": {"name": "fingerprint", "count": 50}}}
+        "inputs": {"signatures": {"dataset": "seen", "signature": {"name": "fingerprint", "count": 50}}}
     },
     ("statistic", "pairwise_identification"): {
         "n": 3,
-        "inputs": {"surfaces": {"over": "seen"}, "systems": {"over": "seen"}},
+        "inputs": {"surfaces": {"dataset": "seen"}, "systems": {"dataset": "seen"}},
     },
-    ("figure", "identification"): {"inputs": {"statistics": {"over": "recognised"}}},
+    ("figure", "identification"): {"inputs": {"statistics": {"dataset": "recognised"}}},
     ("surface", "disguised"): {"remeshed": True, "inputs": {"original": {"surface": SPHERE}}},
     ("surface", "sulcal_regions"): {"inputs": {"original": {"surface": {"name": "fsaverage5", "sheet": "pial"}}}},
     ("figure", "embedded_regions"): {
@@ -256,7 +268,10 @@ SMALL = {
     ("distance", "wave_kernel_signature"): {"n": 3},
     ("distance", "mirrored_space"): {"n": 3},
     ("distance", "vertex_index"): {"n": 3},
-    ("distance_matrix", "pairs"): {"n": 3, "inputs": {"surfaces": {"over": "members"}, "systems": {"over": "members"}}},
+    ("distance_matrix", "pairs"): {
+        "n": 3,
+        "inputs": {"surfaces": {"dataset": "members"}, "systems": {"dataset": "members"}},
+    },
     ("statistic", "distance_growth"): {"largest": 24},
     ("statistic", "sulci_names"): {
         "subjects": 1,
@@ -268,13 +283,13 @@ SMALL = {
     ("statistic", "sulcal_asymmetry"): {"inputs": LENGTHS},
     ("statistic", "sulcal_power"): {"sizes": [3], "draws": 20, "inputs": LENGTHS},
     ("statistic", "sulcal_false_positives"): {"sizes": [3], "inputs": LENGTHS},
-    ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"over": "sides"}}},
+    ("statistic", "sulcal_table"): {"regions": 1, "inputs": {**PIAL, "surfaces": {"dataset": "sides"}}},
     ("statistic", "template_distances"): {"subjects": 1, "n": 6, "inputs": PIAL},
     ("statistic", "geodesic_errors"): {
         "samples": 5,
         "inputs": {
             "target_surface": {"surface": {"name": "disguised", "inputs": {"original": {"surface": SPHERE}}}},
-            "maps": {"over": "maps"},
+            "maps": {"dataset": "maps"},
         },
     },
 }
@@ -287,87 +302,107 @@ CONTEXT = {
     "solver": {"name": "primal_dual", "tolerance": 1e-3},
     "eigensolver": {"name": "slicing", "count": 40},
     "signature": {"name": "spectral", "count": 24},
-    "distance_matrix": {"name": "signatures", "inputs": {"signatures": {"over": "members"}}},
+    "distance_matrix": {"name": "signatures", "inputs": {"signatures": {"dataset": "members"}}},
     "embedding": "classical",
     "classifier": {"name": "nearest_neighbour", "permutations": 5},
     "statistic": "nodal_trend",
     "distance": {"name": "mean_hausdorff", "n": 3},
     "feature": "height",
     "skeleton": {"name": "reeb_graph", "count": 8},
-    "axes": {
-        "blocks": {"from 2": {"statistic": {"first": 2}}},
-        "sides": {
-            f"{side} anna": {
-                "class": side,
-                "group": "anna",
-                "surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side},
+    "datasets": {
+        "blocks": labelled({"from 2": {"statistic": {"first": 2}}}),
+        "sides": labelled(
+            {
+                f"{side} anna": {
+                    "class": side,
+                    "group": "anna",
+                    "surface": {"name": "fsaverage5", "sheet": "pial", "hemisphere": side},
+                }
+                for side in ("left", "right")
             }
-            for side in ("left", "right")
-        },
-        "bases": {"shuffled": {"operator": "shuffled_lengths"}},
-        "twins": {
-            "bent": {
-                "level": 0.05,
-                "surface": {
-                    "name": "synthetic_subject",
-                    "wavelength": 1.0,
-                    "remeshed": False,
-                    "inputs": {"template": {"surface": BODY}},
-                },
-            }
-        },
-        "seen": {
-            f"{change} {number}": {
-                "class": change,
-                "group": "one",
-                "level": number,
-                "surface": {"name": "ellipsoid", "levels": levels, "semiaxes": [1.0, 1.2, 1.5 + number]},
-            }
-            for change, levels in (("original", 3), ("half", 2))
-            for number in (0, 1)
-        },
-        "recognised": {
-            "shape DNA": {
-                "statistic": {
-                    "name": "identification",
-                    "inputs": {"signatures": {"over": "seen", "signature": {"name": "fingerprint", "count": 50}}},
+        ),
+        "bases": labelled({"shuffled": {"operator": "shuffled_lengths"}}),
+        "twins": labelled(
+            {
+                "bent": {
+                    "level": 0.05,
+                    "surface": {
+                        "name": "synthetic_subject",
+                        "wavelength": 1.0,
+                        "remeshed": False,
+                        "inputs": {"template": {"surface": BODY}},
+                    },
                 }
             }
-        },
-        "maps": {"near": {"distance": {"name": "embedding_map", "n": 3}}},
-        "studies": {
-            f"alpha {alpha}": {
-                "statistic": {
-                    "name": "skeleton_study",
-                    "count": 12,
-                    "alpha": alpha,
-                    "inputs": {"surfaces": {"over": "strips"}},
+        ),
+        "seen": labelled(
+            {
+                f"{change} {number}": {
+                    "class": change,
+                    "group": "one",
+                    "level": number,
+                    "surface": {"name": "ellipsoid", "levels": levels, "semiaxes": [1.0, 1.2, 1.5 + number]},
+                }
+                for change, levels in (("original", 3), ("half", 2))
+                for number in (0, 1)
+            }
+        ),
+        "recognised": labelled(
+            {
+                "shape DNA": {
+                    "statistic": {
+                        "name": "identification",
+                        "inputs": {
+                            "signatures": {"dataset": "seen", "signature": {"name": "fingerprint", "count": 50}}
+                        },
+                    }
                 }
             }
-            for alpha in (0.0, 0.5)
-        },
-        "strips": {f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)},
-        "smoothed": {
-            f"{word} {seed}": {
-                "class": word,
-                "group": str(seed),
-                "image": {"name": "picture", "seed": seed},
-                "solver": solver,
+        ),
+        "maps": labelled({"near": {"distance": {"name": "embedding_map", "n": 3}}}),
+        "studies": labelled(
+            {
+                f"alpha {alpha}": {
+                    "statistic": {
+                        "name": "skeleton_study",
+                        "count": 12,
+                        "alpha": alpha,
+                        "inputs": {"surfaces": {"dataset": "strips"}},
+                    }
+                }
+                for alpha in (0.0, 0.5)
             }
-            for word, solver in (("weak", {"name": "heat_flow", "width": 0.1}), ("strong", {"name": "heat_flow"}))
-            for seed in (1, 2)
-        },
-        "sets": {"all": {"image": "picture"}},
-        "alphas": {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}},
-        "levels": {
-            f"rof {level}": {"class": "rof", "level": level, "surface": {"name": "icosphere", "levels": level}}
-            for level in (2, 3)
-        },
-        "members": {
-            f"{name} {i}": {"class": name, "group": i, "surface": MEMBERS[name] | {"n_u": 20 + i}}
-            for name in MEMBERS
-            for i in (1, 2)
-        },
+        ),
+        "strips": labelled({f"strip {i}": {"surface": STRIP | {"seed": i}} for i in range(6)}),
+        "smoothed": labelled(
+            {
+                f"{word} {seed}": {
+                    "class": word,
+                    "group": str(seed),
+                    "image": {"name": "picture", "seed": seed},
+                    "solver": solver,
+                }
+                for word, solver in (("weak", {"name": "heat_flow", "width": 0.1}), ("strong", {"name": "heat_flow"}))
+                for seed in (1, 2)
+            }
+        ),
+        "sets": labelled({"all": {"image": "picture"}}),
+        "alphas": labelled(
+            {"up": {"feature": "height"}, "aside": {"feature": {"name": "height", "direction": [1.0, 0.0, 0.0]}}}
+        ),
+        "levels": labelled(
+            {
+                f"rof {level}": {"class": "rof", "level": level, "surface": {"name": "icosphere", "levels": level}}
+                for level in (2, 3)
+            }
+        ),
+        "members": labelled(
+            {
+                f"{name} {i}": {"class": name, "group": i, "surface": MEMBERS[name] | {"n_u": 20 + i}}
+                for name in MEMBERS
+                for i in (1, 2)
+            }
+        ),
     },
 }
 NEEDS = {

@@ -34,9 +34,9 @@ EXPERIMENT = {
     "operator": "fem",
     "eigensolver": {"name": "slicing", "count": MODES},
     "signature": {"name": "shape_dna", "count": MODES - 1},
-    "distance_matrix": {"name": "signatures", "inputs": {"signatures": {"over": "shapes"}}},
+    "distance_matrix": {"name": "signatures", "inputs": {"signatures": {"dataset": "shapes"}}},
     "classifier": "nearest_neighbour",
-    "axes": {"shapes": {}},
+    "datasets": {"shapes": []},
 }
 
 
@@ -50,7 +50,14 @@ def lines(quick: bool) -> list[Line]:
     with TemporaryDirectory() as name:
         folder = Path(name)
         surfaces = write_cohort(folder, people)
-        command = [sys.executable, "-m", "surfexp.commands.command_line", "run", "experiment=cohort", "axes=cohort.csv"]
+        command = [
+            sys.executable,
+            "-m",
+            "surfexp.commands.command_line",
+            "run",
+            "experiment=cohort",
+            "datasets=cohort.csv",
+        ]
         before = partial(_killed, command, folder, surfaces // 3)
         first = cost_of_children(before)
         kept = _certified(folder)[0]

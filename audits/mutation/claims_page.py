@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from audits.mutation import ROOT
 from audits.mutation.claims import OUTCOMES, ClaimFault, Trial, faults, recorded_trials
-from surfexp.lab.experiment.statements import claims_of
+from surfexp.lab.experiment.claim import NOT_COMPARABLE, claims_of
 from surfexp.reproduction.page import cells_of_line
 
 PAGE = ROOT / "docs" / "claim_faults.md"
@@ -75,7 +75,7 @@ def _stated() -> list[tuple[str, str]]:
     """Return (experiment, claim) of every claim with a verdict to turn; what is not comparable has none."""
     files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
     return [
-        (file.stem, entry["claim"]) for file in files for entry in claims_of(file) if not entry.get("not_comparable")
+        (file.stem, entry["claim"]) for file in files for entry in claims_of(file) if entry["between"] != NOT_COMPARABLE
     ]
 
 

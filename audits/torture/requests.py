@@ -45,11 +45,11 @@ KEYS = (
     "title",
     "target",
     "claims",
-    "axes",
+    "datasets",
     "columns",
 )
 SPOILT = (
-    "3", "[]", "{}", "null", "'no such'", "[1, [2, [3]]]", "{name: 3}", "{name: [a]}", "{over: nothing}",
+    "3", "[]", "{}", "null", "'no such'", "[1, [2, [3]]]", "{name: 3}", "{name: [a]}", "{dataset: nothing}",
     "!!python/object:os.system x",
     "*unknown", "{a: &x [*x]}", "2020-01-01", "'${oc.env:HOME}'", "{name: icosphere, levels: x}", "\tx",
 )  # fmt: skip

@@ -1,9 +1,9 @@
-"""`surfexp collect`: an axis of your own surfaces, each read once, for experiments on collections."""
+"""`surfexp collect`: a dataset of your own surfaces, each read once, for experiments."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,10 +13,10 @@ from surfexp.commands.click_command import shown
 from surfexp.lab.errors import UserError
 
 if TYPE_CHECKING:
-    from surfexp.lab.experiment.collections import Member
+    from surfexp.lab.experiment.dataset_files import Item
 
 EXAMPLES = (
-    "tosca --surface tosca --to tosca   # then: surfexp run experiment=tosca_classification axes=tosca",
+    "tosca --surface tosca --to tosca   # then: surfexp run experiment=tosca_classification datasets=tosca",
     "subjects.csv                          # columns path, class, group",
     "subjects --pattern '*/surf/?h.pial' --group '(?P<owner>[^/]+)/surf/(?P<class>.h)' --to cohort",
 )
@@ -29,51 +29,57 @@ EXAMPLES = (
 )
 @click.option("--group", help="regular expression with (?P<class>...), (?P<owner>...), (?P<detail>...)")
 @click.option("--surface", default="file", help="plugin that reads a path; tosca repairs what is defective")
-@click.option("--axis", default="shapes", help="name of the axis that the experiment asks for")
-@click.option("--to", "name", help="name of the collection; that of the folder or table if not given")
-@click.option("--force", is_flag=True, help="replace a collection of that name")
+@click.option("--dataset", default="shapes", help="name of the dataset that the experiment asks for")
+@click.option("--to", "name", help="name of the file; that of the folder or table if not given")
+@click.option("--force", is_flag=True, help="replace a file of that name")
 def collect(
-    source: Path, patterns: tuple[str, ...], group: str | None, surface: str, axis: str, name: str | None, force: bool
+    source: Path,
+    patterns: tuple[str, ...],
+    group: str | None,
+    surface: str,
+    dataset: str,
+    name: str | None,
+    force: bool,
 ) -> None:
-    """Read your own surfaces as a collection for experiments.
+    """Read your own surfaces as a dataset for experiments.
 
     SOURCE is a folder, a table (.csv, .tsv), or a pattern such as 'shapes/*.off'. What can be read is written as
-    conf/axes/NAME.yaml in the working folder; the other files are listed with the reason.
+    conf/datasets/NAME.yaml in the working folder; the other files are listed with the reason.
 
-    Each member has a class, which classifiers tell apart, and a group, the owner, on which they never train when they
+    Each item has a class, which classifiers tell apart, and a group, the owner, on which they never train when they
     judge it. Without an owner in the regular expression each file is one of its own. A table has the column path, from
     its own folder, and if wanted class, group, level, label and surface.OPTION. A folder, table or pattern can stand
-    behind axes= as it is; then nothing is read beforehand, and what cannot be read stops the run.
+    behind datasets= as it is; then nothing is read beforehand, and what cannot be read stops the run.
     """
     import yaml
 
-    from surfexp.lab.experiment.collections import (
+    from surfexp.lab.experiment.dataset_files import (
         CLASS_OF_NAME,
         PATTERNS,
-        collection_of_files,
-        name_of_collection,
+        items_of_files,
+        name_of_dataset,
         unused_columns,
     )
 
-    target = Path("conf", "axes", f"{name or name_of_collection(source)}.yaml")
+    target = Path("conf", "datasets", f"{name or name_of_dataset(source)}.yaml")
     if target.exists() and not force:
         raise UserError(f"{target} exists; --force replaces it, --to chooses another name")
-    known = collection_of_files(source, list(patterns) or PATTERNS, group or CLASS_OF_NAME, surface)
-    members, refused = _readable(known, surface)
+    known = items_of_files(source, list(patterns) or PATTERNS, group or CLASS_OF_NAME, surface)
+    items, refused = _readable(known, surface)
     if source.is_file() and (unused := unused_columns(source)):
         click.echo(f"columns that say nothing here: {', '.join(unused)}")
-    counts = Counter(str(member.get("class", "no class")) for member in members.values())
-    _report(f"{len(members)} of {len(known)} files are members", counts, refused)
-    if len(members) < 2:
-        raise UserError(f"{source}: {len(members)} surfaces can be read, a collection needs at least 2")
+    counts = Counter(str(item.get("class", "no class")) for item in items)
+    _report(f"{len(items)} of {len(known)} files are items", counts, refused)
+    if len(items) < 2:
+        raise UserError(f"{source}: {len(items)} surfaces can be read, a dataset needs at least 2")
     target.parent.mkdir(parents=True, exist_ok=True)
     left_out = "".join(f"# left out: {file.name}: {reason}\n" for file, reason in refused.items())
-    target.write_text(left_out + yaml.safe_dump({axis: members}, sort_keys=False, allow_unicode=True, width=1000))
-    click.echo(f"written: {target}; use it with axes={target.stem}")
+    target.write_text(left_out + yaml.safe_dump({dataset: items}, sort_keys=False, allow_unicode=True, width=1000))
+    click.echo(f"written: {target}; use it with datasets={target.stem}")
 
 
-def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Member], dict[Path, str]]:
-    """Read each surface as a run will; return the members that are good, and the other files with one line why."""
+def _readable(items: Sequence[Item], plugin: str) -> tuple[list[Item], dict[Path, str]]:
+    """Read each surface as a run will; return the items that are good, and the other files with one line why."""
     from rich.console import Console
     from rich.progress import track
 
@@ -84,14 +90,14 @@ def _readable(members: Mapping[str, Member], plugin: str) -> tuple[dict[str, Mem
     method = registry.plugin("surface", plugin)
     if "path" not in method.options.model_fields:
         raise UserError(f"surface {plugin!r} reads no path; choose file or tosca")
-    readable, refused = {}, {}
+    readable, refused = [], {}
     terminal = Console(stderr=True)
-    shown = track(members.items(), "reading", console=terminal, transient=True, disable=not terminal.is_terminal)
-    for label, member in shown:
-        options = {key: value for key, value in member["surface"].items() if key != "name"}
+    shown = track(items, "reading", console=terminal, transient=True, disable=not terminal.is_terminal)
+    for item in shown:
+        options = {key: value for key, value in item["surface"].items() if key != "name"}
         try:
             method(options)
-            readable[label] = member
+            readable.append(item)
         except (ValueError, OSError) as error:
             refused[Path(options["path"])] = " ".join(str(error).split())
     return readable, refused

@@ -41,6 +41,6 @@ def _statement(item: Verdict) -> str:
 
 def _compared_with(item: Verdict) -> str:
     """The interval, or the published value beside which the number stands without a verdict."""
-    if item.claim.between is None and item.claim.published:
-        return f"published {item.claim.published.value} ({item.why})"
+    if item.claim.interval is None:
+        return f"published {item.claim.value} ({item.why})"
     return f"asked {item.interval}"

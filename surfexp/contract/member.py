@@ -1,4 +1,4 @@
-"""Members of a collection: what is known of each beside its result."""
+"""Items of a dataset: what is known of each beside its result."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-# what a member of an axis may say beside its stages
-FACTS = ("class", "group", "level")
+# what an item of a dataset may say beside its stages
+FACTS = ("label", "class", "group", "level")
 
 
 @dataclass(frozen=True)
 class Member:
-    """One member of a collection: the key under which a method gets its result.
+    """One item of a dataset: the key under which a method gets its result.
 
     Parameters
     ----------
     label : str
-        Its name, for people; no two of a collection are alike, and nothing else hangs on it.
+        Its name, for people; no two of a dataset are alike, and nothing else hangs on it.
     class_name : str
         What a classifier tells apart, or the line of a plot to which it belongs; default: a class of its own.
     group : str
-        The person, object or seed to which it belongs: members of one group never stand in training and test sets at once;
+        The person, object or seed to which it belongs: items of one group never stand in training and test sets at once;
         default: a group of its own.
     level : float, optional
         The number at which it stands: a refinement, a size, a noise.
@@ -40,14 +40,13 @@ class Member:
         return self.label
 
 
-def axis_members(axis: Mapping[Any, Any] | Iterable[Any]) -> dict[Member, dict[str, Any]]:
-    """Split each member of an axis, given by label or in a list, into its facts and all else that it says."""
-    parts = axis if isinstance(axis, Mapping) else dict(enumerate(axis))
+def members_of(items: Iterable[Mapping[str, Any]]) -> dict[Member, dict[str, Any]]:
+    """Split each item of a dataset into its facts and all else that it says; without a label its number is its label."""
     return {
-        Member(str(label), part.get("class", ""), part.get("group", ""), part.get("level")): {
-            name: value for name, value in part.items() if name not in FACTS
+        Member(str(item.get("label", number)), item.get("class", ""), item.get("group", ""), item.get("level")): {
+            name: value for name, value in item.items() if name not in FACTS
         }
-        for label, part in parts.items()
+        for number, item in enumerate(items)
     }
 
 
@@ -56,6 +55,6 @@ def levels_of(members: Iterable[Member]) -> tuple[float, ...]:
     levels = []
     for member in members:
         if member.level is None:
-            raise ValueError(f"axis member {member.label!r} has no level: write 'level: NUMBER' beside its stages")
+            raise ValueError(f"item {member.label!r} has no level: write 'level: NUMBER' beside its stages")
         levels.append(member.level)
     return tuple(levels)

@@ -57,7 +57,7 @@ def check_names(plan: Plan) -> None:
     rows = [Row(leaf, plan.parameters(leaf), {}, 0.0) for leaf in plan.leaves if plan.settings.claims]
     for claim in read_claims(plan.settings.claims):
         where = f"claim ({claim.claim[:60]})"
-        for wanted in [claim.rows] if claim.over is None else [claim.rows, claim.over]:
+        for wanted in claim.selections:
             _check_parameters(where, wanted, rows)
             for row in selected(wanted, rows):
                 _check_metric(where, claim.metric, metrics[row.leaf.key])

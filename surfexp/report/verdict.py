@@ -8,12 +8,9 @@ from itertools import product
 from statistics import fmean
 from typing import Any
 
-from surfexp.lab.experiment.claim import Claim
+from surfexp.lab.experiment.claim import NOT_COMPARABLE, Claim, Interval
 from surfexp.lab.plan.outcome import NOT_COMPUTED
 from surfexp.records.table import Comparison, Row, format_number
-
-# of what the dissertation states; it counts neither for nor against it
-NOT_COMPARABLE = "not comparable"
 
 
 @dataclass(frozen=True)
@@ -36,9 +33,9 @@ class Verdict:
     @property
     def interval(self) -> str:
         """The numbers between which the quantity is asked to lie, for a table."""
-        if self.claim.between is None:
+        if self.claim.interval is None:
             return "–"
-        low, high = (None if end is None else f"{end:g}" for end in self.claim.between)
+        low, high = (None if end is None else f"{end:g}" for end in self.claim.interval)
         if low is None or high is None:
             return f"≥ {low}" if low is not None else f"≤ {high}"
         return low if low == high else f"{low} to {high}"
@@ -46,7 +43,7 @@ class Verdict:
     @property
     def quantity(self) -> str:
         """What of the rows is judged, for a table."""
-        return f"{self.claim.quantity} {self.claim.metric}"
+        return f"{self.claim.summary} {self.claim.metric}"
 
     @property
     def number(self) -> str:
@@ -61,7 +58,8 @@ class Verdict:
     @property
     def why(self) -> str:
         """What stands beside the verdict: the rows that leave it not computed, why it cannot be compared, or its cause."""
-        return self.obstacle or " ".join(text for text in (self.claim.not_comparable, self.claim.cause) if text)
+        why = self.claim.because if self.claim.interval is None else ""
+        return self.obstacle or " ".join(text for text in (why, self.claim.cause) if text)
 
 
 class _Obstacle(Exception):
@@ -92,22 +90,22 @@ def judge(claims: Sequence[Claim], rows: Sequence[Row]) -> list[Verdict]:
 
 
 def _judge(claim: Claim, rows: Sequence[Row]) -> Verdict:
-    chosen = selected(claim.rows, rows)
+    selections = [selected(wanted, rows) for wanted in claim.selections]
+    chosen = selections[0]
     try:
-        values = _values(claim, chosen)
-        divisors = None if claim.over is None else _values(claim, selected(claim.over, rows))
-        value, low, high = _quantity(claim, values, divisors)
+        values, *divisors = [_values(claim, those) for those in selections]
+        value, low, high = _quantity(claim, values, divisors[0] if divisors else None)
     except _Obstacle as obstacle:
         return Verdict(claim, NOT_COMPUTED, len(chosen), obstacle=str(obstacle))
-    if claim.between is None:
+    if claim.interval is None:
         return Verdict(claim, NOT_COMPARABLE, len(chosen), value, low, high)
-    inside = [_lies_inside(claim.between, number) for number in (values if value is None else [value])]
-    holds = any(inside) if claim.quantity == "any" else all(inside)
-    words = ("reproduced", claim.otherwise or "not reproduced") if claim.foreign else ("holds", "does not hold")
+    inside = [_lies_inside(claim.interval, number) for number in (values if value is None else [value])]
+    holds = any(inside) if claim.summary == "any" else all(inside)
+    words = ("reproduced", claim.otherwise or "not reproduced") if claim.published else ("holds", "does not hold")
     return Verdict(claim, words[0] if holds else words[1], len(chosen), value, low, high)
 
 
-def _lies_inside(between: tuple[float | None, float | None], number: float) -> bool:
+def _lies_inside(between: Interval, number: float) -> bool:
     low, high = between
     return (low is None or number >= low) and (high is None or number <= high)
 
@@ -144,7 +142,7 @@ def _names(those: Sequence[Row], rows: Sequence[Row]) -> str:
 def _quantity(claim: Claim, values: list[float], divisors: list[float] | None) -> tuple[float | None, float, float]:
     if divisors is None:
         aggregates = {"mean": fmean(values), "min": min(values), "max": max(values)}
-        return aggregates.get(claim.quantity), min(values), max(values)
+        return aggregates.get(claim.summary), min(values), max(values)
     if 0.0 in divisors or fmean(divisors) == 0.0:
         raise _Obstacle(f"{claim.metric} is 0 in rows to divide by")
     # the extremes over all pairs are at extremes of either side, below apart for either sign: a quotient is monotone there

@@ -100,7 +100,8 @@ def section(experiment: str, title: str, verdicts: Sequence[Verdict], state: str
     lines += [line_of_cells(HEADER), "|" + "---|" * len(HEADER)]
     for item in verdicts:
         moved = f" (before the result: {item.claim.moved})" if item.claim.moved else ""
-        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, item.claim.because or "–")
+        reason = "–" if item.claim.interval is None else item.claim.reason
+        cells = (item.claim.claim, item.claim.source, item.quantity, item.interval + moved, reason)
         lines.append(line_of_cells((*cells, str(item.count), item.number, f"**{item.verdict}**", item.why or "–")))
     return "\n".join([*lines, ""])
 

@@ -14,7 +14,21 @@ from surfexp.lab.experiment.written_out import named, written_out
 
 WORDS = [
     *("surface", "image", "operator", "solver", "distance", "statistic", "figure", "target", "grid", "repeat", "parts"),
-    *("axes", "variants", "figures", "claims", "columns", "product", "class", "group", "level", "inputs", "name"),
+    *(
+        "axes",
+        "datasets",
+        "label",
+        "variants",
+        "figures",
+        "claims",
+        "columns",
+        "product",
+        "class",
+        "group",
+        "level",
+        "inputs",
+        "name",
+    ),
     *(
         "sweep",
         "against",
@@ -26,6 +40,9 @@ WORDS = [
         "to",
         "because",
         "over",
+        "dataset",
+        "quantity",
+        "rows",
         "image.seed",
         "image.noise",
     ),

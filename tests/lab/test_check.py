@@ -16,21 +16,22 @@ from surfexp.lab.registry.folders import experiments
 
 GOOD = """\
 title: Does the error grow with the noise?
-surface: {icosphere: {levels: 3}}
-image: {two_phase: {}}
+surface: {name: icosphere, levels: 3}
+image: {name: two_phase}
 model: rof
 solver: primal_dual
 grid: {image.noise: [10.0, 20.0], operator: [fem, libigl]}
 repeat: {image.seed: 3}
-figures: [{sweep: rmse, against: image.noise}]
+figures: [{name: sweep, metric: rmse, against: image.noise}]
 claims:
-  - Twice the noise gives at most thrice the error:
-      ratio: {metric: rmse, of: {image.noise: 20.0}, to: {image.noise: 10.0}}
-      between: [0, 3]
+  - claim: Twice the noise gives at most thrice the error
+    quantity: {ratio: rmse}
+    rows: [{image.noise: 20.0}, {image.noise: 10.0}]
+    between: [0, 3]
 """
 # what is changed, into what, the line of the mistake, what is said of it
 MISTAKES = [
-    ("icosphere:", "icosfere:", 2, "did you mean 'icosphere'"),
+    ("name: icosphere", "name: icosfere", 2, "did you mean 'icosphere'"),
     ("levels: 3", "level: 3", 2, "did you mean 'levels'"),
     ("levels: 3", "levels: -3", 2, "greater than or equal to"),
     ("solver:", "solvr:", 5, "did you mean 'solver'"),
@@ -39,11 +40,11 @@ MISTAKES = [
     ("libigl", "libigll", 6, "did you mean 'libigl'"),
     ("image.seed: 3", "image.seed: 0", 7, "number of repetitions"),
     ("against: image.noise", "against: image.nois", 8, "did you mean 'image.noise'"),
-    ("sweep: rmse", "sweep: rmsee", 8, "did you mean 'rmse'"),
+    ("metric: rmse", "metric: rmsee", 8, "did you mean 'rmse'"),
     ("ratio:", "rato:", 11, "did you mean 'ratio'"),
-    ("metric: rmse", "metric: rmsee", 11, "did you mean 'rmse'"),
+    ("ratio: rmse", "ratio: rmsee", 11, "did you mean 'rmse'"),
     ("[0, 3]", "[3, 0]", 10, "above the upper end"),
-    ("  - Twice", "\t- Twice", 10, "cannot start any token"),
+    ("  - claim", "\t- claim", 10, "cannot start any token"),
     ("model: rof\n", "model: rof\nmodel: tv\n", 5, "stands there twice"),
 ]
 

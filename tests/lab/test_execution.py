@@ -143,12 +143,11 @@ def test_what_is_written_into_an_event_changes_no_number_and_no_verdict(run: Run
     results, leaf = tmp_path / "results", plan.nodes[plan.leaves[0].key]
     run()
     claims = [
-        {"claim": "small", "metric": "distance", "between": [None, 0.5], "quantity": "all", "because": "half a side"},
+        {"claim": "small", "quantity": {"all": "distance"}, "between": [None, 0.5], "because": "half a side"},
         {
             "claim": "adjoint",
-            "metric": "adjointness_defect",
+            "quantity": {"all": "adjointness_defect"},
             "between": [None, 1e-12],
-            "quantity": "all",
             "because": "0",
         },
     ]

@@ -29,13 +29,15 @@ def sweep(sizes: int, shifts: int) -> dict[str, Any]:
     """Distances between a feature of a feature and a feature: two inputs of one kind, a kind that recurs, an axis."""
     weight = {"scalar": {"name": "toy_boundary", "shift": 1.0}}
     source = {"scalar": "toy_eigenfunction", "weighted": {"name": "toy_flux", "inputs": {"weight": weight}}}
-    spread = {"features": {"over": "subject"}, "named": {"over": "subject"}}
+    spread = {"features": {"dataset": "subject"}, "named": {"dataset": "subject"}}
     distance = {"name": "toy_distance", "inputs": {"source": source, "target": {"surface": {"size": 3.0}}}}
     return {
         "target": "pairing",
         "surface": "toy_triangle",
         "scalar": "toy_boundary",
-        "axes": {"subject": {name: {"scalar": {"shift": float(len(name))}} for name in ("a", "bb", "ccc")}},
+        "datasets": {
+            "subject": [{"label": name, "scalar": {"shift": float(len(name))}} for name in ("a", "bb", "ccc")]
+        },
         "variants": [
             {"title": "distances", "pairing": distance},
             {"title": "spreads", "pairing": {"name": "toy_spread", "inputs": spread}},

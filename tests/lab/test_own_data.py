@@ -10,7 +10,7 @@ import yaml
 from surfexp.io.writing import write_mesh
 from surfexp.lab.composition.launch import launch
 from surfexp.lab.errors import UserError
-from surfexp.lab.experiment.own_data import CLAIMS_LEFT_OUT, with_collections, without_foreign_words
+from surfexp.lab.experiment.own_data import CLAIMS_LEFT_OUT, with_datasets, without_foreign_words
 from surfexp.lab.plan.plan import Plan
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
@@ -27,7 +27,14 @@ EXPERIMENT = {
     "variants": [{"comparison": "The cup", "caption": "A"}, {"comparison": "Its handle"}, {"comparison": "The cup"}],
 }
 METHODS = ["solver=newton", "solver.tolerance=1e-3", "++model.w=1", "eigensolver=slicing,arpack"]
-DATA = ["surface=file", "++surface.levels=3", "image.noise=3", "axes=blobs", "+axes=blobs", "grid.image.seed=[1]"]
+DATA = [
+    "surface=file",
+    "++surface.levels=3",
+    "image.noise=3",
+    "datasets=blobs",
+    "+datasets=blobs",
+    "grid.image.seed=[1]",
+]
 
 
 @pytest.mark.parametrize("override", ["results=x", "cores=2", "timing=true", "title=mine", "columns=[rmse]"])
@@ -55,9 +62,9 @@ def test_other_data_leave_titles_and_captions_out_too(override: str) -> None:
     [
         (["surface=file", "surface.path=/data/lh.white"], "cup: lh.white"),
         (["surface.path='my brain.ply'", "surface=file", "image.path=a/b.gii"], "cup: b.gii, my brain.ply"),
-        (["+axes=blobs"], "cup: blobs"),
+        (["+datasets=blobs"], "cup: blobs"),
         (["surface.path=a/one.ply,b/two.ply,three.ply"], "cup: one.ply and 2 more"),
-        (["axes.people=blobs", "surface=icosphere"], "cup: blobs, icosphere"),
+        (["datasets.people=blobs", "surface=icosphere"], "cup: blobs, icosphere"),
         (["grid.image.seed=[1]"], "cup: other data"),
         (["image.noise=3"], "cup: other data"),
     ],
@@ -68,63 +75,66 @@ def test_the_title_names_the_data_in_their_place(overrides: list[str], title: st
 
 @pytest.fixture
 def blobs(working_folder: Path) -> Path:
-    members = {}
+    items = []
     for number in range(4):
         for name, surface in (("ball", icosphere(1 + number % 2)), ("ring", torus(8 + number, 6))):
             file = working_folder / f"{name}{number}.ply"
             write_mesh(file, surface.mesh)
-            members[f"{name} @ {number}"] = {"surface": {"name": "file", "path": str(file)}}
-    axes = working_folder / "conf" / "axes" / "blobs.yaml"
-    axes.parent.mkdir(parents=True)
-    axes.write_text(yaml.safe_dump({"shapes": members}))
+            items.append({"label": f"{name} @ {number}", "surface": {"name": "file", "path": str(file)}})
+    datasets = working_folder / "conf" / "datasets" / "blobs.yaml"
+    datasets.parent.mkdir(parents=True)
+    datasets.write_text(yaml.safe_dump({"shapes": items}))
     return working_folder
 
 
 def test_blobs_through_an_experiment_on_animals_show_nothing_of_animals(blobs: Path) -> None:
     plans: list[Plan] = []
-    launch(["experiment=tosca_classification", "axes=blobs"], plans.append)
+    launch(["experiment=tosca_classification", "datasets=blobs"], plans.append)
     page = (write_report(plans[0], blobs / "results") / "report.html").read_text()
     assert len(plans[0].leaves) == 11 and "tosca_classification: blobs" in page
     for foreign in ("figure 4.8", "Animals", ">reproduced<", "centaur", "Lioness", "several poses", 'class="claims"'):
         assert foreign not in page, foreign
 
 
-OWN = {"shapes": {"mine": {"surface": "file"}}}
-BALL = {"ball": {"surface": "icosphere"}}
+OWN = {"shapes": [{"surface": "file"}]}
+BALL = [{"surface": "icosphere"}]
+BALLS = [{"grid": {"surface.levels": [1, 2]}}]
 
 
-def test_a_collection_of_ones_own_replaces_the_one_collection_of_surfaces() -> None:
-    noise = {"low": {"image.noise": 1}}
-    assert with_collections({"people": BALL, "noise": noise}, {"": OWN}) == {"people": OWN["shapes"], "noise": noise}
-    assert with_collections({"people": BALL, "shapes": BALL}, {"": OWN}) == {"people": BALL, **OWN}
+def test_a_dataset_of_ones_own_replaces_the_one_dataset_of_surfaces() -> None:
+    noise = [{"image": {"noise": 1}}]
+    assert with_datasets({"people": BALLS, "noise": noise}, {"": OWN}) == {"people": OWN["shapes"], "noise": noise}
+    assert with_datasets({"people": BALL, "shapes": BALL}, {"": OWN}) == {"people": BALL, **OWN}
     several = {"people": BALL, "gyri": BALL}
-    assert with_collections(several, {"gyri": OWN}) == {"people": BALL, "gyri": OWN["shapes"]}
-    assert with_collections(several, {}) == several
+    assert with_datasets(several, {"gyri": OWN}) == {"people": BALL, "gyri": OWN["shapes"]}
+    assert with_datasets(several, {}) == several
 
 
 @pytest.mark.parametrize(
-    ("axes", "given", "words"),
+    ("datasets", "given", "words"),
     [
         (
             {"people": BALL, "gyri": BALL},
             {"": OWN},
-            r"2 collections of surfaces, choose axes\.people=NAME, axes\.gyri=NAME",
+            r"2 datasets of surfaces, choose datasets\.people=NAME, datasets\.gyri=NAME",
         ),
-        ({"noise": {"low": {}}}, {"": OWN}, "compares no collection of surfaces"),
+        ({"noise": [{"label": "low"}]}, {"": OWN}, "compares no surfaces of a dataset"),
         ({"people": BALL}, {"peopel": OWN}, "people"),
     ],
 )
-def test_it_is_said_which_collection_can_be_replaced(axes: dict, given: dict, words: str) -> None:
+def test_it_is_said_which_dataset_can_be_replaced(datasets: dict, given: dict, words: str) -> None:
     with pytest.raises(UserError, match=words):
-        with_collections(axes, given)
+        with_datasets(datasets, given)
 
 
-def test_every_experiment_with_collections_takes_ones_own(blobs: Path) -> None:
+def test_every_experiment_with_datasets_takes_ones_own(blobs: Path) -> None:
     plans: list[Plan] = []
-    launch(["experiment=spectral_mds", "axes.shapes=blobs", "axes.structures=blobs"], plans.append)
-    launch(["experiment=callosum_group", "axes=blobs"], plans.append)
+    launch(["experiment=spectral_mds", "datasets.shapes=blobs", "datasets.structures=blobs"], plans.append)
+    launch(["experiment=callosum_group", "datasets=blobs"], plans.append)
     for plan in plans:
         surfaces = [node for node in plan.nodes.values() if node.kind == "surface" and node.plugin == "file"]
         assert len(surfaces) == 6  # of the eight files two pairs hold the same bytes
-    with pytest.raises(UserError, match=r"unknown collection 'blob'; did you mean 'blobs'"):
-        launch(["experiment=callosum_group", "axes=blob"], plans.append)
+    with pytest.raises(UserError, match=r"unknown dataset 'blob'; did you mean 'blobs'"):
+        launch(["experiment=callosum_group", "datasets=blob"], plans.append)
+    with pytest.raises(UserError, match=r"axes=blobs: axes are called datasets now: write datasets=blobs"):
+        launch(["experiment=callosum_group", "axes=blobs"], plans.append)

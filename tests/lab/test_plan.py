@@ -67,38 +67,44 @@ def test_every_output_is_of_its_own_kind(tmp_path: Path) -> None:
         assert isinstance(store.load(tmp_path, node.kind, key), registry.KINDS[node.kind].result)
 
 
-def test_lists_fan_in_over_an_axis(tmp_path: Path) -> None:
-    members = {
-        name: {"surface": {"name": "toy_triangle", "size": size}} for name, size in (("small", 1.0), ("large", 4.0))
-    }
+def test_lists_fan_in_over_a_dataset(tmp_path: Path) -> None:
+    items = [
+        {"label": name, "surface": {"name": "toy_triangle", "size": size}}
+        for name, size in (("small", 1.0), ("large", 4.0))
+    ]
     configuration = {
         "target": "pairing",
-        "axes": {"subject": members},
+        "datasets": {"subject": items},
         "scalar": "toy_boundary",
-        "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "subject"}, "named": {"over": "subject"}}},
+        "pairing": {
+            "name": "toy_spread",
+            "inputs": {"features": {"dataset": "subject"}, "named": {"dataset": "subject"}},
+        },
     }
     plan, pairing = run(configuration, tmp_path)
     assert pairing.value == 3.0 and pairing.trace == "small,large"
     assert sum(node.kind == "scalar" for node in plan.nodes.values()) == 2
     with pytest.raises(UserError, match=r"'sujet'.*did you mean 'subject'"):
-        make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"over": "sujet"}}}}])
+        make_plan([{**configuration, "pairing": {"name": "toy_spread", "inputs": {"features": {"dataset": "sujet"}}}}])
 
 
 def test_members_may_differ_in_options_that_others_do_not_have() -> None:
-    members = {"small": {"surface": "toy_triangle"}, "again": {"surface": DOUBLED}, "twice": {"surface": TWICE}}
-    configuration = collection() | {"axes": {"subject": members}}
+    items = [{"surface": "toy_triangle"}, {"surface": DOUBLED}, {"surface": TWICE}]
+    configuration = collection() | {"datasets": {"subject": items}}
     plan = make_plan(expand(configuration))
     parameters = plan.parameters(plan.leaves[0])
     assert parameters["surface.turned"] is None and parameters["surface.size"].startswith("2 values")
 
 
 def collection(**members: dict[str, object]) -> dict[str, object]:
-    surfaces = {name: {"surface": {"name": "toy_triangle", "size": 2.0}, **part} for name, part in members.items()}
+    surfaces = [
+        {"label": name, "surface": {"name": "toy_triangle", "size": 2.0}, **part} for name, part in members.items()
+    ]
     return {
         "target": "pairing",
-        "axes": {"subject": surfaces},
+        "datasets": {"subject": surfaces},
         "scalar": "toy_boundary",
-        "pairing": {"name": "toy_members", "inputs": {"features": {"over": "subject"}}},
+        "pairing": {"name": "toy_members", "inputs": {"features": {"dataset": "subject"}}},
     }
 
 
@@ -111,23 +117,23 @@ def test_facts_about_members_reach_the_method_and_its_key(tmp_path: Path) -> Non
     assert run(configuration, tmp_path)[0].leaves[0].key == key
     other = collection(one={"class": "long", "group": 9861, "level": 2}, two={})
     assert run(other, tmp_path)[0].leaves[0].key != key
-    as_list = {**configuration, "axes": {"subject": [{"class": "a", "surface": {"name": "toy_triangle"}}]}}
+    as_list = {**configuration, "datasets": {"subject": [{"class": "a", "surface": {"name": "toy_triangle"}}]}}
     assert run(as_list, tmp_path)[1].trace == "a/0/None"
 
 
 @pytest.mark.parametrize(
     ("part", "message"),
     [
-        ({"clas": "round"}, r"key of a member of axis 'subject' 'clas'; did you mean 'class'"),
-        ({"level": "fine"}, r"axes.subject.*level = 'fine': .*valid number"),
-        ({"class": ["round"]}, r"axes.subject.*class = \['round'\]: .*valid string"),
+        ({"clas": "round"}, r"key of an item of dataset 'subject' 'clas'; did you mean 'class'"),
+        ({"level": "fine"}, r"datasets.subject.*level = 'fine': .*valid number"),
+        ({"class": ["round"]}, r"datasets.subject.*class = \['round'\]: .*valid string"),
     ],
 )
 def test_wrong_facts_about_members_are_refused(part: dict[str, object], message: str) -> None:
     with pytest.raises(UserError, match=message):
         make_plan([collection(one=part)])
-    with pytest.raises(UserError, match="axes"):
-        make_plan([{**collection(), "axes": {"subject": None}}])
+    with pytest.raises(UserError, match="datasets"):
+        make_plan([{**collection(), "datasets": {"subject": None}}])
 
 
 def test_cycles_are_named() -> None:

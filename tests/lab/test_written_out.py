@@ -1,11 +1,11 @@
-"""The short forms of an experiment say what the long ones say: same stages, same rows, same claims."""
+"""What an experiment leaves to be worked out is what a file says that spells all of it: same stages, same rows."""
 
 from __future__ import annotations
 
 import copy
 import re
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 import yaml
@@ -13,24 +13,24 @@ import yaml
 from surfexp.commands.request import plan_and_act
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.claim import Claim, read_claims
-from surfexp.lab.experiment.statements import BELOW, QUANTITIES
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.registry.folders import experiments
 
 SHORT = """
 title: Does the error grow with the noise?
-surface: {icosphere: {levels: 3}}
-image: {two_phase: {}}
+surface: {name: icosphere, levels: 3}
+image: {name: two_phase}
 model: rof
-solver: {primal_dual: {tolerance: 1.0e-3}}
-grid: {image.noise: [10.0, 20.0], operator: [fem, {libigl: {}}]}
+solver: {name: primal_dual, tolerance: 1.0e-3}
+grid: {image.noise: [10.0, 20.0], operator: [fem, {name: libigl}]}
 repeat: {image.seed: 3}
-figures: [{sweep: rmse, against: image.noise}]
+figures: [{name: sweep, metric: rmse, against: image.noise}]
 claims:
-  - Twice the noise gives at most thrice the error:
-      ratio: {metric: rmse, of: {image.noise: 20.0}, to: {image.noise: 10.0}}
-      between: [0, 3]
+  - claim: Twice the noise gives at most thrice the error
+    quantity: {ratio: rmse}
+    rows: [{image.noise: 20.0}, {image.noise: 10.0}]
+    between: [0, 3]
 """
 LONG = """
 # @package _global_
@@ -40,33 +40,30 @@ surface: {name: icosphere, levels: 3}
 image: two_phase
 model: rof
 solver: {name: primal_dual, tolerance: 1.0e-3}
-axes:
+datasets:
   noises:
-    fem 10 0: {class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 0}}
-    fem 10 1: {class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 1}}
-    fem 10 2: {class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 2}}
-    igl 10 0: {class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 0}}
-    igl 10 1: {class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 1}}
-    igl 10 2: {class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 2}}
-    fem 20 0: {class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 0}}
-    fem 20 1: {class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 1}}
-    fem 20 2: {class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 2}}
-    igl 20 0: {class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 0}}
-    igl 20 1: {class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 1}}
-    igl 20 2: {class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 2}}
+    - {label: fem 10 0, class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 0}}
+    - {label: fem 10 1, class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 1}}
+    - {label: fem 10 2, class: fem, level: 10.0, operator: fem, image: {noise: 10.0, seed: 2}}
+    - {label: igl 10 0, class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 0}}
+    - {label: igl 10 1, class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 1}}
+    - {label: igl 10 2, class: libigl, level: 10.0, operator: libigl, image: {noise: 10.0, seed: 2}}
+    - {label: fem 20 0, class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 0}}
+    - {label: fem 20 1, class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 1}}
+    - {label: fem 20 2, class: fem, level: 20.0, operator: fem, image: {noise: 20.0, seed: 2}}
+    - {label: igl 20 0, class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 0}}
+    - {label: igl 20 1, class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 1}}
+    - {label: igl 20 2, class: libigl, level: 20.0, operator: libigl, image: {noise: 20.0, seed: 2}}
 variants:
   - grid: {operator: [fem, libigl], image.noise: [10.0, 20.0], image.seed: [0, 1, 2]}
   - operator: fem
     image: {noise: 10.0, seed: 0}
-    figures: [{name: sweep, metric: rmse, x_label: noise, inputs: {solvers: {over: noises}}}]
+    figures: [{name: sweep, metric: rmse, x_label: noise, inputs: {solvers: {dataset: noises}}}]
 claims:
   - claim: Twice the noise gives at most thrice the error
-    quantity: ratio
-    metric: rmse
-    rows: {image.noise: 20.0}
-    over: {image.noise: 10.0}
+    quantity: {ratio: rmse}
+    rows: [{image.noise: 20.0}, {image.noise: 10.0}]
     between: [0, 3]
-    because: No reason is given.
 """
 
 
@@ -94,7 +91,7 @@ def test_short_and_long_are_one_experiment(working_folder: Path) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(experiments()))
-def test_a_file_without_short_forms_is_left_as_it_is(name: str) -> None:
+def test_a_file_that_spells_all_is_left_as_it_is(name: str) -> None:
     text = experiments()[name].read_text(encoding="utf-8")
     document = yaml.safe_load(text)
     before = copy.deepcopy(document)
@@ -109,95 +106,81 @@ def test_a_file_without_short_forms_is_left_as_it_is(name: str) -> None:
 
 def test_parts_are_inputs_by_name() -> None:
     inputs = {"inputs": {"source": "left", "target": "right"}}
+    right = {"surface": {"name": "icosphere", "levels": 3}}
     given = {
-        "parts": {"left": {}, "right": {"surface": {"icosphere": {"levels": 3}}}},
-        "distance": {"embedding_map": inputs},
+        "parts": {"left": {}, "right": right},
+        "distance": {"name": "embedding_map", **inputs},
         "variants": [{"grid": {"distance": [{"name": "zoomout", **inputs}]}}],
     }
-    right = {"surface": {"name": "icosphere", "levels": 3}}
     found = written_out(given)
     assert found["distance"] == {"name": "embedding_map", "inputs": {"source": {}, "target": right}}
     assert found["variants"][0]["grid"]["distance"][0]["inputs"]["target"] == right
     assert found["target"] == "distance" and "parts" not in found
 
 
-def test_an_axis_may_be_a_product() -> None:
-    axis = {
-        "product": {"surface.structure": ["caudate", "putamen"], "surface.donor": ["9861", "10021"]},
+def labels(items: list[dict[str, Any]]) -> list[str]:
+    return [item["label"] for item in items]
+
+
+def test_an_item_with_a_grid_stands_for_many() -> None:
+    item = {
+        "grid": {"surface.structure": ["caudate", "putamen"], "surface.donor": ["9861", "10021"]},
         "class": "surface.structure",
         "group": "surface.donor",
     }
-    found = written_out({"surface": {"subcortical": {"hemisphere": "left"}}, "axes": {"shapes": axis}})
-    shapes = found["axes"]["shapes"]
-    assert list(shapes) == ["caudate 9861", "caudate 10021", "putamen 9861", "putamen 10021"]
+    given = {"surface": {"name": "subcortical", "hemisphere": "left"}, "datasets": {"shapes": [item]}}
+    shapes = written_out(given)["datasets"]["shapes"]
+    assert labels(shapes) == ["caudate 9861", "caudate 10021", "putamen 9861", "putamen 10021"]
     surface = {"name": "subcortical", "hemisphere": "left", "structure": "putamen", "donor": "9861"}
-    assert shapes["putamen 9861"] == {"class": "putamen", "group": "9861", "surface": surface}
+    assert shapes[2] == {"label": "putamen 9861", "class": "putamen", "group": "9861", "surface": surface}
 
 
-def test_stages_beside_a_product_hold_for_all_its_members() -> None:
-    axis = {"product": {"surface.pose": [1, 2]}, "surface": {"articulated": {"body": "heavy_biped"}}}
-    found = written_out({"surface": {"cup": {"vertices": 4000}}, "axes": {"poses": axis}})["axes"]["poses"]
-    assert found["pose 2"] == {"surface": {"name": "articulated", "body": "heavy_biped", "pose": 2}}
-    bodies = {"product": {"surface.body": ["heavy_biped"], "surface.pose": [1]}, "class": "surface.body"}
-    found = written_out({"surface": "articulated", "axes": {"bodies": bodies}})["axes"]["bodies"]
-    assert list(found) == ["heavy biped 1"] and found["heavy biped 1"]["class"] == "heavy biped"
-    assert found["heavy biped 1"]["surface"]["body"] == "heavy_biped"
+def test_an_item_with_seeds_stands_for_each_and_beside_others() -> None:
+    items = [{"label": "one", "surface": "cup"}, {"repeat": {"surface.seed": 3}}, {"surface": "torus"}]
+    found = written_out({"surface": "callosum", "datasets": {"group": items}})["datasets"]["group"]
+    assert labels(found) == ["one", "seed 0", "seed 1", "seed 2", "2"]
+    assert [item["surface"] for item in found[1:4]] == [{"name": "callosum", "seed": seed} for seed in range(3)]
 
 
-def test_an_axis_may_be_several_products_told_apart_by_a_word() -> None:
-    noise = {"product": {"image.noise": [10, 20]}, "level": "image.noise"}
-    axis = [noise | {"class": "linear", "operator": "fem"}, noise | {"class": "other", "operator": "libigl"}]
-    found = written_out({"image": "picture", "axes": {"noise": axis}})["axes"]["noise"]
-    assert list(found) == ["linear noise 10", "linear noise 20", "other noise 10", "other noise 20"]
-    member = {
-        "class": "other",
-        "level": 20.0,
-        "operator": {"name": "libigl"},
-        "image": {"name": "picture", "noise": 20},
-    }
-    assert found["other noise 20"] == member
+def test_stages_beside_a_grid_hold_for_all_its_items() -> None:
+    item = {"grid": {"surface.pose": [1, 2]}, "surface": {"name": "articulated", "body": "heavy_biped"}}
+    cup = {"name": "cup", "vertices": 4000}
+    (_, second) = written_out({"surface": cup, "datasets": {"poses": [item]}})["datasets"]["poses"]
+    assert second == {"label": "pose 2", "surface": {"name": "articulated", "body": "heavy_biped", "pose": 2}}
+    bodies = {"grid": {"surface.body": ["heavy_biped"], "surface.pose": [1]}, "class": "surface.body"}
+    (body,) = written_out({"surface": "articulated", "datasets": {"bodies": [bodies]}})["datasets"]["bodies"]
+    assert (body["label"], body["class"]) == ("heavy biped 1", "heavy biped")
+    assert body["surface"]["body"] == "heavy_biped"
 
 
-def test_values_of_a_product_may_be_a_range_with_both_ends() -> None:
-    axis = {"product": {"surface.seed": {"from": 100, "to": 115}}}
-    found = written_out({"surface": "callosum", "axes": {"group": axis}})["axes"]["group"]
-    assert [member["surface"]["seed"] for member in found.values()] == list(range(100, 116))
+def test_several_grids_are_told_apart_by_a_word() -> None:
+    noise = {"grid": {"image.noise": [10, 20]}, "level": "image.noise"}
+    items = [noise | {"class": "linear", "operator": "fem"}, noise | {"class": "other", "operator": "libigl"}]
+    found = written_out({"image": "picture", "datasets": {"noise": items}})["datasets"]["noise"]
+    assert labels(found) == ["linear noise 10", "linear noise 20", "other noise 10", "other noise 20"]
+    image = {"name": "picture", "noise": 20}
+    assert found[-1] == {
+        "label": "other noise 20", "class": "other", "level": 20.0, "operator": {"name": "libigl"}, "image": image
+    }  # fmt: skip
 
 
 def test_a_part_may_be_made_of_a_part_before_it() -> None:
     parts = {
-        "right": {"surface": {"fsaverage5": {"hemisphere": "right"}}},
-        "hidden": {"surface": {"disguised": {"inputs": {"original": "right"}}}},
+        "right": {"surface": {"name": "fsaverage5", "hemisphere": "right"}},
+        "hidden": {"surface": {"name": "disguised", "inputs": {"original": "right"}}},
     }
-    distance = {"embedding_map": {"inputs": {"target": "hidden"}}}
+    distance = {"name": "embedding_map", "inputs": {"target": "hidden"}}
     found = written_out({"parts": parts, "distance": distance})["distance"]["inputs"]["target"]
     assert found["surface"]["inputs"]["original"] == {"surface": {"name": "fsaverage5", "hemisphere": "right"}}
 
 
-def test_an_axis_may_be_the_grid() -> None:
-    given: dict[str, Any] = {"solver": "newton", "grid": {"model.weight": [0.5, 1]}}
-    found = written_out(given | {"axes": {"weights": {"product": "grid", "level": "model.weight"}}})
-    assert [member["level"] for member in found["axes"]["weights"].values()] == [0.5, 1.0]
-
-
-def test_a_statement_that_is_too_long_for_a_key_stands_beside_its_quantity() -> None:
-    body = {"max": {"metric": "rmse", "of": {"operator.name": "fem"}}, "between": [0, 3], "because": "It says so."}
-    long, short = written_out({"claims": [{"claim": "It is small", **body}, {"It is small": body}]})["claims"]
-    assert long == short and long["rows"] == {"operator.name": "fem"}
-
-
-def test_the_words_of_claims_are_those_that_claims_have() -> None:
-    assert get_args(Claim.model_fields["quantity"].annotation) == QUANTITIES
-    assert set(BELOW) == set(Claim.model_fields) - {"claim", "quantity", "metric", "rows", "over"}
-    body = {"max": "rmse", "between": [None, 2], "published": {"table": "2.1", "value": "2"}, "because": "It says so."}
-    (claim,) = read_claims(written_out({"claims": [{"It is small": body}]})["claims"])
-    assert (claim.claim, claim.quantity, claim.metric, claim.because) == ("It is small", "max", "rmse", "It says so.")
-
-
-def test_what_others_published_needs_a_reason() -> None:
-    body = {"max": "rmse", "between": [None, 2], "reference": "Somebody (2020)"}
-    with pytest.raises(UserError, match="'because' is missing"):
-        read_claims(written_out({"claims": [{"It is small": body}]})["claims"])
+def test_a_claim_has_ten_keys() -> None:
+    assert len(Claim.model_fields) == 10
+    body = {"claim": "It is small", "quantity": {"max": "rmse"}, "between": [None, 2]}
+    (claim,) = read_claims([body | {"published": {"table 2.1": "2"}, "because": "It says so."}])
+    assert (claim.summary, claim.metric, claim.place, claim.value) == ("max", "rmse", ("table", "2.1"), "2")
+    (ours,) = read_claims([body])
+    assert ours.place is None and ours.source == "ours" and ours.reason == "No reason is given."
 
 
 def test_the_file_names_the_experiment() -> None:
@@ -208,13 +191,13 @@ def test_the_file_names_the_experiment() -> None:
 
 SWEEP = """\
 title: A sweep?
-surface: {icosphere: {levels: 1}}
-image: {two_phase: {noise: 10.0}}
+surface: {name: icosphere, levels: 1}
+image: {name: two_phase, noise: 10.0}
 model: rof
 solver: primal_dual
 grid: {image.noise: [10.0, 20.0, 40.0], operator: [fem, vertex_averaged]}
 repeat: {image.seed: 3}
-figures: [{sweep: rmse, against: image.noise}]
+figures: [{name: sweep, metric: rmse, against: image.noise}]
 """
 
 
@@ -223,10 +206,10 @@ def test_a_sweep_over_a_grid_of_one_option_is_one_line() -> None:
     given = {"grid": {"image.noise": [10.0, 20.0]}, "repeat": {"image.seed": 3}, "image": "two_phase"}
     for more, lines in (({}, {"rmse"}), ({"operator": ["fem", "libigl"]}, {"fem", "libigl"})):
         grid = given["grid"] | more
-        found = written_out(given | {"grid": grid, "figures": [{"sweep": "rmse", "against": "image.noise"}]})
-        (members,) = found["axes"].values()
-        assert {member["class"] for member in members.values()} == lines
-        assert {member["level"] for member in members.values()} == {10.0, 20.0}
+        figure = {"name": "sweep", "metric": "rmse", "against": "image.noise"}
+        (items,) = written_out(given | {"grid": grid, "figures": [figure]})["datasets"].values()
+        assert {item["class"] for item in items} == lines
+        assert {item["level"] for item in items} == {10.0, 20.0}
 
 
 @pytest.mark.parametrize(
@@ -255,6 +238,7 @@ def test_what_is_drawn_over_the_grid_follows_the_command_line(
         assert {node.options["seed"] for node in nodes} == {5}
 
 
+SWEPT = {"name": "sweep", "metric": "rmse", "against": "a"}
 MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "results": ({"experiment": {"results": "/"}}, "'results' is no part of an experiment"),
     "hydra": ({"experiment": {"hydra": {}}}, "'hydra' is no part of an experiment; .*@package _global_"),
@@ -266,35 +250,35 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "truth": ({"repeat": {"image.seed": True}}, "is True"),
     "no seed": ({"repeat": {"image.noise": 3}}, "'image.noise' is no seed"),
     "against": (
-        {"grid": {"image.noise": [1]}, "figures": [{"sweep": "rmse", "against": "image.nois"}]},
+        {"grid": {"image.noise": [1]}, "figures": [{"name": "sweep", "metric": "rmse", "against": "image.nois"}]},
         "did you mean 'image.noise'",
     ),
-    "of what": ({"grid": {"image.noise": [1]}, "figures": [{"against": "image.noise"}]}, "sweep: METRIC is missing"),
-    "variants": ({"variants": [{}], "grid": {"a": [1]}, "figures": [{"sweep": "x", "against": "a"}]}, "variants"),
-    "product": ({"axes": {"a": {"product": 3}}}, "product is 3"),
-    "fact": ({"axes": {"a": {"product": {"surface.x": [1]}, "klass": "surface.x"}}}, "did you mean 'class'"),
-    "fact of": ({"axes": {"a": {"product": {"surface.x": [1]}, "class": "surface.y"}}}, "did you mean 'surface.x'"),
-    "level": ({"axes": {"a": {"product": {"surface.x": ["b"]}, "level": "surface.x"}}}, "the level is 'b'"),
-    "stage": ({"axes": {"a": {"product": {"surfaces.x": [1]}}}}, "did you mean 'surface'"),
-    "mixed": (
-        {"axes": {"a": [{"product": {"surface.x": [1]}}, {"surface": "cup"}]}},
-        "products and members do not mix",
+    "of what": (
+        {"grid": {"image.noise": [1]}, "figures": [{"name": "sweep", "against": "image.noise"}]},
+        "metric: METRIC is missing",
     ),
-    "labels": ({"axes": {"a": [{"product": {"surface.x": [1]}}] * 2}}, "two members are 'x 1'"),
-    "values": ({"axes": {"a": {"product": {"surface.x": [1, 1]}}}}, "leave one of two equal values out"),
-    "range": ({"axes": {"a": {"product": {"surface.x": {"from": 3, "to": 2}}}}}, "from 3 to 2 are 0 values"),
-    "fractions": ({"axes": {"a": {"product": {"surface.x": {"from": 0.5, "to": 2}}}}}, "options with lists of values"),
-    "level word": ({"axes": {"a": {"product": {"surface.x": [1]}, "level": "high"}}}, "the level is 'high'"),
-    "quantities": ({"claims": [{"S": {"all": "x", "any": "x"}}]}, "all and any given"),
-    "quantity": ({"claims": [{"S": {"between": [0, 1]}}]}, "no quantity given"),
-    "key": ({"claims": [{"S": {"rato": "x"}}]}, "did you mean 'ratio'"),
-    "of": ({"claims": [{"S": {"all": {"metrik": "x"}}}]}, "did you mean 'metric'"),
+    "variants": (
+        {"variants": [{}], "grid": {"a": [1]}, "figures": [{"name": "sweep", "metric": "x", "against": "a"}]},
+        "variants",
+    ),
+    "grid": ({"datasets": {"a": [{"grid": {"surface.x": 3}}]}}, "grid is .* options with lists of values"),
+    "fact": ({"datasets": {"a": [{"grid": {"surface.x": [1]}, "klass": "surface.x"}]}}, "did you mean 'class'"),
+    "fact of": (
+        {"datasets": {"a": [{"grid": {"surface.x": [1]}, "class": "surface.y"}]}},
+        "did you mean 'surface.x'",
+    ),
+    "level": ({"datasets": {"a": [{"grid": {"surface.x": ["b"]}, "level": "surface.x"}]}}, "the level is 'b'"),
+    "level word": ({"datasets": {"a": [{"grid": {"surface.x": [1]}, "level": "high"}]}}, "the level is 'high'"),
+    "stage": ({"datasets": {"a": [{"grid": {"surfaces.x": [1]}}]}}, "did you mean 'surface'"),
+    "labels": ({"datasets": {"a": [{"grid": {"surface.x": [1]}}] * 2}}, "two items are 'x 1'"),
+    "values": ({"datasets": {"a": [{"grid": {"surface.x": [1, 1]}}]}}, "leave one of two equal values out"),
+    "seed": ({"datasets": {"a": [{"repeat": {"surface.x": 2}}]}}, "'surface.x' is no seed"),
     "figures": ({"figures": 3}, "a list of figures"),
-    "claims": ({"claims": {"a": 1}}, "a list of statements"),
-    "axes": ({"axes": [1]}, "collections by name"),
-    "axis": ({"axes": {"a": 1}}, "members by label"),
+    "claims": ({"claims": {"a": 1}}, "a list of claims"),
+    "datasets": ({"datasets": [1]}, "lists of items by name"),
+    "dataset": ({"datasets": {"a": 1}}, "a list of items"),
+    "item": ({"datasets": {"a": [1]}}, "a list of items"),
     "text": ({"grid": {3: [1]}}, "key 3 is no text"),
-    "body": ({"claims": [{"S": 3}]}, "a quantity and an interval are needed"),
 }
 
 
@@ -308,7 +292,7 @@ def test_a_mistake_is_refused_with_its_name(given: tuple[dict[str, Any], str]) -
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "experiments.md"
 
 
-@pytest.mark.parametrize(("block", "rows"), [(0, 18), (1, 1), (2, 1)])
+@pytest.mark.parametrize(("block", "rows"), [(0, 18), (1, 1), (2, 1), (3, 1)])
 def test_the_experiments_of_the_page_can_be_planned(working_folder: Path, block: int, rows: int) -> None:
     text = re.findall(r"^```yaml\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[block]
     assert len(planned(working_folder, "page", text).leaves) == rows

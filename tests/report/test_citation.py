@@ -64,7 +64,7 @@ def test_an_experiment_that_never_ran_is_cited_by_what_its_file_names(experiment
 def test_methods_are_found_wherever_a_file_names_them() -> None:
     document = {
         "surface": "cup",
-        "axes": {"solvers": {"a": {"solver": {"name": "newton", "tolerance": 1e-9}}, "b": {"solver": ["fista", 3]}}},
+        "datasets": {"solvers": [{"solver": {"name": "newton", "tolerance": 1e-9}}, {"solver": ["fista", 3]}]},
         "variants": [{"solver": {"name": "newton"}, "figures": [{"name": "denoising"}, "sweep"]}],
         "title": "solver",
     }

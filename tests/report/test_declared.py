@@ -21,8 +21,7 @@ load_all(Path("/nonexistent"))
 ROOT = Path(__file__).resolve().parents[2]
 CLAIM: dict[str, Any] = {
     "claim": "small",
-    "quantity": "all",
-    "metric": "rmse",
+    "quantity": {"all": "rmse"},
     "rows": {"solver.name": "primal_dual"},
     "between": [None, 20],
     "because": "half of the noise",
@@ -82,10 +81,10 @@ def test_a_statistic_of_data_alone_is_no_answer_and_hands_nothing_on() -> None:
     "claim",
     [
         {},
-        {"metric": "seconds"},
+        {"quantity": {"all": "seconds"}},
         {"rows": {"image.seed": [0, 1]}},
         {"rows": {"solver.name": "newton"}},  # exists, though this experiment does not take it
-        {"quantity": "ratio", "over": {"solver.name": "split_bregman"}},
+        {"quantity": {"ratio": "rmse"}, "rows": [{}, {"solver.name": "split_bregman"}]},
     ],
 )
 def test_names_that_exist_are_allowed(claim: dict[str, Any]) -> None:
@@ -95,14 +94,17 @@ def test_names_that_exist_are_allowed(claim: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("claim", "message"),
     [
-        ({"metric": "rsme"}, "unknown metric in claim (small) 'rsme'; did you mean 'rmse'?"),
-        ({"metric": "c1"}, "unknown metric in claim (small) 'c1'"),
+        ({"quantity": {"all": "rsme"}}, "unknown metric in claim (small) 'rsme'; did you mean 'rmse'?"),
+        ({"quantity": {"all": "c1"}}, "unknown metric in claim (small) 'c1'"),
         ({"rows": {"solver.nme": "x"}}, "unknown parameter in claim (small) 'solver.nme'; did you mean 'solver.name'?"),
         ({"rows": {"solver.name": "primal_dul"}}, "'primal_dul'; did you mean 'primal_dual'?"),
         ({"rows": {"image.seed": 3}}, "unknown value of image.seed in claim (small) '3'"),
         ({"rows": {"image.seed": [0, 3]}}, "unknown value of image.seed in claim (small) '3'"),
-        ({"quantity": "ratio", "over": {"solver.name": "split_bergman"}}, "did you mean 'split_bregman'?"),
-        ({"holds": [1, 2]}, "'holds' is called 'between' now"),
+        (
+            {"quantity": {"ratio": "rmse"}, "rows": [{}, {"solver.name": "split_bergman"}]},
+            "did you mean 'split_bregman'?",
+        ),
+        ({"betwen": [1, 2]}, "unknown key 'betwen'; did you mean 'between'?"),
     ],
 )
 def test_a_misspelt_name_in_a_claim_is_refused(claim: dict[str, Any], message: str) -> None:
@@ -112,9 +114,11 @@ def test_a_misspelt_name_in_a_claim_is_refused(claim: dict[str, Any], message: s
 def test_misspelt_columns_objectives_and_options_are_refused() -> None:
     assert "unknown metric in columns 'rsme'; did you mean 'rmse'?" in refusal(columns=["rsme"])
     assert "unknown metric in objective 'rsme'; did you mean 'rmse'?" in refusal(objective="rsme")
-    sweep = {"name": "sweep", "metric": "rsme", "x_label": "seed", "inputs": {"solvers": {"over": "seeds"}}}
-    axes = {"seeds": {"a @ 0": {"image": {"seed": 0}}, "a @ 1": {"image": {"seed": 1}}}}
-    assert "unknown metric in figure/sweep.metric 'rsme'; did you mean 'rmse'?" in refusal(axes=axes, figures=[sweep])
+    sweep = {"name": "sweep", "metric": "rsme", "x_label": "seed", "inputs": {"solvers": {"dataset": "seeds"}}}
+    datasets = {"seeds": [{"image": {"seed": 0}}, {"image": {"seed": 1}}]}
+    assert "unknown metric in figure/sweep.metric 'rsme'; did you mean 'rmse'?" in refusal(
+        datasets=datasets, figures=[sweep]
+    )
 
 
 @pytest.mark.parametrize("name", sorted(file.stem for file in (ROOT / "conf" / "experiment").glob("*.yaml")))

@@ -134,7 +134,7 @@ def test_work_grows_with_the_rows_and_each_file_is_read_once(tmp_path: Path, mon
 def test_ratios_lie_between_those_of_the_extremes() -> None:
     from surfexp.lab.experiment.claim import Claim
 
-    claim = Claim(claim="c", quantity="ratio", metric="gap", over={"a": 1}, between=(0, 1), because="b")
+    claim = Claim(claim="c", quantity={"ratio": "gap"}, rows=({}, {"a": 1}), between=(0, 1), because="b")
     random = np.random.default_rng(0)
     for _ in range(200):
         values, divisors = (list(random.normal(random.normal(), 1.0, random.integers(1, 6))) for _ in range(2))

@@ -31,9 +31,8 @@ load_all(Path("/nonexistent"))
 STATE = "a" * 20, "b" * 20
 CLAIM = {
     "claim": "the sphere has its area | nearly",
-    "published": {"table": "9.9", "value": "12.57"},
-    "quantity": "all",
-    "metric": "area",
+    "published": {"table 9.9": "12.57"},
+    "quantity": {"all": "area"},
     "between": [12.5, 12.6],
     "because": "a polyhedron inside the sphere",
     "cause": "found",
@@ -123,7 +122,7 @@ def document(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str
     """Of one experiment of chapter 2, with a third claim that cannot be compared, and of one without a chapter."""
     monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
     other = {"not_comparable": "Another ball.", "between": None, "because": "", "claim": "as large as his"}
-    plan.settings.claims[:] = [CLAIM, CLAIM | {"claim": "ours", "between": [1, 2], "published": None}, CLAIM | other]
+    plan.settings.claims[:] = [CLAIM, CLAIM | {"claim": "ours", "between": [1, 2], "published": {}}, CLAIM | other]
     ours = plan.settings.model_copy(update={"chapter": None})
     apart = dataclasses.replace(plan, settings=ours) if dataclasses.is_dataclass(plan) else plan
     return page_of({"ball": plan, "other": apart}, tmp_path)

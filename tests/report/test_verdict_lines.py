@@ -14,7 +14,7 @@ from surfexp.commands.verdict_lines import STYLES, print_verdicts
 from surfexp.lab.plan.plan import Leaf, Plan
 from surfexp.records.table import Row
 
-CLAIM: dict[str, Any] = {"quantity": "all", "metric": "energy", "rows": {}, "because": "why not"}
+CLAIM: dict[str, Any] = {"quantity": {"all": "energy"}, "because": "why not"}
 
 
 def printed(claims: list[dict[str, Any]], *energies: float | None) -> list[str]:
@@ -58,6 +58,6 @@ def test_only_what_fails_is_red() -> None:
 
 
 def test_what_is_not_comparable_stands_beside_the_published_value() -> None:
-    claim = CLAIM | {"claim": "seconds", "not_comparable": "another machine", "because": ""}
-    (line, _) = printed([claim | {"published": {"table": "2.2", "value": "18.61s"}}], 2.0)
+    claim = CLAIM | {"claim": "seconds", "between": "not comparable", "because": "another machine"}
+    (line, _) = printed([claim | {"published": {"table 2.2": "18.61s"}}], 2.0)
     assert line == "not comparable  seconds: all energy 2, published 18.61s (another machine)"

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "guide.md")
 STARTS = ("surfexp run ", "surfexp plan ")
 # of a folder that `surfexp collect` wrote, of a plugin that the page shows, a search, a cluster: seen elsewhere
-ELSEWHERE = ("axes", "scaled", "hydra/sweeper", "profile=")
+ELSEWHERE = ("datasets", "scaled", "hydra/sweeper", "profile=")
 LINES = [
     line.partition("  #")[0].strip()
     for page in PAGES

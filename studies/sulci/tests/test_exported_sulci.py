@@ -43,9 +43,11 @@ TABLE = {
     "statistic": {
         "name": "sulcal_table",
         "regions": 2,
-        "inputs": {"template": PIAL, "surfaces": {"over": "subjects"}},
+        "inputs": {"template": PIAL, "surfaces": {"dataset": "subjects"}},
     },
-    "axes": {"subjects": {f"{side} anna": {"class": side, "group": "anna", **PIAL} for side in ("left", "right")}},
+    "datasets": {
+        "subjects": [{"label": f"{side} anna", "class": side, "group": "anna", **PIAL} for side in ("left", "right")]
+    },
 }
 
 

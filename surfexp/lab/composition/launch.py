@@ -27,7 +27,7 @@ from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.experiment.hydra_flags import ANSWERED_BY_HYDRA, Words, parted
 from surfexp.lab.experiment.interpolation import resolved
-from surfexp.lab.experiment.own_data import with_collections, without_foreign_words
+from surfexp.lab.experiment.own_data import with_datasets, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
@@ -138,9 +138,9 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
 
 def _as_hydra_wants(overrides: Sequence[str]) -> list[str]:
     """Add the + that Hydra asks for where an experiment sets what the first composition does not have."""
-    ours = re.compile(rf"({'|'.join(KINDS)}|resources)\.[^=]*=|({'|'.join(SETTABLE)})=|axes\.[^=]+=")
-    # a collection takes the place of an experiment's own, where Hydra would refuse it or join the two
-    words = [re.sub(r"^axes=", "axes._=", text) for text in overrides]
+    ours = re.compile(rf"({'|'.join(KINDS)}|resources)\.[^=]*=|({'|'.join(SETTABLE)})=|datasets\.[^=]+=")
+    # a dataset takes the place of an experiment's own, where Hydra would refuse it or join the two
+    words = [re.sub(r"^datasets=", "datasets._=", text) for text in overrides]
     words = [f"++{text}" if ours.match(text) else text for text in words]  # their names are checked later
     known = str(OmegaConf.load(package_folder("surfexp.conf") / "config.yaml").defaults)
     new = {kind for kind in KINDS if f"'{kind}':" not in known}
@@ -215,9 +215,10 @@ def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
 
 
 def _leaves(composed: dict[str, Any], overrides: Sequence[str], request: Request) -> list[dict[str, Any]]:
-    composed = written_out(without_removed(composed, request, dotted=False), request.stages)
-    composed = without_removed(composed, request, dotted=True)
-    composed["axes"] = with_collections(composed.get("axes") or {}, request.collections)
+    composed = without_removed(composed, request, dotted=False)
+    if request.datasets:
+        composed["datasets"] = with_datasets(composed.get("datasets") or {}, request.datasets)
+    composed = without_removed(written_out(composed, request.stages), request, dotted=True)
     return expand(without_foreign_words(composed, overrides), request.stages)
 
 

@@ -15,12 +15,12 @@ from hydra.errors import OverrideParseException
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
 from surfexp.lab.experiment.interpolation import resolved
-from surfexp.lab.experiment.own_data import collection
+from surfexp.lab.experiment.own_data import dataset_called
 from surfexp.lab.registry import registry
 from surfexp.lab.store.kinds import KINDS
 
-SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "axes"}
-OURS = {*KINDS, *SETTABLE, "variants", "grid", "axes"}
+SETTABLE = set(Settings.model_fields) - {"experiment", "results", "variants", "grid", "datasets"}
+OURS = {*KINDS, *SETTABLE, "variants", "grid", "datasets"}
 
 
 @dataclass
@@ -31,8 +31,8 @@ class Request:
     ----------
     stages : dict
         A plugin or preset as its configuration under the kind, an option or a setting as its value under its dotted name.
-    collections : dict
-        Axes of `axes=NAME` under "", of `axes.AXIS=NAME` under AXIS.
+    datasets : dict
+        Those of `datasets=NAME` under "", of `datasets.DATASET=NAME` under DATASET.
     removed : dict of str to str or None
         Dotted names behind ~, or of stages that are null, with the value that they must have, if one is given.
     required : set of str
@@ -42,7 +42,7 @@ class Request:
     """
 
     stages: dict[str, Any] = field(default_factory=dict)
-    collections: dict[str, dict[str, Any]] = field(default_factory=dict)
+    datasets: dict[str, dict[str, Any]] = field(default_factory=dict)
     removed: dict[str, str | None] = field(default_factory=dict)
     required: set[str] = field(default_factory=set)
     rest: list[str] = field(default_factory=list)
@@ -87,8 +87,13 @@ def request_of(overrides: Sequence[str], repository: Any) -> Request:
             value = override.value()
             found.removed[key] = None if value in (None, "") else str(value)
             found.required.add(key)
-        elif re.fullmatch(r"axes(\.[^.]+)?", key) and isinstance(override.value(), str):
-            found.collections["" if key == "axes._" else key[5:]] = collection(str(override.value()), repository)
+        elif head == "axes":
+            raise UserError(
+                f"{text.lstrip('+')}: axes are called datasets now: write datasets{text.partition('axes')[2]}"
+            )
+        elif re.fullmatch(r"datasets(\.[^.]+)?", key) and isinstance(override.value(), str):
+            name = "" if key == "datasets._" else key.partition(".")[2]
+            found.datasets[name] = dataset_called(str(override.value()), repository)
         elif head not in (*KINDS, *SETTABLE):
             found.rest.append(text)
         elif "." in key or key in SETTABLE:

@@ -10,7 +10,7 @@ from omegaconf import DictConfig, OmegaConf
 from surfexp.lab.composition.overrides import Request, without
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import assign
-from surfexp.lab.experiment.own_data import with_collections
+from surfexp.lab.experiment.own_data import with_datasets
 from surfexp.lab.experiment.written_out import named, written_out
 
 
@@ -35,12 +35,12 @@ def shown(composed: DictConfig, request: Request, flags: Mapping[str, str]) -> s
     of_hydra = whole.pop("hydra")
     job = named(whole, OmegaConf.select(composed, "hydra.runtime.choices.experiment"))
     job = without(job, request, dotted=False)
+    if request.datasets:
+        job["datasets"] = with_datasets(job.get("datasets") or {}, request.datasets)
     if any("." in name for name in (*request.stages, *request.removed)):  # an option has one place in the long form
         job = without(written_out(job, request.stages), request, dotted=True)
     for name, value in sorted(request.stages.items(), key=lambda item: "." in item[0]):
         job = assign(job, name, value) if "." in name else {**job, name: value}
-    if request.collections:
-        job["axes"] = with_collections(job.get("axes") or {}, request.collections)
     configuration: Any = OmegaConf.create({**job, "hydra": of_hydra})
     if "--resolve" in flags:
         OmegaConf.resolve(configuration)

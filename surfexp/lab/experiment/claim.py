@@ -2,87 +2,88 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from surfexp.lab.errors import UserError, unknown
 from surfexp.lab.experiment.configuration import one_line
 
 PLACES = ("table", "figure", "section", "equation", "theorem", "lemma", "remark", "chapter")
-RENAMED = {"printed": "published", "of": "rows", "holds": "between"}
-
-
-class Published(BaseModel):
-    """Where the dissertation makes a statement, and the value that stands there."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    table: str | None = Field(None, description="number of a table")
-    figure: str | None = Field(None, description="number of a figure, with its part")
-    section: str | None = Field(None, description="number of a section")
-    equation: str | None = Field(None, description="number of an equation")
-    theorem: str | None = Field(None, description="number of a theorem")
-    lemma: str | None = Field(None, description="number of a lemma")
-    remark: str | None = Field(None, description="number of a remark")
-    chapter: str | None = Field(None, description="number of a chapter")
-    value: str = Field(min_length=1, description="the value as it stands in the text, a number or words")
-
-    @model_validator(mode="after")
-    def _one_place(self) -> Self:
-        places = [place for place in PLACES if getattr(self, place) is not None]
-        if len(places) != 1:
-            given = " and ".join(places) or "no place"
-            raise ValueError(f"{given} given, one of {', '.join(PLACES)} is needed")
-        return self
-
-    @property
-    def place(self) -> tuple[str, str]:
-        """Kind and number of the place."""
-        kind = next(place for place in PLACES if getattr(self, place) is not None)
-        return kind, getattr(self, kind)
+Summary = Literal["all", "any", "mean", "min", "max", "ratio"]
+NOT_COMPARABLE: Literal["not comparable"] = "not comparable"
+UNEXPLAINED = "No reason is given."
+Interval = tuple[float | None, float | None]
+Selection = dict[str, Any]
 
 
 class Claim(BaseModel):
-    """One statement as an experiment's `claims:` writes it: published, of another reference, or the experiment's own."""
+    """One statement as an experiment's `claims:` writes it: published, or the experiment's own."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     claim: str = Field(min_length=1, description="one statement, prose only")
-    published: Published | None = Field(None, description="where the dissertation states it, and the value there")
-    reference: str = Field("", description="who else published it, for what is not the dissertation's")
-    quantity: Literal["all", "any", "mean", "min", "max", "ratio"] = Field(
-        description="what of the rows lies in the interval: each value, some value, their mean, their least, their "
-        "largest, or their mean over that of the rows `over`"
+    published: dict[str, str] = Field(
+        {},
+        max_length=1,
+        description="who states it, and the value that stands there, a number or words: a place of the dissertation, "
+        "such as {table 2.2: '20.28'}, or another reference",
     )
-    metric: str = Field(min_length=1, description="a metric that the rows' plugin declares, or seconds")
-    rows: dict[str, Any] = Field({}, description="parameters that select rows; a list of values means any of them")
-    over: dict[str, Any] | None = Field(None, description="for a ratio: parameters of the rows to divide by")
-    between: tuple[float | None, float | None] | None = Field(
-        None, description="interval, ends included; null is an open end"
+    quantity: dict[Summary, str] = Field(
+        min_length=1,
+        max_length=1,
+        description="what of the rows lies in the interval, and of which metric that their plugin declares (or seconds): "
+        "each value (all), some value (any), their mean, their least (min), their largest (max), or the ratio of two means",
     )
-    because: str = Field("", description="why that interval")
-    not_comparable: str = Field(
-        "",
-        description="in place of an interval: why the published value and the one found here cannot be held against "
-        "each other; both are shown, and there is no verdict either way",
+    rows: Selection | tuple[Selection, Selection] = Field(
+        {},
+        description="parameters that select rows; a list of values means any of them; for a ratio two selections, "
+        "of the rows and of those to divide by",
     )
-    unconverged: str = Field("", description="why rows count that stopped at their iteration limit; else they do not")
-    moved: str = Field("", description="the interval before the result was seen, when it was another one")
+    between: Interval | Literal["not comparable"] = Field(
+        description="interval, ends included, null is an open end; or not comparable: the value published and the one "
+        "found stand side by side, and there is no verdict either way"
+    )
+    because: str = Field("", description="why that interval, or why it cannot be compared")
     otherwise: Literal["corrected", "not reproduced"] | None = Field(
         None, description="verdict outside of the interval on what was published; default: not reproduced"
     )
     cause: str = Field("", description="one sentence: why it came out as it did")
+    moved: str = Field("", description="the interval before the result was seen, when it was another one")
+    unconverged: str = Field("", description="why rows count that stopped at their iteration limit; else they do not")
+
+    @field_validator("published")
+    @classmethod
+    def _one_source(cls, published: dict[str, str]) -> dict[str, str]:
+        for source, value in published.items():
+            word, _, number = source.partition(" ")
+            near = difflib.get_close_matches(word, PLACES, 1, 0.75)
+            if word in PLACES and not number.strip():
+                raise ValueError(f"{source!r} has no number: write {{{word} NUMBER: VALUE}}")
+            if word not in PLACES and near:
+                raise ValueError(f"{word!r} is no kind of place; did you mean {near[0]!r}?")
+            if not source or not value:
+                raise ValueError("a source and the value that stands there are needed: {table 2.2: '20.28'}")
+        return published
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        if self.not_comparable:
-            self._check_not_comparable()
+        if (self.summary == "ratio") != isinstance(self.rows, tuple):
+            raise ValueError(f"rows: a ratio needs two selections and nothing else has two; this is {self.summary!r}")
+        if self.otherwise and not self.published:
+            raise ValueError("otherwise is a verdict on what was published; ours does not hold")
+        if self.published and not self.because:
+            raise ValueError("'because' is missing: the reason of an interval on what was published is needed")
+        if self.between == NOT_COMPARABLE:
+            if not self.place:
+                raise ValueError("not comparable is said of what the dissertation states; published has no place of it")
+            if self.otherwise:
+                raise ValueError("otherwise: what is not comparable has no verdict")
             return self
-        if self.between is None or not self.because:
-            missing = "because" if self.between else "between"
-            raise ValueError(f"{missing!r} is missing: an interval with its reason, or not_comparable, is needed")
         low, high = self.between
         if low is None and high is None:
             raise ValueError("between: both ends are open, so that every value lies in it")
@@ -92,34 +93,53 @@ class Claim(BaseModel):
             raise ValueError(f"between: the lower end {low:g} is above the upper end {high:g}")
         return self
 
-    def _check_not_comparable(self) -> None:
-        for name in ("between", "because", "otherwise"):
-            if getattr(self, name):
-                raise ValueError(f"not_comparable stands in place of {name}: without a comparison there is no interval")
-        if self.published is None:
-            raise ValueError("not_comparable is said of what the dissertation states; published is missing")
-
-    @model_validator(mode="after")
-    def _from_one_source(self) -> Self:
-        if (self.quantity == "ratio") != (self.over is not None):
-            raise ValueError(f"over is for a ratio and needed there; the quantity is {self.quantity!r}")
-        if self.published and self.reference:
-            raise ValueError("published is the dissertation's and reference somebody else's; give one of them")
-        if self.otherwise and not self.foreign:
-            raise ValueError("otherwise is a verdict on what was published or has a reference; ours does not hold")
-        return self
+    @property
+    def summary(self) -> Summary:
+        """What of the rows is judged: all, any, mean, min, max or ratio."""
+        return next(iter(self.quantity))
 
     @property
-    def foreign(self) -> bool:
-        """Whether somebody else stated it: the dissertation or another reference."""
-        return self.published is not None or bool(self.reference)
+    def metric(self) -> str:
+        """The metric of the rows that is judged."""
+        return next(iter(self.quantity.values()))
+
+    @property
+    def selections(self) -> tuple[Selection, ...]:
+        """The parameters that select rows, of a ratio also those that select the rows to divide by."""
+        return self.rows if isinstance(self.rows, tuple) else (self.rows,)
+
+    @property
+    def interval(self) -> Interval | None:
+        """The interval; None where there is no comparison."""
+        return None if self.between == NOT_COMPARABLE else self.between
+
+    @property
+    def place(self) -> tuple[str, str] | None:
+        """Kind and number of the place in the dissertation; None for another reference, and for what is ours."""
+        for source in self.published:
+            kind, _, number = source.partition(" ")
+            return (kind, number) if kind in PLACES else None
+        return None
+
+    @property
+    def value(self) -> str:
+        """The value as it was published, empty for what is ours."""
+        return next(iter(self.published.values()), "")
+
+    @property
+    def reason(self) -> str:
+        """Why that interval, for a table."""
+        return self.because or UNEXPLAINED
 
     @property
     def source(self) -> str:
-        """Who states it, for a table: a place with its value, a reference, or "ours"."""
-        if self.published:
-            return f"{' '.join(self.published.place)}: {self.published.value}"
-        return self.reference or "ours"
+        """Who states it, for a table: a place or a reference with its value, or "ours"."""
+        return next((f"{source}: {value}" for source, value in self.published.items()), "ours")
+
+
+def claims_of(file: Path) -> list[Any]:
+    """Return the claims of an experiment's file, as they stand there."""
+    return yaml.safe_load(file.read_text(encoding="utf-8")).get("claims") or []
 
 
 def read_claims(claims: Sequence[Any]) -> list[Claim]:
@@ -129,18 +149,22 @@ def read_claims(claims: Sequence[Any]) -> list[Claim]:
 
 def _read(given: Any, number: int) -> Claim:
     if not isinstance(given, Mapping):
-        raise UserError(f"claim {number} is {given!r}; a mapping with claim, quantity, metric and between is needed")
+        raise UserError(f"claim {number} is {given!r}; a mapping with claim, quantity and between is needed")
     where = f"claim {number} ({str(given.get('claim', 'without statement'))[:60]})"
     for key in given:
-        if key in RENAMED:
-            raise UserError(f"{where}: {key!r} is called {RENAMED[key]!r} now")
         if key not in Claim.model_fields:
             raise UserError(f"{where}: {unknown('key', str(key), Claim.model_fields)}")
+    if isinstance(quantity := given.get("quantity"), Mapping):
+        for key in quantity:
+            if key not in Summary.__args__:  # type: ignore[attr-defined]
+                raise UserError(f"{where}: {unknown('quantity', str(key), Summary.__args__)}")  # type: ignore[attr-defined]
     try:
         return Claim.model_validate(given)
     except ValidationError as error:
         missing = [str(item["loc"][-1]) for item in error.errors() if item["type"] == "missing"]
         first = error.errors()[0]
-        found = one_line("claim", error) if first["loc"] else first["msg"].removeprefix("Value error, ")
+        found = one_line("claim", error)
+        if first["type"] == "value_error":
+            found = first["msg"].removeprefix("Value error, ")
         reason = f"{missing[0]!r} is missing" if missing else found
         raise UserError(f"{where}: {reason}") from None

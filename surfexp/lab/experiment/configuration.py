@@ -17,8 +17,8 @@ Context = dict[str, Any]
 # kinds that have another name now
 RENAMED = {"measurement": "statistic"}
 NAME = r"^[A-Za-z0-9][\w.-]*$"
-Facts = TypedDict("Facts", {"class": str, "group": str, "level": float}, total=False)
-Facts.__pydantic_config__ = ConfigDict(extra="allow", coerce_numbers_to_str=True)  # type: ignore[attr-defined]
+Item = TypedDict("Item", {"label": str, "class": str, "group": str, "level": float}, total=False)
+Item.__pydantic_config__ = ConfigDict(extra="allow", coerce_numbers_to_str=True)  # type: ignore[attr-defined]
 
 
 class Settings(BaseModel):
@@ -45,7 +45,7 @@ class Settings(BaseModel):
     figures: list[Any] = Field([], description="figure plugins drawn for each variant: a name, or name and options")
     objective: str | None = Field(None, description="metric that an optimising sweeper minimises")
     claims: list[Any] = Field([], description="published claims, each judged from the rows of the report")
-    axes: dict[str, dict[Any, Facts] | list[Facts]] = Field({}, description="collections: label, facts, stages")
+    datasets: dict[str, list[Item]] = Field({}, description="items by dataset: label, facts, stages")
     variants: list[Any] = Field([], description="partial configurations, each with its own grid; their union is run")
     grid: dict[str, list[Any]] = Field({}, description="dotted option to list of values; every combination is run")
 

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.lab.errors import UserError, check_known, unknown
-from surfexp.lab.experiment.collections import AXIS, collection_of_files, is_of_files
+from surfexp.lab.experiment.dataset_files import DATASET, is_of_files, items_of_files
 from surfexp.lab.store.kinds import KINDS
 
-DATA = {"surface", "image", "axes", "variants", "grid"}
+DATA = {"surface", "image", "datasets", "variants", "grid"}
 FIGURE_WORDS = {"title", "caption", "reference"}
 CLAIMS_LEFT_OUT = "The experiment's claims are left out: they are about its own methods and data, as its file has them."
 WORDS_LEFT_OUT = "Titles and captions of the experiment are left out with its claims: they are about its own data."
@@ -24,8 +24,8 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
     configuration : mapping
         As composed from the experiment's file.
     overrides : sequence of str
-        What the command line asks for, "key=value" each. One of a stage, its options, an axis, a variant or a grid
-        leaves the claims out; one of a surface, an image, an axis, a variant, a grid, or the inputs of a stage leaves
+        What the command line asks for, "key=value" each. One of a stage, its options, a dataset, a variant or a grid
+        leaves the claims out; one of a surface, an image, a dataset, a variant, a grid, or the inputs of a stage leaves
         titles, captions and headings out too.
     """
     keys = [text.lstrip("+~").partition("=")[0] for text in overrides]
@@ -43,86 +43,92 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
 
 
 def _data_named(overrides: Sequence[str]) -> str:
-    """The collection, surface and image that a command line names, a file by its name: what a title says."""
+    """The dataset, surface and image that a command line names, a file by its name: what a title says."""
     named: dict[str, str] = {}
     for text in overrides:
         key, _, value = text.lstrip("+~").partition("=")
         kind, _, option = key.partition(".")
-        if value and (kind == "axes" or (kind in ("surface", "image") and option in ("", "path"))):
+        if value and (kind == "datasets" or (kind in ("surface", "image") and option in ("", "path"))):
             parts = [Path(part.strip("'\" ")).name for part in value.split(",")]
             words = parts[0] if len(parts) == 1 else f"{parts[0]} and {len(parts) - 1} more"
             named[kind] = named[kind] if not option and kind in named else words
-    return ", ".join(named[kind] for kind in ("axes", "image", "surface") if kind in named)
+    return ", ".join(named[kind] for kind in ("datasets", "image", "surface") if kind in named)
 
 
-def collection(name: str, repository: Any) -> dict[str, Any]:
-    """Return the axes of a collection: those of `axes/NAME.yaml` among Hydra's files, or one of files that are named.
+def dataset_called(name: str, repository: Any) -> dict[str, Any]:
+    """Return the datasets of `datasets/NAME.yaml` among Hydra's files, by name, or one of files that are named.
 
     Parameters
     ----------
     name : str
-        As written behind `axes=`: of a file of axes, or a folder, a table, a pattern of paths.
+        As written behind `datasets=`: of a file of datasets, or a folder, a table, a pattern of paths.
     repository
         Hydra's, of configuration files.
 
     Raises
     ------
     UserError
-        If there is no such collection, or no member in it.
+        If there is no such dataset, or no item in it.
     """
     from hydra.core.object_type import ObjectType
 
     from surfexp.lab.experiment.interpolation import resolved
 
-    if found := repository.load_config(f"axes/{name}"):
+    if found := repository.load_config(f"datasets/{name}"):
         return dict(resolved(found.config))
     if is_of_files(name):
-        return {AXIS: collection_of_files(Path(name))}
-    known = repository.get_group_options("axes", ObjectType.CONFIG)
-    said = unknown("collection", name, known)
+        return {DATASET: items_of_files(Path(name))}
+    if repository.load_config(f"axes/{name}"):
+        raise UserError(f"conf/axes/{name}.yaml is of an earlier version: surfexp upgrade conf/axes/{name}.yaml")
+    known = repository.get_group_options("datasets", ObjectType.CONFIG)
+    said = unknown("dataset", name, known)
     raise UserError(f"{said}; a folder, a table (.csv) or a pattern such as 'shapes/*.off' is one as well")
 
 
-def with_collections(axes: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """Return the axes of an experiment with collections of one's own in place of its own.
+def with_datasets(datasets: Mapping[str, Any], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the datasets of an experiment with one's own in place of its own.
 
     Parameters
     ----------
-    axes : mapping
-        Members by label, by name of the axis.
+    datasets : mapping
+        Items by name of the dataset.
     given : mapping
-        Collections by the name of the axis that they replace, each as its file has it: axes by name. Under "" the file's
-        axis replaces the one of its name, or the only axis of surfaces.
+        One's own by the name of the dataset that they replace, each as its file has it: items by name. Under "" the file's
+        dataset replaces the one of its name, or the only one of surfaces.
 
     Raises
     ------
     UserError
-        If the axis is unknown, or it does not follow which one is to be replaced.
+        If the dataset is unknown, or it does not follow which one is to be replaced.
     """
-    own = dict(axes)
-    for target, collection in given.items():
-        for name, members in collection.items():
+    own = dict(datasets)
+    for target, found in given.items():
+        for name, items in found.items():
             if target:
-                check_known("axis", [target], axes)
-            own[target or _axis_to_replace(axes, name)] = members
+                check_known("dataset", [target], datasets)
+            own[target or _to_replace(datasets, name)] = items
     return own
 
 
-def _axis_to_replace(axes: Mapping[str, Any], name: str) -> str:
-    if name in axes:
+def _to_replace(datasets: Mapping[str, Any], name: str) -> str:
+    if name in datasets:
         return name
-    of_surfaces = [axis for axis, members in axes.items() if any("surface" in member for member in _facts(members))]
+    of_surfaces = [known for known, items in datasets.items() if any(map(_sets_surface, items or []))]
     if not of_surfaces:
-        raise UserError("axes: this experiment compares no collection of surfaces; set surface=file surface.path=FILE")
+        raise UserError(
+            "datasets: this experiment compares no surfaces of a dataset; set surface=file surface.path=FILE"
+        )
     if len(of_surfaces) > 1:
-        known = ", ".join(f"axes.{axis}=NAME" for axis in of_surfaces)
-        raise UserError(f"axes: this experiment has {len(of_surfaces)} collections of surfaces, choose {known}")
+        choice = ", ".join(f"datasets.{known}=NAME" for known in of_surfaces)
+        raise UserError(f"datasets: this experiment has {len(of_surfaces)} datasets of surfaces, choose {choice}")
     return of_surfaces[0]
 
 
-def _facts(members: Any) -> list[Mapping[str, Any]]:
-    found = members.values() if isinstance(members, Mapping) else members or []
-    return [member for member in found if isinstance(member, Mapping)]
+def _sets_surface(item: Any) -> bool:
+    if not isinstance(item, Mapping):
+        return False
+    options = [*item, *(item.get("grid") or {}), *(item.get("repeat") or {})]
+    return any(str(option).partition(".")[0] == "surface" for option in options)
 
 
 def _wordless(part: Any, headings: dict[str, str]) -> Any:

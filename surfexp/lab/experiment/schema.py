@@ -9,13 +9,12 @@ from pydantic import BaseModel
 
 from surfexp.lab.experiment.claim import Claim
 from surfexp.lab.experiment.configuration import Settings
-from surfexp.lab.experiment.statements import PARTS, QUANTITIES
 from surfexp.lab.registry.registry import Plugin
 
 Schema = dict[str, Any]
 OBJECT: Schema = {"type": "object"}
-WORDS = ("x_label", "y_label", "log", "title", "caption")
-OWN = ("experiment", "results", "figures", "claims", "variants", "axes", "grid")
+FACTS: Schema = {"label": {}, "class": {}, "group": {}, "level": {}}
+OWN = ("experiment", "results", "figures", "claims", "variants", "datasets", "grid")
 
 
 def schema_of(plugins: Mapping[tuple[str, str], Plugin]) -> Schema:
@@ -35,41 +34,32 @@ def schema_of(plugins: Mapping[tuple[str, str], Plugin]) -> Schema:
     for (kind, _), plugin in sorted(plugins.items()):
         kinds.setdefault(kind, []).append(plugin)
     stages = {kind: _stage(methods) for kind, methods in kinds.items()}
-    sweep = _closed({key: {} for key in ("sweep", "against", *WORDS)})
-    figure = {"anyOf": [{"$ref": "#/$defs/figure"}, sweep]}
     top = {name: item for name, item in _model(Settings)["properties"].items() if name not in OWN}
     common = top | {kind: {"$ref": f"#/$defs/{kind}"} for kind in kinds if kind != "figure"}
     grid = {"type": "object", "additionalProperties": {"type": "array"}}
-    common |= {"figures": {"type": "array", "items": figure}, "grid": grid}
+    common |= {"figures": {"type": "array", "items": {"$ref": "#/$defs/figure"}}, "grid": grid}
     seeds = {"type": "object", "additionalProperties": {"type": "integer", "minimum": 1}}
     parts = {"type": "object", "additionalProperties": OBJECT}
-    whole = common | {"experiment": {"type": "string"}, "defaults": {"type": "array"}, "hydra": OBJECT, "axes": OBJECT}
-    whole |= {"parts": parts, "repeat": seeds, "claims": {"type": "array", "items": _claim()}}
-    variant = _closed(common | {"<<": {}, "axes": OBJECT})
+    whole = common | {"experiment": {"type": "string"}, "defaults": {"type": "array"}, "hydra": OBJECT}
+    item = {"type": "object", "properties": {**FACTS, "grid": grid, "repeat": seeds}}
+    datasets = {"type": "object", "additionalProperties": {"type": "array", "items": item}}
+    claims = {"type": "array", "items": _closed(_model(Claim)["properties"])}
+    whole |= {"parts": parts, "repeat": seeds, "claims": claims, "datasets": datasets}
+    variant = _closed(common | {"<<": {}, "datasets": datasets})
     whole["variants"] = {"type": "array", "items": variant}
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "An experiment of surfexp"}
     return {**head, **_closed(whole), "$defs": stages}
 
 
 def _stage(methods: Sequence[Plugin]) -> Schema:
-    """A plugin's name, {name: NAME, OPTION: VALUE} or {NAME: {OPTION: VALUE}}; without a name, options of any."""
+    """A plugin's name, or {name: NAME, OPTION: VALUE}; without a name, options of any."""
     forms: list[Schema] = [{"enum": [None, *(method.name for method in methods)]}]
     for method in methods:
         options = {"inputs": OBJECT, **_model(method.options).get("properties", {})}
-        described = {"description": method.summary}
-        forms.append(described | _closed({"name": {"const": method.name}, **options}))
-        forms.append(described | _closed({method.name: {"anyOf": [_closed(options), {"type": "null"}]}}))
+        if (method.kind, method.name) == ("figure", "sweep"):
+            options["against"] = {"description": "an option of the grid: the sweep is drawn once over the whole grid"}
+        forms.append({"description": method.summary} | _closed({"name": {"const": method.name}, **options}))
     return {"anyOf": forms}
-
-
-def _claim() -> Schema:
-    parts = _model(Claim)["properties"]
-    quantity = {"anyOf": [{"type": "string"}, _closed({key: {} for key in PARTS})]}
-    body = {name: parts[name] for name in parts if name not in ("claim", "quantity", "metric", "rows", "over")}
-    short = _closed(dict.fromkeys(QUANTITIES, quantity) | body)
-    one = {"type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": short}
-    long = _closed({"claim": {"type": "string"}} | dict.fromkeys(QUANTITIES, quantity) | body)
-    return {"anyOf": [_closed(parts), one, long]}
 
 
 def _closed(properties: Mapping[str, Any]) -> Schema:

@@ -1,14 +1,15 @@
-"""The short forms of an experiment's file, written out into what the planner reads."""
+"""What an experiment's file leaves to be worked out: names of parts, seeds, items of datasets, sweeps, the end of a chain."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from surfexp.lab.errors import UserError
-from surfexp.lab.experiment.products import axes_written_out, with_sweeps
-from surfexp.lab.experiment.statements import claim_written_out
+from surfexp.lab.experiment.datasets import datasets_written_out, seeds, with_sweeps
+from surfexp.lab.experiment.former_spelling import refuse_former_spelling
 from surfexp.lab.experiment.yaml_files import check_variants
+from surfexp.lab.registry.registry import names_of
 from surfexp.lab.store.kinds import KINDS
 
 Configuration = dict[str, Any]
@@ -21,9 +22,9 @@ OUTSIDE = {
 SHAPES: dict[str, tuple[type, str]] = {
     "parts": (Mapping, "names with stages are needed: NAME: {surface: ...}"),
     "repeat": (Mapping, "seeds with a number of repetitions are needed: image.seed: 3"),
-    "axes": (Mapping, "collections by name are needed: NAME: {LABEL: {surface: ...}}"),
+    "datasets": (Mapping, "lists of items by name are needed: NAME: [{label: LABEL, surface: ...}]"),
     "figures": (list, "a list of figures is needed: [denoising]"),
-    "claims": (list, "a list of statements is needed"),
+    "claims": (list, "a list of claims is needed: - {claim: STATEMENT, quantity: {max: METRIC}, between: [null, 1]}"),
 }
 
 
@@ -55,14 +56,13 @@ def named(composed: Mapping[str, Any], name: str | None) -> Configuration:
 
 
 def written_out(composed: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> Configuration:
-    """Return a composed configuration without short forms; one that has none is returned as it is.
+    """Return a composed configuration as the planner reads it.
 
     Parameters
     ----------
     composed : mapping
-        May hold, beside what the planner reads: `parts`, by name, which inputs then name; `repeat`, options with the number
-        of seeds; a plugin's name as the only key above its options; a claim's statement as the only key above its body;
-        axes as a `product`; figures as {sweep: METRIC, against: OPTION}.
+        May hold `parts`, by name, which inputs then name; `repeat`, options with the number of seeds; items of datasets with
+        a grid or seeds; figures {name: sweep, metric: METRIC, against: OPTION}.
     given : mapping, optional
         What the command line says of stages, as `expand` takes it: it stands in the grid in place of the grid's own values, so
         that what is drawn over the whole grid follows it.
@@ -74,64 +74,55 @@ def written_out(composed: Mapping[str, Any], given: Mapping[str, Any] | None = N
     Raises
     ------
     UserError
-        Naming the entry and what it should be.
+        Naming the entry and what it should be; for the spelling of an earlier version, the present one.
 
     Examples
     --------
-    >>> written_out({"surface": {"cup": {"vertices": 4000}}, "repeat": {"image.seed": 2}})["grid"]
+    >>> written_out({"surface": {"name": "cup", "vertices": 4000}, "repeat": {"image.seed": 2}})["grid"]
     {'image.seed': [0, 1]}
     """
+    refuse_former_spelling(composed, lambda kind, plugin: plugin in names_of(kind))
     _check_shapes(composed, "the experiment")
     check_variants(composed)
     parts = composed.get("parts") or {}
     own: Configuration = {}
     for name, part in parts.items():  # a part may be made of those before it
         own[name] = _stages(part, own)
-    found = _stages({key: value for key, value in composed.items() if key not in ("parts", "repeat")}, own)
-    if seeds := _seeds(composed.get("repeat") or {}):
-        found["grid"] = {**(found.get("grid") or {}), **seeds}
+    found: Configuration = _stages(
+        {key: value for key, value in composed.items() if key not in ("parts", "repeat")}, own
+    )
+    if repeated := seeds(composed.get("repeat") or {}):
+        found["grid"] = {**(found.get("grid") or {}), **repeated}
     if given and (grid := found.get("grid")):
         found["grid"] = {option: [given[option]] if option in given else values for option, values in grid.items()}
-    if found.get("claims"):
-        found["claims"] = [claim_written_out(claim, number) for number, claim in enumerate(found["claims"], 1)]
-    found = with_sweeps(axes_written_out(found))
+    found = with_sweeps(datasets_written_out(found))
     if "target" not in found and (last := _last_kind(found, given or {})):
         found["target"] = last
     return found
 
 
 def _check_shapes(part: Any, where: str) -> None:
-    """Refuse keys that are no text, and lists and mappings that are none; members of an axis may have any label."""
+    """Refuse keys that are no text, and lists and mappings that are none."""
     for key, value in part.items() if isinstance(part, Mapping) else ():
         if not isinstance(key, str):
             raise UserError(f"{where}: key {key!r} is no text; put it in quotation marks")
         shape, needed = SHAPES.get(key, (object, ""))
         if value is not None and not isinstance(value, shape) and where in ("the experiment", "a variant"):
             raise UserError(f"{key} is {str(value)[:80]!r}, {needed}")
-        if key == "axes" and isinstance(value, Mapping):
-            for axis, members in value.items():
-                if not isinstance(members, Mapping | list):
+        if key == "datasets" and isinstance(value, Mapping):
+            for name, items in value.items():
+                if not isinstance(items, list) or not all(isinstance(item, Mapping) for item in items):
                     raise UserError(
-                        f"axis {axis} is {str(members)[:80]!r}, members by label or a list of them are needed"
+                        f"dataset {name} is {str(items)[:80]!r}, a list of items is needed: [{{label: LABEL}}]"
                     )
-                for facts in members.values() if isinstance(members, Mapping) else members:
-                    _check_shapes(facts, f"axis {axis}")
+                for item in items:
+                    _check_shapes(item, f"dataset {name}")
         elif key == "variants" and isinstance(value, list):
             for variant in value:
                 _check_shapes(variant, "a variant")
         else:
             for item in value if isinstance(value, list) else [value]:
                 _check_shapes(item, key)
-
-
-def _seeds(repeat: Mapping[str, Any]) -> dict[str, list[int]]:
-    """The values of seeds that are repeated: 0, 1, 2, ..."""
-    for option, count in repeat.items():
-        if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= 10_000:
-            raise UserError(f"repeat: {str(option)!r} is {count!r}, a number of repetitions from 1 to 10000 is needed")
-        if str(option).rpartition(".")[2] != "seed":
-            raise UserError(f"repeat: {option!r} is no seed; values of other options stand in the grid")
-    return {str(option): list(range(count)) for option, count in repeat.items()}
 
 
 def _last_kind(found: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
@@ -144,7 +135,7 @@ def _last_kind(found: Mapping[str, Any], asked: Mapping[str, Any]) -> str:
 
 
 def _stages(part: Any, parts: Mapping[str, Any]) -> Any:
-    """A partial configuration with all its stages written out."""
+    """A partial configuration in which inputs are what the parts say that they name."""
     if not isinstance(part, Mapping):
         return part
     return {key: _entry(key, value, parts) for key, value in part.items()}
@@ -153,39 +144,24 @@ def _stages(part: Any, parts: Mapping[str, Any]) -> Any:
 def _entry(key: str, value: Any, parts: Mapping[str, Any]) -> Any:
     if key in KINDS:
         return _stage(value, parts)
-    if key == "figures" and isinstance(value, Sequence) and not isinstance(value, str):
+    if key == "figures" and isinstance(value, list):
         return [_stage(figure, parts) for figure in value]
     if key == "variants":
         return [_stages(variant, parts) for variant in value or []]
-    if key == "grid":
-        lists = (value or {}).items()
+    if key == "grid" and isinstance(value, Mapping):
         return {
-            option: [_stage(item, parts) for item in items] if option in KINDS else items for option, items in lists
+            option: [_stage(item, parts) for item in items] if option in KINDS and isinstance(items, list) else items
+            for option, items in value.items()
         }
-    if key == "axes" and isinstance(value, Mapping):
-        return {axis: _members(members, parts) for axis, members in value.items()}
+    if key == "datasets" and isinstance(value, Mapping):
+        return {name: [_stages(item, parts) for item in items] for name, items in value.items()}
     return value
 
 
-def _members(members: Any, parts: Mapping[str, Any]) -> Any:
-    if isinstance(members, Mapping) and "product" in members:
-        return _stages(members, parts)
-    if isinstance(members, Mapping):
-        return {label: _stages(facts, parts) for label, facts in members.items()}
-    return [_stages(facts, parts) for facts in members] if isinstance(members, list) else members
-
-
 def _stage(value: Any, parts: Mapping[str, Any]) -> Any:
-    """A stage's configuration: {cup: {vertices: 4000}} is {name: cup, vertices: 4000}; inputs may name parts."""
-    if not isinstance(value, Mapping):
+    if not isinstance(value, Mapping) or not isinstance(inputs := value.get("inputs"), Mapping):
         return value
-    if len(value) == 1:
-        ((name, options),) = value.items()
-        if name not in ("name", "inputs") and (options is None or isinstance(options, Mapping)):
-            value = {"name": name, **(options or {})}
-    if isinstance(inputs := value.get("inputs"), Mapping):
-        value = {**value, "inputs": {role: _input(role, given, parts) for role, given in inputs.items()}}
-    return dict(value)
+    return {**value, "inputs": {role: _input(role, given, parts) for role, given in inputs.items()}}
 
 
 def _input(role: str, given: Any, parts: Mapping[str, Any]) -> Any:

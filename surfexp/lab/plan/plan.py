@@ -11,6 +11,7 @@ from typing import Any
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import unknown
 from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.experiment.former_spelling import present_settings
 from surfexp.lab.store.kinds import KINDS
 from surfexp.lab.store.store import write_text
 
@@ -98,7 +99,7 @@ def read_plan(path: Path, key: str = "") -> Plan:
     if "shown" not in tree:
         return _of_one_document(tree)
     leaves, nodes = lines[0], {line[9:29]: line for line in lines[1:]}
-    plan = Plan(Settings(**tree["settings"]), requested=tree["requested"])
+    plan = Plan(_settings(tree["settings"]), requested=tree["requested"])
     for leaf in [] if key else json.loads(leaves):
         plan.leaves.append(Leaf(**leaf | {"settings": tree["shown"][leaf["settings"]]}))
     waiting = [key] if key else list(reversed(nodes))
@@ -113,7 +114,12 @@ def _of_one_document(tree: Mapping[str, Any]) -> Plan:
     """A plan as earlier versions wrote it, whose results are as good as ever: settings and options stand with each leaf."""
     nodes = {key: Node(**node) for key, node in tree["nodes"].items()}
     leaves = [Leaf(*map(leaf.get, ("key", "configuration", "settings", "figures"))) for leaf in tree["leaves"]]
-    return Plan(Settings(**tree["settings"]), nodes, leaves, tree["requested"])
+    return Plan(_settings(tree["settings"]), nodes, leaves, tree["requested"])
+
+
+def _settings(tree: Mapping[str, Any]) -> Settings:
+    """The settings of a plan, perhaps of an earlier version, whose results are as good as ever."""
+    return Settings(**present_settings(tree))
 
 
 def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from surfexp.contract.member import FACTS, axis_members
+from surfexp.contract.member import FACTS, members_of
 from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.errors import UserError, check_known
 from surfexp.lab.experiment.configuration import Context, merge, one_line, settings_of, stage
@@ -29,7 +29,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
         if (top := {key: value for key, value in configuration.items() if key not in KINDS}) != before or plan is None:
             settings, before = settings_of(configuration), top
             plan, shown = plan or Plan(settings), settings.model_dump()
-            resolver = _Resolver(plan, settings.axes)
+            resolver = _Resolver(plan, settings.datasets)
         context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
         key = resolver.node(settings.target, context, ())
         leaf = Leaf(key, digest(flat_parameters(plan.nodes, key)), shown)
@@ -46,14 +46,14 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
 
 @dataclass
 class _Resolver:
-    """Finds the stages of leaves that have their axes in common.
+    """Finds the stages of leaves that have their datasets in common.
 
     What was found is remembered by the configurations of those kinds that were looked at on the way: leaves of a sweep differ
     in few of them.
     """
 
     plan: Plan
-    axes: Mapping[str, Any]
+    datasets: Mapping[str, Any]
     looked_at: set[str] = field(default_factory=set)
     known: dict[str, dict[tuple[str, ...], dict[str, str]]] = field(default_factory=dict)
     visits: dict[str, int] = field(default_factory=dict)
@@ -98,7 +98,7 @@ class _Resolver:
         self, method: Plugin, role: str, context: Context, override: Context, path: tuple[tuple[str, Context], ...]
     ) -> Any:
         wanted = method.inputs[role]
-        axis = override.pop("over", None)
+        dataset = override.pop("dataset", None)
         check_known(f"stage kind below inputs.{role} of {method.kind}/{method.name}", override, KINDS)
         context = merge(context, override)
         if wanted.shape == "one":
@@ -108,9 +108,9 @@ class _Resolver:
             if name not in allowed:
                 raise UserError(f"{where} takes no {wanted.kind} {name!r}; it takes: {', '.join(allowed)}")
             return key
-        check_known(f"axis of list input {role!r} of {method.kind}/{method.name} (over)", [str(axis)], self.axes)
-        members = axis_members(self.axes[axis])
-        check_known(f"key of a member of axis {axis!r}", sorted(set().union(*members.values())), (*KINDS, *FACTS))
+        check_known(f"dataset of list input {role!r} of {method.kind}/{method.name}", [str(dataset)], self.datasets)
+        members = members_of(self.datasets[str(dataset)])
+        check_known(f"key of an item of dataset {dataset!r}", sorted(set().union(*members.values())), (*KINDS, *FACTS))
         keys = {member: self.node(wanted.kind, merge(context, part), path) for member, part in members.items()}
         named = {member.label: key for member, key in keys.items()}
         return {"members": keys, "dict": named, "list": list(keys.values())}[wanted.shape]

@@ -80,15 +80,15 @@ def test_a_shape_that_is_not_there(shapes: Path, path: str, shape: str, message:
         options(path=shapes.parent / path, shape=shape)
 
 
-def test_collect_writes_an_axis_and_lists_what_is_left_out(shapes: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_collect_writes_a_dataset_and_lists_what_is_left_out(shapes: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0
     said = capsys.readouterr().out
-    assert "5 of 6 files are members: ball 3, ring 2" in said and "left out: ring7.off" in said
-    written = (shapes.parent / "conf" / "axes" / "mine.yaml").read_text()
-    members = yaml.safe_load(written)["shapes"]
-    assert list(members) == ["ball ball0", "ball ball1", "ball ball10", "ring ring0", "ring ring2"]
+    assert "5 of 6 files are items: ball 3, ring 2" in said and "left out: ring7.off" in said
+    written = (shapes.parent / "conf" / "datasets" / "mine.yaml").read_text()
+    items = yaml.safe_load(written)["shapes"]
+    assert [item["label"] for item in items] == ["ball ball0", "ball ball1", "ball ball10", "ring ring0", "ring ring2"]
     surface = {"name": "file", "path": str(shapes / "ring2.off")}
-    assert members["ring ring2"] == {"class": "ring", "group": "ring2", "surface": surface}
+    assert items[-1] == {"label": "ring ring2", "class": "ring", "group": "ring2", "surface": surface}
     assert "# left out: ring7.off" in written
     assert main(["collect", str(shapes), "--to", "mine"]) == 2 and "--force" in capsys.readouterr().err
 
@@ -98,11 +98,11 @@ def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0
     command = [sys.executable, "-m", "surfexp.commands.command_line", "plan", "experiment=tosca_classification"]
     # five members, of which ball0 and ball10 hold the same bytes
-    for axes, count in ((["axes=mine"], 4), ([], 36)):
-        said = subprocess.run([*command, *axes], capture_output=True, text=True).stdout
+    for datasets, count in ((["datasets=mine"], 4), ([], 36)):
+        said = subprocess.run([*command, *datasets], capture_output=True, text=True).stdout
         row = next(line for line in said.splitlines() if "surface" in line)
         assert row.split("│")[2].strip() == str(count), said
-    unknown = subprocess.run([*command, "axes=min"], capture_output=True, text=True)
+    unknown = subprocess.run([*command, "datasets=min"], capture_output=True, text=True)
     assert unknown.returncode == 2 and "'min'; did you mean 'mine'?" in unknown.stderr
 
 
@@ -113,10 +113,10 @@ def test_people_by_a_regular_expression(working_folder: Path, capsys: pytest.Cap
             folder.mkdir(parents=True, exist_ok=True)
             write_mesh(folder / f"{side}.ply", icosphere(1).mesh)
     group = r"(?P<owner>[^/]+)/(?P<class>.h)"
-    assert main(["collect", "people", "--group", group, "--axis", "subjects"]) == 0
-    members = yaml.safe_load((working_folder / "conf" / "axes" / "people.yaml").read_text())["subjects"]
-    assert list(members) == ["lh anna", "rh anna", "lh ben", "rh ben"]
-    assert [(m["class"], m["group"]) for m in members.values()][1:3] == [("rh", "anna"), ("lh", "ben")]
+    assert main(["collect", "people", "--group", group, "--dataset", "subjects"]) == 0
+    items = yaml.safe_load((working_folder / "conf" / "datasets" / "people.yaml").read_text())["subjects"]
+    assert [item["label"] for item in items] == ["lh anna", "rh anna", "lh ben", "rh ben"]
+    assert [(item["class"], item["group"]) for item in items][1:3] == [("rh", "anna"), ("lh", "ben")]
     wrong = (
         (r"(?P<class>x)", "finds no class"),
         ("(", "no regular expression"),

@@ -1,4 +1,4 @@
-"""Collections of one's own surfaces as members of an axis: a folder, a pattern of paths, or a table of paths and facts."""
+"""Datasets of one's own surfaces: the items of a folder, a pattern of paths, or a table of paths and facts."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from surfexp.lab.errors import UserError
 PATTERNS = (*MESH_PATTERNS, "*.gii", "*.mat")
 CLASS_OF_NAME = r"(?P<class>[^/\d]*[^/\d_. -])[^/]*$"
 TABLES = (".csv", ".tsv")
-AXIS = "shapes"
+DATASET = "shapes"
 COLUMNS = ("path", "class", "group", "level", "label")
 PATTERN_MARKS = "*?["
 SEPARATORS = ",;\t"
-Member = dict[str, Any]
+Item = dict[str, Any]
 
 
 def is_of_files(name: str) -> bool:
-    """Whether the name of a collection is that of a folder or a table, or a pattern of paths."""
+    """Whether the name of a dataset is that of a folder or a table, or a pattern of paths."""
     if any(mark in name for mark in PATTERN_MARKS) or Path(name).suffix.lower() in TABLES:
         return True
     try:
@@ -34,17 +34,17 @@ def is_of_files(name: str) -> bool:
         return False
 
 
-def name_of_collection(source: Path) -> str:
+def name_of_dataset(source: Path) -> str:
     """Return the name of a table without its suffix, or of the folder that is named or stands before a pattern."""
     if any(mark in str(source) for mark in PATTERN_MARKS):
         source = _parted(source)[0]
     return source.stem if source.is_file() else source.resolve().name
 
 
-def collection_of_files(
+def items_of_files(
     source: Path, patterns: Sequence[str] = PATTERNS, group: str = CLASS_OF_NAME, plugin: str = "file"
-) -> dict[str, Member]:
-    """Return the members of an axis by label; no surface is read.
+) -> list[Item]:
+    """Return the items of a dataset, each with its label; no surface is read.
 
     Parameters
     ----------
@@ -62,10 +62,10 @@ def collection_of_files(
     Raises
     ------
     UserError
-        If there is no file, a table lacks the column, an expression finds no class, or two members have one label.
+        If there is no file, a table lacks the column, an expression finds no class, or two items have one label.
     """
     if source.suffix.lower() in TABLES:
-        return _unlike((label, member) for label, member in _rows(source, plugin))
+        return _unlike(_rows(source, plugin))
     if source.is_dir():
         files = [file for pattern in patterns for file in source.rglob(pattern)]
         nothing = f"no file in {str(source)!r} is called {' or '.join(patterns)}; set --pattern"
@@ -78,7 +78,7 @@ def collection_of_files(
     files = sorted({file.resolve() for file in files if file.is_file()}, key=_natural)
     if not files:
         raise UserError(nothing)
-    return _unlike(_member(file, source.resolve(), group, plugin) for file in files)
+    return _unlike(_item(file, source.resolve(), group, plugin) for file in files)
 
 
 def _parted(pattern: Path) -> tuple[Path, str]:
@@ -91,7 +91,7 @@ def _natural(file: Path) -> list[Any]:
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", str(file))]
 
 
-def _member(file: Path, folder: Path, group: str, plugin: str) -> tuple[str, Member]:
+def _item(file: Path, folder: Path, group: str, plugin: str) -> Item:
     try:
         pattern = re.compile(group)
     except re.error as error:
@@ -104,10 +104,11 @@ def _member(file: Path, folder: Path, group: str, plugin: str) -> tuple[str, Mem
         raise UserError(f"--group {group!r} finds no class in {place!r}; write (?P<class>...) around it")
     owner = named.get("owner") or file.stem
     label = " ".join(filter(None, [named["class"], owner, named.get("detail")]))
-    return label, {"class": named["class"], "group": owner, "surface": {"name": plugin, "path": str(file)}}
+    surface = {"name": plugin, "path": str(file)}
+    return {"label": label, "class": named["class"], "group": owner, "surface": surface}
 
 
-def _rows(table: Path, plugin: str) -> Iterable[tuple[str, Member]]:
+def _rows(table: Path, plugin: str) -> Iterable[Item]:
     rows = _reader(table)
     try:
         columns = _columns(rows)
@@ -132,14 +133,14 @@ def _wrong_column(columns: Sequence[str]) -> str:
     return f"has the column {twice[0]!r} twice" if twice else f"has the column {own[0]!r}, write path" if own else ""
 
 
-def _described(cells: Mapping[str, str], folder: Path, plugin: str) -> tuple[str, Member]:
+def _described(cells: Mapping[str, str], folder: Path, plugin: str) -> Item:
     path = (folder / cells["path"]).resolve()
-    facts: Member = {"group": path.stem} | {name: cells[name] for name in ("class", "group") if name in cells}
+    facts: Item = {"group": path.stem} | {name: cells[name] for name in ("class", "group") if name in cells}
     if "level" in cells:
         facts["level"] = _number(cells["level"], path)
     options = {name.removeprefix("surface."): value for name, value in cells.items() if name.startswith("surface.")}
     label = cells.get("label") or " ".join(filter(None, [cells.get("class"), path.stem]))
-    return label, {**facts, "surface": {"name": plugin, "path": str(path), **options}}
+    return {"label": label, **facts, "surface": {"name": plugin, "path": str(path), **options}}
 
 
 def _number(text: str, path: Path) -> float:
@@ -153,7 +154,7 @@ def _number(text: str, path: Path) -> float:
 
 
 def unused_columns(table: Path) -> list[str]:
-    """Return the names of a table's columns that say nothing of a member."""
+    """Return the names of a table's columns that say nothing of an item."""
     return [name for name in _columns(_reader(table)) if name not in COLUMNS and not name.startswith("surface.")]
 
 
@@ -170,15 +171,15 @@ def _columns(rows: Any) -> list[str]:
     return [name.strip() for name in next(rows, [])]
 
 
-def _unlike(members: Iterable[tuple[str, Member]]) -> dict[str, Member]:
-    found: dict[str, Member] = {}
-    for label, member in members:
-        if label in found:
+def _unlike(items: Iterable[Item]) -> list[Item]:
+    found: dict[str, Item] = {}
+    for item in items:
+        if item["label"] in found:
             raise UserError(
-                f"two files are called {label!r}; tell them apart by (?P<owner>...) or (?P<detail>...), "
+                f"two files are called {item['label']!r}; tell them apart by (?P<owner>...) or (?P<detail>...), "
                 "or by the column label of a table"
             )
-        found[label] = member
+        found[item["label"]] = item
     if not found:
         raise UserError("the table has no row")
-    return found
+    return list(found.values())

@@ -14,7 +14,7 @@ from surfexp.commands.command_line import main
 from surfexp.io.writing import write_mesh
 from surfexp.lab.composition.launch import launch
 from surfexp.lab.errors import UserError
-from surfexp.lab.experiment.collections import collection_of_files, is_of_files, name_of_collection, unused_columns
+from surfexp.lab.experiment.dataset_files import is_of_files, items_of_files, name_of_dataset, unused_columns
 from surfexp.lab.plan.plan import Plan
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
@@ -34,24 +34,25 @@ def bodies(working_folder: Path) -> Path:
     return folder
 
 
-def test_folder_pattern_and_table_are_one_collection(bodies: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder = collection_of_files(bodies)
-    assert list(folder) == ["ball ball0", "ball ball1", "ring ring0", "ring ring1"]
-    assert collection_of_files(bodies / "*.off") == collection_of_files(Path("bodies.csv")) == folder
-    assert collection_of_files(bodies.parent / "bod*" / "ring?.off").keys() == {"ring ring0", "ring ring1"}
+def test_folder_pattern_and_table_are_one_dataset(bodies: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = items_of_files(bodies)
+    assert [item["label"] for item in folder] == ["ball ball0", "ball ball1", "ring ring0", "ring ring1"]
+    assert items_of_files(bodies / "*.off") == items_of_files(Path("bodies.csv")) == folder
+    rings = items_of_files(bodies.parent / "bod*" / "ring?.off")
+    assert [item["label"] for item in rings] == ["ring ring0", "ring ring1"]
     monkeypatch.chdir("/")  # the paths of a table are from its own folder
-    assert collection_of_files(bodies.parent / "bodies.csv") == folder
+    assert items_of_files(bodies.parent / "bodies.csv") == folder
 
 
 @pytest.mark.parametrize("source", ["bodies", "bodies/", "bodies.csv", "bodies/*.off"])
-def test_each_stands_behind_axes_as_it_is(bodies: Path, source: str) -> None:
+def test_each_stands_behind_datasets_as_it_is(bodies: Path, source: str) -> None:
     plans: list[Plan] = []
-    launch(["experiment=retrieval", f"axes.bodies={source}"], plans.append)
+    launch(["experiment=retrieval", f"datasets.bodies={source}"], plans.append)
     paths = {
         node.options["path"] for node in plans[0].nodes.values() if node.kind == "surface" and node.plugin == "file"
     }
     assert {Path(str(path)).name for path in paths} == set(FILES)
-    assert is_of_files(source) and name_of_collection(Path(source)) == "bodies"
+    assert is_of_files(source) and name_of_dataset(Path(source)) == "bodies"
 
 
 TEXT = st.text(st.characters(exclude_categories=["C", "Zl", "Zp"]), min_size=1, max_size=12).map(str.strip).filter(bool)
@@ -73,14 +74,14 @@ def test_what_a_spreadsheet_writes_is_read_back(
     for place, (name, group, label, level) in enumerate(rows):
         writer.writerow([f"s{place}.off", name, group, f"{place} {label}", level, 2.5])
     table.write_text(text.getvalue(), encoding=encoding, newline="")
-    expected = {
-        f"{place} {label}": {
-            **{"class": name, "group": group, "level": level},
+    expected = [
+        {
+            **{"label": f"{place} {label}", "class": name, "group": group, "level": level},
             "surface": {"name": "file", "path": str(table.resolve().parent / f"s{place}.off"), "scale": "2.5"},
         }
         for place, (name, group, label, level) in enumerate(rows)
-    }
-    assert collection_of_files(table) == expected
+    ]
+    assert items_of_files(table) == expected
 
 
 @pytest.mark.parametrize(
@@ -105,7 +106,7 @@ def test_a_bad_table_is_refused_in_one_line(
 ) -> None:
     (working_folder / "t.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(UserError) as refused:
-        collection_of_files(Path("t.csv"))
+        items_of_files(Path("t.csv"))
     assert words in str(refused.value)
     assert main(["collect", "t.csv"]) == 2
     said = capsys.readouterr().err
@@ -115,15 +116,15 @@ def test_a_bad_table_is_refused_in_one_line(
 @pytest.mark.parametrize(
     ("source", "words"),
     [
-        ("nowhere", "unknown collection 'nowhere'"),
+        ("nowhere", "unknown dataset 'nowhere'"),
         ("nowhere.csv", "cannot be read"),
         ("no*.off", "is called no*.off"),
-        ("x" * 300, "unknown collection"),
+        ("x" * 300, "unknown dataset"),
     ],
 )
-def test_a_collection_that_is_not_there(bodies: Path, source: str, words: str) -> None:
+def test_a_dataset_that_is_not_there(bodies: Path, source: str, words: str) -> None:
     with pytest.raises(UserError) as refused:
-        launch(["experiment=retrieval", f"axes.bodies={source}"], [].append)
+        launch(["experiment=retrieval", f"datasets.bodies={source}"], [].append)
     assert words in str(refused.value)
 
 
@@ -134,4 +135,4 @@ def test_columns_that_say_nothing_are_named(bodies: Path, capsys: pytest.Capture
     assert unused_columns(table) == ["age", "sex"]
     assert main(["collect", "bodies.csv", "--to", "mine"]) == 0
     said = capsys.readouterr().out
-    assert "columns that say nothing here: age, sex" in said and "4 of 4 files are members: ball 2, ring 2" in said
+    assert "columns that say nothing here: age, sex" in said and "4 of 4 files are items: ball 2, ring 2" in said
