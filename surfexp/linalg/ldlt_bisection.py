@@ -31,20 +31,20 @@ def measure_distances(indptr: Integers, indices: Integers, members: Integers, le
     for pole in range(poles):
         for v in members:
             level[pole, v] = -1
-    if _distances(indptr, indices, members[0], level[0], queue) < len(members):
+    if _distances(indptr, indices, int(members[0]), level[0], queue) < len(members):
         return False
-    start = queue[-1]
+    start = int(queue[-1])
     for v in members:
         level[0, v] = -1
     _distances(indptr, indices, start, level[0], queue)
-    _distances(indptr, indices, queue[-1], level[1], queue)
+    _distances(indptr, indices, int(queue[-1]), level[1], queue)
     if poles == POLES:
         across = members[0]
         for v in members:
             if min(level[0, v], level[1, v]) > min(level[0, across], level[1, across]):
                 across = v
         _distances(indptr, indices, across, level[2], queue)
-        _distances(indptr, indices, queue[-1], level[3], queue)
+        _distances(indptr, indices, int(queue[-1]), level[3], queue)
     return True
 
 
@@ -75,10 +75,11 @@ def bisect(
     """
     near, far = (2, 3) if attempt == 1 else (0, 1)
     keys = np.empty(len(members), np.int64)
+    lowest, highest = len(level[0]), -len(level[0])
     for a in range(len(members)):
         keys[a] = level[near, members[a]] - (level[far, members[a]] if attempt < 2 else 0)
-    lowest = keys.min()
-    counts = np.zeros(keys.max() - lowest + 1, np.int64)
+        lowest, highest = min(lowest, keys[a]), max(highest, keys[a])
+    counts = np.zeros(highest - lowest + 1, np.int64)
     for key in keys:
         counts[key - lowest] += 1
     left = (len(members) + 1) // 2

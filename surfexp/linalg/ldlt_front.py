@@ -88,12 +88,20 @@ def subtract_products(lower: Floats, pivots: Floats, target: Floats) -> None:
                 for j in range(min(columns, i + 1)):
                     target[i, j] -= entry * lower[j, k]
         return
-    left = np.ascontiguousarray(lower)
-    scaled = left[:columns] * pivots
+    left, scaled = np.empty((height, width)), np.empty((columns, width))
+    for i in range(height):
+        for k in range(width):
+            left[i, k] = lower[i, k]
+    for j in range(columns):
+        for k in range(width):
+            scaled[j, k] = lower[j, k] * pivots[k]
     for start in range(0, height, ROWS_AT_ONCE):
         end = min(height, start + ROWS_AT_ONCE)
         reach = min(columns, end)
-        target[start:end, :reach] -= np.dot(left[start:end], scaled[:reach].T)
+        products = np.dot(left[start:end], scaled[:reach].T)
+        for i in range(start, end):
+            for j in range(reach):
+                target[i, j] -= products[i - start, j]
 
 
 @njit(cache=True, nogil=True)

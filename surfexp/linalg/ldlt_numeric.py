@@ -78,8 +78,7 @@ def eliminate(
         if len(below):
             stack = with_room(stack, top, update.size)
             begins[s] = top
-            stack[top : top + update.size] = update.ravel()
-            top += update.size
+            top = push(stack, top, update)
             sibling[s] = first_child[parents[s]]
             first_child[parents[s]] = s
     return replaced
@@ -90,7 +89,9 @@ def gather(
     indptr: Integers, indices: Integers, entries: Floats, start: int, end: int, place: Integers, panel: Floats
 ) -> None:
     """Write the columns start..end-1 of the matrix, from the diagonal down, into the panel."""
-    panel[:] = 0.0
+    for i in range(len(panel)):
+        for j in range(panel.shape[1]):
+            panel[i, j] = 0.0
     for j in range(start, end):
         for p in range(indptr[j], indptr[j + 1]):
             if indices[p] >= j:
@@ -128,8 +129,19 @@ def with_room(stack: Floats, used: int, needed: int) -> Floats:
     if used + needed <= len(stack):
         return stack
     longer = np.empty(max(2 * len(stack), used + needed))
-    longer[:used] = stack[:used]
+    for i in range(used):
+        longer[i] = stack[i]
     return longer
+
+
+@njit(cache=True, nogil=True)
+def push(stack: Floats, top: int, update: Floats) -> int:
+    """Copy an update behind the `top` entries of the stack; return how many there are then."""
+    for i in range(len(update)):
+        for j in range(update.shape[1]):
+            stack[top + j] = update[i, j]
+        top += update.shape[1]
+    return top
 
 
 @njit(cache=True, nogil=True)

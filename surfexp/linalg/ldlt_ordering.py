@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from surfexp.contract.arrays import Integers
-from surfexp.linalg.ldlt_bisection import POLES, bisect, forget_distances, measure_distances
+from surfexp.linalg.ldlt_bisection import POLES, SEPARATOR, bisect, forget_distances, measure_distances
 from surfexp.linalg.ldlt_leaf import order_leaf
 from surfexp.linalg.ldlt_separator import refine
 
@@ -53,10 +53,14 @@ def _dissect(indptr: Integers, indices: Integers, leaf_size: int) -> Integers:
     side = np.zeros(n, np.int8)
     ties = np.zeros((n, 2), np.int64)
     locked = np.zeros(n, np.bool_)
-    pending = [(0, n, 0)]
-    pieces = 1
-    while len(pending) > 0:
-        low, high, label = pending.pop()
+    # first and last place of a piece in the order, and its label
+    pending = np.empty((n + 1, 3), np.int64)
+    pending[0, 0], pending[0, 1], pending[0, 2] = 0, n, 0
+    waiting, pieces = 1, 1
+    counts, starts = np.zeros(3, np.int64), np.zeros(3, np.int64)
+    while waiting > 0:
+        waiting -= 1
+        low, high, label = pending[waiting, 0], pending[waiting, 1], pending[waiting, 2]
         if high - low <= leaf_size:
             order_leaf(indptr, indices, order[low:high], local)
             for at in range(low, high):
@@ -64,17 +68,18 @@ def _dissect(indptr: Integers, indices: Integers, leaf_size: int) -> Integers:
             continue
         members = order[low:high].copy()
         _separate(indptr, indices, members, piece, label, level, side, ties, locked)
-        counts = np.zeros(3, np.int64)
+        counts[0], counts[1], counts[2] = 0, 0, 0
         for v in members:
             counts[side[v]] += 1
-        starts = np.array([low, low + counts[0], low + counts[0] + counts[1]])
-        labels = (pieces, pieces + 1, -1)
+        starts[0], starts[1], starts[2] = low, low + counts[0], low + counts[0] + counts[1]
         for v in members:
             order[starts[side[v]]] = v
             starts[side[v]] += 1
-            piece[v] = labels[side[v]]
-        pending.append((low, low + counts[0], pieces))
-        pending.append((low + counts[0], low + counts[0] + counts[1], pieces + 1))
+            piece[v] = pieces + side[v] if side[v] < SEPARATOR else -1
+        for part in range(2):
+            pending[waiting, 0], pending[waiting, 1] = starts[part] - counts[part], starts[part]
+            pending[waiting, 2] = pieces + part
+            waiting += 1
         pieces += 2
     return order
 

@@ -42,13 +42,15 @@ def refine(
     """
     sizes = np.zeros(3, np.int64)
     border = np.empty(len(members), np.int64)
+    # a vertex is pulled in once and moved once in a pass
+    trail = np.empty((2 * len(members), 2), np.int64)
     for v in members:
         if side[v] == SEPARATOR:
             border[sizes[SEPARATOR]] = v
         sizes[side[v]] += 1
     for _ in range(PASSES):
         before = sizes[SEPARATOR]
-        _improve(indptr, indices, piece, label, side, ties, locked, sizes, border)
+        _improve(indptr, indices, piece, label, side, ties, locked, sizes, border, trail)
         if sizes[SEPARATOR] == before:
             break
     return sizes[SEPARATOR]
@@ -65,16 +67,16 @@ def _improve(
     locked: Integers,
     sizes: Integers,
     border: Integers,
+    trail: Integers,
 ) -> None:
     """One pass; `border` lists the separator before and after."""
     count = sizes[SEPARATOR]
     for at in range(count):
         _count_ties(indptr, indices, border[at], piece, label, side, ties)
-    heaviest = int(HEAVIEST * sizes.sum())
+    heaviest = int(HEAVIEST * (sizes[0] + sizes[1] + sizes[2]))
     best_size, best_weight, best_length = sizes[SEPARATOR], max(sizes[0], sizes[1]), 0
     patience = 30 + best_size // 4
-    trail = [(0, 0) for _ in range(0)]
-    since = 0
+    since, length = 0, 0
     while since < patience:
         at, to = _best_move(border, count, ties, locked, sizes, heaviest)
         if at < 0:
@@ -82,16 +84,16 @@ def _improve(
         v, other = border[at], 1 - to
         count -= 1
         border[at] = border[count]
-        _relabel(v, to, side, sizes, trail)
+        length = _relabel(v, to, side, sizes, trail, length)
         locked[v] = True
         for p in range(indptr[v], indptr[v + 1]):
-            u = indices[p]
+            u = int(indices[p])
             if piece[u] != label or u == v:
                 continue
             if side[u] == SEPARATOR:
                 ties[u, to] += 1
             elif side[u] == other:
-                _relabel(u, SEPARATOR, side, sizes, trail)
+                length = _relabel(u, SEPARATOR, side, sizes, trail, length)
                 _count_ties(indptr, indices, u, piece, label, side, ties)
                 border[count] = u
                 count += 1
@@ -104,8 +106,8 @@ def _improve(
         if sizes[SEPARATOR] < best_size or (sizes[SEPARATOR] == best_size and weight < best_weight):
             if sizes[SEPARATOR] < best_size:
                 since = 0
-            best_size, best_weight, best_length = sizes[SEPARATOR], weight, len(trail)
-    _rewind(best_length, side, sizes, trail, locked, border, count)
+            best_size, best_weight, best_length = sizes[SEPARATOR], weight, length
+    _rewind(best_length, side, sizes, trail[:length], locked, border, count)
 
 
 @njit(cache=True, nogil=True)
@@ -138,11 +140,13 @@ def _best_move(
 
 
 @njit(cache=True, nogil=True)
-def _relabel(v: int, to: int, side: Integers, sizes: Integers, trail: list[tuple[int, int]]) -> None:
-    trail.append((v, int(side[v])))
+def _relabel(v: int, to: int, side: Integers, sizes: Integers, trail: Integers, length: int) -> int:
+    """Write the move behind the `length` moves of the trail; return its new length."""
+    trail[length, 0], trail[length, 1] = v, side[v]
     sizes[side[v]] -= 1
     sizes[to] += 1
     side[v] = to
+    return length + 1
 
 
 @njit(cache=True, nogil=True)
@@ -150,21 +154,24 @@ def _rewind(
     length: int,
     side: Integers,
     sizes: Integers,
-    trail: list[tuple[int, int]],
+    trail: Integers,
     locked: Integers,
     border: Integers,
     count: int,
 ) -> None:
-    candidates = [border[a] for a in range(count)]
-    while len(trail) > length:
-        v, was = trail.pop()
+    candidates = np.empty(count + len(trail) - length, np.int64)
+    for a in range(count):
+        candidates[a] = border[a]
+    for move in range(len(trail) - 1, length - 1, -1):
+        v, was = trail[move, 0], trail[move, 1]
         sizes[side[v]] -= 1
         sizes[was] += 1
         side[v] = was
         locked[v] = False
-        candidates.append(v)
-    for v, _ in trail:
-        locked[v] = False
+        candidates[count] = v
+        count += 1
+    for move in range(length):
+        locked[trail[move, 0]] = False
     size = 0
     for v in candidates:
         if side[v] == SEPARATOR and not locked[v]:

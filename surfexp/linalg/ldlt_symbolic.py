@@ -77,6 +77,7 @@ def analyse(matrix: sparray) -> SymbolicFactor:
     counts = _column_counts(indptr, indices, tree)
     columns = _supernodes(tree, counts)
     row_starts, rows, parents = _supernode_rows(indptr, indices, columns, int(counts.sum()))
+    rows = _sorted_in_each(row_starts, rows, matrix.shape[0])
     widths = np.diff(columns)
     panels = np.concatenate([[0], np.cumsum(in_lanes(widths**2) + widths * in_lanes(np.diff(row_starts)))])
     return SymbolicFactor(order, columns, row_starts, rows, parents, panels)
@@ -99,6 +100,13 @@ def both_triangles(matrix: csr_array) -> csr_array:
     """Return a matrix of the pattern of A and A^T: sums drop entries that cancel, on one side alone where rounding differs."""
     ones = csr_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=matrix.shape)
     return csr_array(ones + ones.T)
+
+
+def _sorted_in_each(row_starts: Integers, rows: Integers, size: int) -> Integers:
+    """The rows of every supernode in ascending order."""
+    lists = csr_array((np.ones(len(rows), np.int8), rows, row_starts), shape=(len(row_starts) - 1, size))
+    lists.sort_indices()
+    return np.asarray(lists.indices.astype(np.int64))
 
 
 def _permuted_pattern(pattern: csr_array, order: Integers) -> tuple[Integers, Integers]:
@@ -204,11 +212,12 @@ def _supernodes(parent: Integers, counts: Integers) -> Integers:
 def _supernode_rows(
     indptr: Integers, indices: Integers, columns: Integers, bound: int
 ) -> tuple[Integers, Integers, Integers]:
-    """Rows below each supernode: those of its own columns and of its children."""
+    """Rows below each supernode, in no order: those of its own columns and of its children."""
     count, n = len(columns) - 1, len(indptr) - 1
     supernode = np.empty(n, np.int64)
     for s in range(count):
-        supernode[columns[s] : columns[s + 1]] = s
+        for j in range(columns[s], columns[s + 1]):
+            supernode[j] = s
     starts, parents = np.zeros(count + 1, np.int64), np.full(count, -1, np.int64)
     rows, mark = np.empty(bound, np.int64), np.full(n, -1, np.int64)
     first_child, sibling = np.full(count, -1, np.int64), np.full(count, -1, np.int64)
@@ -230,10 +239,12 @@ def _supernode_rows(
                     rows[end] = i
                     end += 1
             child = sibling[child]
-        rows[start:end] = np.sort(rows[start:end])
         starts[s + 1] = end
         if end > start:
-            parents[s] = supernode[rows[start]]
+            first = rows[start]
+            for p in range(start + 1, end):
+                first = min(first, rows[p])
+            parents[s] = supernode[first]
             sibling[s] = first_child[parents[s]]
             first_child[parents[s]] = s
     return starts, rows[:end].copy(), parents

@@ -93,7 +93,8 @@ def _fill(
     vertex_count = len(starts) - 1
     # column written last, its place, next place, end: side by side, as vertices come in no order
     rows = np.full((vertex_count, 4), -1, np.int32)
-    rows[:, 2], rows[:, 3] = indptr[:-1], indptr[1:]
+    for vertex in range(vertex_count):
+        rows[vertex, 2], rows[vertex, 3] = indptr[vertex], indptr[vertex + 1]
     for column in range(vertex_count):
         for at in range(starts[column], starts[column + 1]):
             face, b = around[at] >> 2, around[at] & 3
@@ -108,7 +109,10 @@ def _fill(
                 slots[face, a, b] = row[1]
         if starts[column + 1] > starts[column]:
             diagonal[column] = rows[column, 1]
-    return bool((rows[:, 2] == rows[:, 3]).all())
+    filled = True
+    for vertex in range(vertex_count):
+        filled &= rows[vertex, 2] == rows[vertex, 3]
+    return filled
 
 
 @njit(cache=True, nogil=True)
