@@ -13,7 +13,7 @@ views = f"{results}/{plan.settings.experiment}"
 rule report:
     input:
         everything,
-        plan=f"{results}/plans/{plan_path.name}",
+        asked=f"{results}/plans/{plan_path.stem}.asked",
     output:
         page=f"{views}/report.html",
         table=report(f"{views}/metrics.csv", category=plan.settings.experiment, labels={"what": "table"}),
@@ -24,8 +24,10 @@ rule report:
             labels={"what": "{figure}"},
         ),
     localrule: True
+    params:
+        plan=lambda wildcards: plan_path,
     shell:
-        "{sys.executable:q} -P -m surfexp.commands.plain_snakemake {input.plan:q}"
+        "{sys.executable:q} -P -m surfexp.commands.plain_snakemake {params.plan:q}"
 
 
 onstart:
