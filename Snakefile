@@ -1,24 +1,12 @@
-# `snakemake -c2` runs the default experiment, `snakemake -c2 --config experiment=NAME` another.
-import importlib.util
-from pathlib import Path
-
-include: str(Path(importlib.util.find_spec("surfexp.lab.running").origin).parent / "rules.smk")
-
-from surfexp.commands import execution
-
-execution.before_snakemake(plan, results)
-
-# Snakemake takes its default target and its handlers from this file only, not from an included one.
-workflow.default_target = "all"
+# `snakemake -c2` runs the default experiment, `snakemake -c2 --config experiment=NAME` another; `surfexp init` writes a
+# Snakefile for a folder of one's own.
+from surfexp.commands.plain_snakemake import SNAKEFILE
 
 
-onstart:
-    execution.hold_results(results)
+include: SNAKEFILE
 
 
-onsuccess:
-    execution.after_snakemake(plan_path)
-
-
-onerror:
-    execution.after_snakemake(plan_path)
+rule all:
+    input:
+        rules.stages.input,
+        rules.report.output,

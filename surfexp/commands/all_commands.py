@@ -49,6 +49,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "plan": Entry("run", "Show what a run would compute, and what is already done."),
         "list": Entry("catalogue", "List the plugins of a kind, or the experiments."),
         "info": Entry("catalogue", "Show the options of a plugin, or the question and cost of an experiment."),
+        "init": Entry("init", "Write the files with which plain snakemake runs an experiment."),
         "new": Entry("new", "Write a first plugin with its test, or a first experiment."),
         "collect": Entry("collect", "Read your own surfaces as a dataset for experiments."),
         "upgrade": Entry("upgrade", "Rewrite experiments of an earlier version in the present spelling."),

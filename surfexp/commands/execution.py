@@ -17,7 +17,7 @@ from surfexp.commands.progress import follow
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import StageFailure, UserError, unknown
 from surfexp.lab.plan.outcome import event_path, read_event
-from surfexp.lab.plan.plan import Node, Plan, read_plan
+from surfexp.lab.plan.plan import Node, Plan
 from surfexp.lab.registry.catalogue import code_state
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running import compiled_code
@@ -102,7 +102,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     command = [sys.executable, "-P", "-m", "surfexp.lab.running.snakemake", str(os.getpid())]
     command += ["--snakefile", str(rules), "--workflow-profile", str(profile), "--nolock"]
     command += [] if plan.settings.profile else ["--executor", "surfexp"]
-    command += ["--cores", str(cores), "--config", f"plan={path}"]
+    command += ["--cores", str(cores), "--config", f"plan={path}", "only_missing=1"]
     command += slurm_jobs.requests(plan.nodes, missing, results, settings) if slurm else []
     log = results / "logs" / f"{path.stem}.snakemake.log"
     environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
@@ -138,7 +138,15 @@ def _profile(name: str) -> Path:
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:
-    """What plain Snakemake does before it looks for results, in a dry run too: nothing sound is removed."""
+    """What plain Snakemake does before it looks for results, in a dry run too: nothing sound is removed.
+
+    Nothing at all is removed while another run works in the folder.
+    """
+    try:
+        hold_results(results)
+    except UserError as error:
+        _warn([str(error)])
+        return
     _warn([store.note_on_older_keys(results)])
     missing = unfinished(plan, results).items()
     kinds = {key: plan.nodes[key].kind for key, _ in missing}
@@ -155,6 +163,7 @@ def hold_results(results: Path, wait: bool = False) -> None:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         if not wait:
+            os.close(descriptor)
             raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
         print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
         fcntl.flock(descriptor, fcntl.LOCK_EX)
@@ -163,22 +172,12 @@ def hold_results(results: Path, wait: bool = False) -> None:
     _locks.append(descriptor)
 
 
-def after_snakemake(path: Path) -> None:
-    """What plain Snakemake does at its end; nothing when `surfexp run` drives it and does so itself."""
-    if not os.environ.get(HELD):
-        finish(path, read_plan(path))
-
-
 def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, computed: bool = True) -> None:
     """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
     results = path.parent.parent
-    views, state = results / plan.settings.experiment, _state(path, plan, results)
-    done = results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
-    if (
-        all(file.exists() for file in (done, views / "report.html", results / "index.html", results / "mlflow.db"))
-        and done.read_text() == state
-    ):
+    if is_finished(path, plan):
         return
+    views, state, done = results / plan.settings.experiment, _state(path, plan, results), _done(results, plan)
     from surfexp.records.origin import forget_origin, write_origin
     from surfexp.records.tracking import record
     from surfexp.report.page import write_report  # which draws with matplotlib
@@ -196,6 +195,18 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
             if recording:
                 recording.attach(folder)
                 store.write_text(done, state)
+
+
+def is_finished(path: Path, plan: Plan) -> bool:
+    """Whether the records and pages of a plan are those of its results as they are now."""
+    results = path.parent.parent
+    views, done = results / plan.settings.experiment, _done(results, plan)
+    files = (done, views / "report.html", results / "index.html", results / "mlflow.db")
+    return all(file.exists() for file in files) and done.read_text() == _state(path, plan, results)
+
+
+def _done(results: Path, plan: Plan) -> Path:
+    return results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
 
 
 @contextmanager

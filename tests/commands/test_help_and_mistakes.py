@@ -11,7 +11,7 @@ from surfexp.commands.all_commands import COMMANDS, surfexp
 from surfexp.commands.command_line import main
 
 WITHOUT_ARGUMENTS = {
-    "run", "plan", "list", "table", "report", "open", "ui", "clean", "verify", "schema", "doctor"
+    "run", "plan", "init", "list", "table", "report", "open", "ui", "clean", "verify", "schema", "doctor"
 }  # fmt: skip
 
 

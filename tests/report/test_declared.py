@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from surfexp.contract.metric import Metric, find_metric
-from surfexp.lab.composition.launch import plan_for_snakemake
+from surfexp.lab.composition.launch import launch
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import Plan
@@ -123,4 +123,4 @@ def test_misspelt_columns_objectives_and_options_are_refused() -> None:
 
 @pytest.mark.parametrize("name", sorted(file.stem for file in (ROOT / "conf" / "experiment").glob("*.yaml")))
 def test_every_experiment_names_what_exists(name: str, working_folder: Path) -> None:
-    check_names(plan_for_snakemake({"experiment": name})[1])
+    launch([f"experiment={name}"], check_names)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
@@ -31,7 +31,6 @@ from surfexp.lab.experiment.own_data import with_datasets, without_foreign_words
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
-from surfexp.lab.plan.remembered_plans import place, remembered
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.lab.registry.folders import package_folder
@@ -201,17 +200,6 @@ def _configuration(overrides: Sequence[str], words: Words) -> str:
 
 def _of_hydra(override: Override) -> bool:
     return override.key_or_group.replace("/", ".").partition(".")[0] == "hydra"
-
-
-def plan_for_snakemake(config: Mapping[str, Any]) -> tuple[Path, Plan]:
-    """The plan composed from Snakemake's `--config experiment=NAME ...`, and its file."""
-    arguments = [f"{key}={value}" for key, value in config.items()]
-    if (plan := remembered(place(arguments))) is None:
-        prepare_hydra()
-        plan = _plan_without_sweep(arguments, parted(()))
-    if plan is None:
-        raise UserError("Snakemake runs one configuration; a sweep is run by surfexp run")
-    return plan.write(Path(plan.settings.results).resolve()), plan
 
 
 def _leaves(composed: dict[str, Any], overrides: Sequence[str], request: Request) -> list[dict[str, Any]]:

@@ -6,6 +6,7 @@ Nothing is polled: a thread for each warm process waits for its replies and call
 from __future__ import annotations
 
 import contextlib
+import functools
 import json
 import os
 import subprocess
@@ -92,11 +93,12 @@ class WarmProcess:
 
 
 class Executor(RealExecutor):
-    """Runs the jobs of `rules.smk`; a job without a key is a rule that only collects."""
+    """Runs the jobs of `rules.smk`, and those of other rules by their shell command; some rules only collect."""
 
     def __post_init__(self) -> None:
         """See Snakemake."""
-        self.warm: dict[str, WarmProcess] = {}
+        self.warm: dict[tuple[Path, str], WarmProcess] = {}
+        self.plan = functools.cache(read_plan)
 
     @property
     def cores(self) -> Any:
@@ -112,15 +114,26 @@ class Executor(RealExecutor):
         return sys.executable
 
     def run_job(self, job: Any) -> None:
-        """Hand a stage to the warm process of its state of the code."""
+        """Hand a stage to the warm process of its plan and state of the code."""
         info = SubmittedJobInfo(job=job)
         self.report_job_submission(info, register_job=False)
         if job.rule.norun:
             self.report_job_success(info)
             return
-        state = job.params.state
-        while state not in self.warm or not self.warm[state].submit(job.wildcards.key, info):
-            self.warm[state] = WarmProcess(self, Path(job.params.plan), state)
+        if "key" not in job.wildcards_dict:
+            threading.Thread(target=self._by_shell, args=[info], daemon=True).start()
+            return
+        path = Path(job.params.plan)
+        warm = path, self.plan(path).nodes[job.wildcards.key].cache
+        while warm not in self.warm or not self.warm[warm].submit(job.wildcards.key, info):
+            self.warm[warm] = WarmProcess(self, *warm)
+
+    def _by_shell(self, info: SubmittedJobInfo) -> None:
+        done = subprocess.run(info.job.shellcmd, shell=True, check=False)  # noqa: S602, a rule's command is shell code
+        if done.returncode:
+            self.report_job_error(info)
+        else:
+            self.report_job_success(info)
 
     def ended(self, info: SubmittedJobInfo, reply: dict[str, Any]) -> None:
         """Tell Snakemake that a stage has ended, and what it took."""

@@ -1,23 +1,23 @@
-# One named rule for each stage kind; the plan says which results exist and what each is made from.
+# One named rule for each stage kind; the plan says which results exist and what each is made from. `surfexp run` takes
+# this file as it is; other workflows take `surfexp.commands.plain_snakemake.SNAKEFILE`, which includes it.
 import functools
-import shlex
 import sys
 from pathlib import Path
 
+from surfexp.lab.errors import UserError
 from surfexp.lab.plan.kinds_of_plans import load_own_kinds
+from surfexp.lab.plan.plan import read_plan, stored_inputs
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
-from surfexp.lab.plan.plan import read_plan, stored_inputs
 
-if "plan" in config:
-    plan_path = Path(config["plan"]).resolve()
-    plan = read_plan(plan_path)
-    load_own_kinds(plan)
-else:
-    from surfexp.lab.composition import launch# which takes Hydra
-
-    plan_path, plan = launch.plan_for_snakemake(config)
+if "plan" not in config:
+    raise UserError("this Snakefile is of an earlier version: remove it, then `surfexp init` writes the present one")
+plan_path = Path(config["plan"]).resolve()
+plan = read_plan(plan_path)
+load_own_kinds(plan)
 results = plan_path.parent.parent
+if Path.cwd() in results.parents:  # so that a target can be typed, and a folder can be moved
+    results = results.relative_to(Path.cwd())
 record = f"{results}/store/{{kind}}/{{key}}/record.json"
 
 
@@ -25,26 +25,35 @@ def records(keys):
     return [record.format(kind=plan.nodes[key].kind, key=key) for key in keys]
 
 
-# What is there is right, for its key says what it was made from: it has no input, so that nothing makes Snakemake run it
-# again when a damaged result before it is replaced.
+# `surfexp run` knows what is missing: what is there has no input then, so that nothing makes Snakemake run it again when a
+# lost result before it is replaced. Others see the whole graph.
+only_missing = "only_missing" in config
+
+
 @functools.cache
 def inputs(key):
-    return [] if store.is_done(results, plan.nodes[key].kind, key) else records(stored_inputs(plan.nodes, key))
+    done = only_missing and store.is_done(plan_path.parent.parent, plan.nodes[key].kind, key)
+    return [] if done else records(stored_inputs(plan.nodes, key))
+
+
+# not the leaves alone: a damaged result in the middle is made again though all that follows from it is there
+everything = records(node.key for node in plan.stored)
 
 
 wildcard_constraints:
     key="[0-9a-f]+",
 
 
-rule all:
+rule stages:
     input:
-        # not the leaves alone: a damaged result in the middle is made again though all that follows from it is there
-        records(node.key for node in plan.stored),
+        everything,
     default_target: True
 
 
 for kind in [kind.name for kind in KINDS.values() if kind.stored]:
 
+    # What is there is right, for its key says what it was made from. So neither times, nor another plan with the same stage
+    # are reasons to run: inputs are ancient, and Snakemake does not compare a parameter that is a path.
     rule:
         name:
             kind
@@ -58,8 +67,6 @@ for kind in [kind.name for kind in KINDS.values() if kind.stored]:
             f"{results}/logs/{kind}/{{key}}.benchmark.tsv"
         threads: 1
         params:
-            plan=str(plan_path),
-            state=lambda wildcards: plan.nodes[wildcards.key].cache,
-            command=shlex.join([sys.executable, "-P", "-m", "surfexp.lab.running.stage_process", str(plan_path)]),
+            plan=lambda wildcards: plan_path,
         shell:
-            "exec {params.command} {wildcards.key} > {log:q} 2>&1"
+            "exec {sys.executable:q} -P -m surfexp.lab.running.stage_process {params.plan:q} {wildcards.key} > {log:q} 2>&1"
