@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.spectra import eigenpairs as eigenpairs
     from surfexp.tasks.spectra import eigsh as eigsh
     from surfexp.tasks.spectrum_of_surface import Spectrum as Spectrum
+    from surfexp.tasks.viewing import view as view
 
 try:
     __version__ = version("surfexp")

@@ -28,5 +28,6 @@ FACE = {
     "segment": "surfexp.tasks.segmentation",
     "shape": "surfexp.tasks.shapes",
     "smooth": "surfexp.tasks.denoising",
+    "view": "surfexp.tasks.viewing",
     "write": "surfexp.tasks.files",
 }

@@ -16,7 +16,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 WORK = HERE.parent / "build" / "viewer"
-TARGET = HERE.parent / "surfexp" / "report" / "templates" / "turning"
+TARGET = HERE.parent / "surfexp" / "viewer" / "assets"
 OPTIONS = ["--bundle", "--minify", "--format=iife", "--global-name=THREE", "--target=es2022", "--legal-comments=none"]
 
 

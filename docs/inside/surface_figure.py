@@ -14,4 +14,4 @@ scale, border = ColorScale("mean curvature", "1/mm", "RdBu_r"), Contours(brain.s
 views = [SurfaceView(brain.mesh, brain.scalars["curv"], name, scale, (border,), name) for name in ("lateral", "medial")]
 figure = surface_panel(views, width=1200)
 Path("surface_figure.png").write_bytes(encode_png(figure.pixels))
-print(figure.pixels.shape, *figure.notes)
+print(figure.pixels.shape, figure.caption)

@@ -44,7 +44,8 @@ def fsaverage5(hemisphere: Hemisphere = "left", surface: str = "pial") -> Surfac
         raise ValueError(f"fsaverage5 surface {surface!r} is unknown, choose one of {', '.join(SURFACES)}")
     vertices, faces = read_gifti_arrays(_packaged(f"{SURFACES[surface]}_{hemisphere}"))
     scalars = {name: _map(f"{stem}_{hemisphere}") for name, stem in MAPS.items()}
-    return with_metrics(Surface(TriangleMesh(vertices, faces), f"fsaverage5 {surface}, {hemisphere}", "mm", scalars))
+    name = f"fsaverage5 {surface}, {hemisphere}"
+    return with_metrics(Surface(TriangleMesh(vertices, faces), name, "mm", scalars, hemisphere=hemisphere))
 
 
 def _map(stem: str) -> Floats:

@@ -39,8 +39,8 @@ SECTIONS: dict[str, dict[str, Entry]] = {
             "surface_commands", "Compute the mean curvature, positive where the surface bulges outward."
         ),
         "convert": Entry("surface_commands", "Write a surface in another format, with its maps."),
-        "plot": Entry("surface_commands", "Draw a surface, coloured by a map."),
-        "view": Entry("view", "Rotate a surface in a window (needs open3d)."),
+        "plot": Entry("surface_commands", "Draw a surface, coloured by a map or by labels."),
+        "view": Entry("view", "Turn a surface, coloured by a map or by labels."),
         "check": Entry("mesh_quality", "Name the defects of mesh files, or the first mistake of experiment files."),
         "repair": Entry("mesh_quality", "Repair the defects of a mesh and name each change."),
     },

@@ -40,6 +40,44 @@ def surface_options(command: Command) -> Command:
     return command
 
 
+def picture_options(command: Command) -> Command:
+    """Add the options of a picture: sides, colours, limits, lines."""
+    options: list[Callable[[Command], Command]] = [
+        click.option(
+            "--views", metavar="NAME,...", help="lateral, medial, left, right, front, back, top, bottom, oblique"
+        ),
+        click.option("--colormap", help="a name of matplotlib's"),
+        click.option("--limits", nargs=2, type=float, metavar="LOW HIGH", help="ends of the colour bar"),
+        click.option("--contours", multiple=True, type=float, metavar="LEVEL", help="draw a line; repeatable"),
+        click.option("--borders", metavar="NAME", help="draw the borders of labels that the surface carries"),
+        click.option(
+            "--label", default="", show_default=False, help="of the colour bar; by default the name of the map"
+        ),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def looks(
+    views: str | None,
+    colormap: str | None,
+    limits: tuple[float, float] | None,
+    contours: tuple[float, ...],
+    borders: str | None,
+    label: str,
+) -> dict[str, Any]:
+    """Return the options of a picture as `sx.plot` and `sx.view` take them."""
+    return {
+        "views": [name.strip() for name in views.split(",")] if views else None,
+        "colormap": colormap,
+        "limits": limits or None,
+        "contours": contours or None,
+        "borders": borders,
+        "label": label,
+    }
+
+
 def result_option(required: bool = True) -> Callable[[Command], Command]:
     """Add `--to FILE`: the suffix decides about the format."""
     return click.option(
@@ -69,6 +107,13 @@ def map_of(surface: Surface, given: str, files: Inputs) -> Floats:
     from surfexp.io.map_files import side_by_side
 
     return side_by_side(given_maps(surface, given, files), given)
+
+
+def shown_map(surface: Surface, given: str | None, files: Inputs) -> Any:
+    """Return what a picture shows: the labels of a name, a map as `map_of`, or nothing."""
+    if not given:
+        return None
+    return surface.labels[given] if given in surface.labels else map_of(surface, given, files)
 
 
 def given_maps(surface: Surface, given: str, files: Inputs) -> dict[str, Floats]:

@@ -12,11 +12,14 @@ from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import (
     finish,
+    looks,
     map_of,
     opened,
+    picture_options,
     progress_line,
     ready,
     result_option,
+    shown_map,
     surface_options,
 )
 
@@ -28,7 +31,10 @@ EXAMPLES = {
     "distance": ("a.ply b.ply -n 20", "a.ply b.ply --to map.npz"),
     "align": ("a.ply b.ply -k 50 --to aligned.npz", "lh.white other/lh.white -k 20 --to aligned.npz"),
     "convert": ("lh.white white.gii", "scan.obj scan.ply"),
-    "plot": ("lh.white lh.thickness --to thickness.png", "bunny.ply --to bunny.png"),
+    "plot": (
+        "lh.white lh.thickness --to thickness.pdf",
+        "lh.white lh.thickness --views lateral --colormap magma --limits 1 4 --to thickness.png",
+    ),
 }
 
 
@@ -215,13 +221,23 @@ def convert(path: str, target: Path, **given: Any) -> None:
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
 @click.option("--width", default=1600, help="width of the picture in pixels")
-@click.option(
-    "--label", default="", show_default=False, help="label of the colour bar; the name of the map if not given"
-)
+@picture_options
 @surface_options
 @result_option()
-def plot(path: str, map_name: str | None, width: int, label: str, target: Path, **given: Any) -> None:
-    """Draw a surface, coloured by a map.
+def plot(
+    path: str,
+    map_name: str | None,
+    width: int,
+    target: Path,
+    views: str | None,
+    colormap: str | None,
+    limits: tuple[float, float] | None,
+    contours: tuple[float, ...],
+    borders: str | None,
+    label: str,
+    **given: Any,
+) -> None:
+    """Draw a surface, coloured by a map or by labels.
 
     The picture is .png, or a drawing: .svg, .pdf.
     """
@@ -229,7 +245,8 @@ def plot(path: str, map_name: str | None, width: int, label: str, target: Path, 
     from surfexp.tasks.pictures import plot as task
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files) if map_name else None
+    values = shown_map(surface, map_name, files)
     ready(target, files, check_picture_target)
-    task(surface, values, width=width, label=label or Path(map_name or "").name).save(target)
+    named = label or Path(map_name or "").name
+    task(surface, values, width=width, **looks(views, colormap, limits, contours, borders, named)).save(target)
     click.echo(str(target))

@@ -1,29 +1,62 @@
-"""`surfexp view`: a surface in an interactive window, through open3d."""
+"""`surfexp view`: a surface that turns, in the browser or as one file."""
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
+from typing import Any
 
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.lab.errors import UserError
+from surfexp.commands.surface_arguments import (
+    looks,
+    opened,
+    picture_options,
+    ready,
+    result_option,
+    shown_map,
+    surface_options,
+)
+
+EXAMPLES = ("lh.white", "lh.white lh.thickness --to thickness.html")
 
 
-@click.command(**shown("view", "lh.white", "scan.ply"))
-@click.argument("file", type=click.Path(path_type=Path))
-def view(file: Path) -> None:
-    """Rotate a surface in a window (needs open3d)."""
-    from surfexp.io.reading import read_mesh
+@click.command(**shown("view", *EXAMPLES))
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
+@click.option("--title", default="", show_default=False, help="of the page")
+@picture_options
+@surface_options
+@result_option(required=False)
+def view(
+    path: str,
+    map_name: str | None,
+    title: str,
+    target: Path | None,
+    views: str | None,
+    colormap: str | None,
+    limits: tuple[float, float] | None,
+    contours: tuple[float, ...],
+    borders: str | None,
+    label: str,
+    **given: Any,
+) -> None:
+    """Turn a surface, coloured by a map or by labels.
 
-    vertices, faces, _ = read_mesh(file)
-    try:
-        import open3d
-    except (ImportError, OSError) as error:
-        remedy = "pip install 'surfexp[open3d]' and the system package libusb-1.0-0"
-        raise UserError(f"the viewer needs open3d: {remedy} ({error})") from None
-    mesh = open3d.geometry.TriangleMesh(
-        open3d.utility.Vector3dVector(vertices), open3d.utility.Vector3iVector(faces.astype("int32"))
-    )
-    mesh.compute_vertex_normals()
-    open3d.visualization.draw_geometries([mesh], window_name=str(file))
+    Without --to it is shown in the browser. A .html needs no other file; .png, .svg and .pdf are its first look.
+    """
+    from surfexp.tasks.viewing import check_view_target
+    from surfexp.tasks.viewing import view as task
+
+    surface, files = opened(path, **given)
+    values = shown_map(surface, map_name, files)
+    if target is not None:
+        ready(target, files, check_view_target)
+    named = label or Path(map_name or "").name
+    seen = task(surface, values, title=title, **looks(views, colormap, limits, contours, borders, named))
+    chosen = target or Path(tempfile.mkdtemp(prefix="surfexp-")) / f"{Path(path).name}.html"
+    seen.save(chosen)
+    click.echo(str(chosen))
+    if target is None:
+        click.launch(chosen.as_uri())

@@ -13,6 +13,7 @@ from surfexp.figures.camera import View, fit_camera, projected_extent, unit_came
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
 from surfexp.figures.figure import Figure
+from surfexp.figures.lines import Lines
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn, points
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -114,7 +115,7 @@ def _scene(item: SkeletonView, view: View, most_levels: int, cell: int) -> Surfa
     if item.level_field is not None and item.skeleton is not None and len(item.skeleton.levels):
         levels = item.skeleton.levels[:: -(-len(item.skeleton.levels) // most_levels)]
         thickness = float(np.clip(cell / 500.0, 0.8, 1.8))
-        contours = (Contours(item.level_field, tuple(levels.tolist()), LEVELS, thickness),)
+        contours = (Contours(item.level_field, tuple(levels.tolist()), LEVELS, thickness, casing=0.0),)
     return SurfaceView(item.mesh, item.values, view, ColorScale(colormap=item.colormap), contours)
 
 
@@ -134,3 +135,17 @@ def _draw_skeleton(axes: Any, item: SkeletonView, camera: Any, top: int, left: i
     for kind, color in ((CAP, CAPS), (JUNCTION, JUNCTIONS)):
         chosen = screen[skeleton.kinds == kind]
         axes.plot(*chosen.T, "o", color=color, markersize=size, markeredgecolor="white", markeredgewidth=points(1.0))
+
+
+def skeleton_lines(skeleton: Skeleton, width: float = 3.0) -> list[Lines]:
+    """The arcs of a graph on a white casing, and dots where it ends or branches, seen through the surface."""
+    positions, arcs = skeleton.positions, skeleton.arcs
+    found = [Lines(positions, arcs, LINE, width, through=True, casing=0.5 * width)]
+    for kind, color in ((CAP, CAPS), (JUNCTION, JUNCTIONS)):
+        nodes = positions[skeleton.kinds == kind]
+        # a line with round ends as short as a dot: it needs a direction
+        ends = nodes + 1e-4 * np.ptp(positions, axis=0)
+        pairs = np.arange(2 * len(nodes)).reshape(2, -1).T
+        if len(nodes):
+            found.append(Lines(np.concatenate([nodes, ends]), pairs, color, 3.0 * width, through=True))
+    return found

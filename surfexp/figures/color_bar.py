@@ -29,7 +29,8 @@ def fitted_scales(views: Sequence[SurfaceView]) -> dict[ColorScale, ColorScale]:
 
 def values_on(scale: ColorScale, views: Sequence[SurfaceView]) -> Floats:
     """All values that a bar stands for."""
-    return np.concatenate([v.values for v in views if v.values is not None and v.is_scalar and v.scale == scale])
+    found = {id(v.values): v.values for v in views if v.values is not None and v.is_scalar and v.scale == scale}
+    return np.concatenate([*found.values()])
 
 
 def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
@@ -57,7 +58,9 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
         bar.outline.set(edgecolor=QUIET, linewidth=points(OUTLINE * layout.em))
         distance = points(DISTANCE * layout.em)
         bar.ax.tick_params(labelsize=points(TICK_FONT * layout.em), length=distance, pad=distance)
-        bar.set_label(fitted.title, size=points(TICK_FONT * layout.em), labelpad=distance)
+        beyond = 100.0 * (below + above)
+        words = [fitted.title, f"{beyond:.2g} % of the values lie beyond" if beyond else ""]
+        bar.set_label("\n".join(filter(None, words)), size=points(TICK_FONT * layout.em), labelpad=distance)
 
 
 def _centers(layout: Layout, grid: Grid, scales: Scales, length: float) -> list[float]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats
 from surfexp.figures.camera import Camera
 from surfexp.figures.level_set import level_set
+from surfexp.figures.lines import CASING, Lines
 from surfexp.figures.rasterizer import Raster
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -32,33 +33,66 @@ class Contours:
         As matplotlib names it.
     width : float
         In pixels of the picture.
+    casing : float
+        As in `Lines`.
     """
 
     field: Floats
     levels: tuple[float, ...] = (0.0,)
     color: str = RED
     width: float = 2.0
+    casing: float = CASING
+
+    def lines(self, mesh: TriangleMesh) -> Lines:
+        """Return the segments of all levels.
+
+        Parameters
+        ----------
+        mesh : TriangleMesh
+
+        Returns
+        -------
+        Lines
+        """
+        points, segments, faces, count = [np.zeros((0, 3))], [np.zeros((0, 2), np.int64)], [np.zeros(0, np.int64)], 0
+        for level in self.levels:
+            line = level_set(mesh, self.field, level)
+            points.append(line.points)
+            segments.append(line.segments + count)
+            faces.append(line.faces)
+            count += len(line.points)
+        joined = np.concatenate(segments)
+        return Lines(
+            np.concatenate(points), joined, self.color, self.width, casing=self.casing, faces=np.concatenate(faces)
+        )
 
 
-def contour_coverage(mesh: TriangleMesh, contours: Contours, camera: Camera, raster: Raster) -> NDArray[np.float64]:
+def line_coverage(
+    mesh: TriangleMesh, lines: Lines, width: float, camera: Camera, raster: Raster
+) -> NDArray[np.float64]:
     """(height, width) share of each pixel under the visible lines, softened over one pixel at their borders.
 
-    Every segment of the level set is drawn with round ends, so that the line has no gap where it passes from face to
-    face. A pixel takes it only if the surface in that pixel is, within the slope of the face, as deep as the line.
+    Every segment is drawn with round ends, so that the line has no gap where it passes from face to face. A pixel takes
+    it only if the surface in that pixel is, within the slope of the face, as deep as the line, or if it is seen through
+    the surface.
 
     Parameters
     ----------
-    contours : Contours
-        With its width in pixels of the raster.
+    mesh : TriangleMesh
+    lines : Lines
+    width : float
+        In pixels of the raster.
+    camera : Camera
+    raster : Raster
     """
     coverage = np.zeros(raster.face.shape)
-    facing = np.abs(mesh.face_normals @ camera.axes[2])
-    slope = np.clip(np.sqrt(np.maximum(1.0 - facing**2, 0.0)) / np.maximum(facing, 1e-6), *SLOPES)
-    for level in contours.levels:
-        line = level_set(mesh, contours.field, level)
-        screen, depth, _ = camera.project(line.points)
-        slack = slope[line.faces] / camera.scale
-        _draw(screen[line.segments], depth[line.segments], slack, raster.depth, 0.5 * contours.width, coverage)
+    slack = np.full(len(lines.segments), np.inf if lines.through else SLOPES[1] / camera.scale)
+    if lines.faces is not None and not lines.through:
+        facing = np.abs(mesh.face_normals[lines.faces] @ camera.axes[2])
+        slope = np.sqrt(np.maximum(1.0 - facing**2, 0.0)) / np.maximum(facing, 1e-6)
+        slack = np.clip(slope, *SLOPES) / camera.scale
+    screen, depth, _ = camera.project(lines.points)
+    _draw(screen[lines.segments], depth[lines.segments], slack, raster.depth, 0.5 * width, coverage)
     return coverage
 
 
@@ -81,5 +115,5 @@ def _draw(ends: Floats, behind: Floats, slack: Floats, depth: Floats, radius: fl
                 if distance >= reach:
                     continue
                 difference = depth[row, column] - (1.0 - share) * behind[s, 0] - share * behind[s, 1]
-                if abs(difference) <= slack[s] * (distance + 1.5):
+                if slack[s] == np.inf or abs(difference) <= slack[s] * (distance + 1.5):
                     coverage[row, column] = max(coverage[row, column], min(reach - distance, 1.0))

@@ -13,6 +13,8 @@ from scipy.ndimage import uniform_filter
 LIGHT_BYTES = 200_000
 # what is so much heavier after quick compression is heavy after the best one
 QUICK, PROBABLY_HEAVY = 1, 2.5
+# of pictures that are not made for a page
+EXACT = 5
 # dithering is not seen while the means over 5 x 5 pixels differ by less than this, of 255, nearly everywhere
 WINDOW, VISIBLE_DIFFERENCE, PERCENTILE = 5, 16.0, 99.9
 # the palette is found on every third pixel of every third row
@@ -43,6 +45,16 @@ def encode_png(pixels: NDArray[np.uint8]) -> bytes:
         return exact or _png(picture)
     small = _png(dithered)
     return exact if exact and len(exact) < len(small) else small
+
+
+def exact_png(pixels: NDArray[np.uint8]) -> bytes:
+    """PNG of a picture, every pixel as it is, in a quarter of the time that the lightest one takes.
+
+    Parameters
+    ----------
+    pixels : (height, width, 3) uint8
+    """
+    return _png(PillowImage.fromarray(np.ascontiguousarray(pixels)), EXACT)
 
 
 def _dithered(picture: PillowImage.Image, pixels: NDArray[np.uint8]) -> PillowImage.Image:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import Scales, draw_bars, fitted_scales, values_on
 from surfexp.figures.figure import Figure
-from surfexp.figures.panel_layout import MARGIN, Grid, Layout, arrange
+from surfexp.figures.legend import draw_legend, legend_height, names_of
+from surfexp.figures.panel_layout import BAR_BAND, MARGIN, WORD_BAND, Grid, Layout, arrange, text_size
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn, points, saved
 
@@ -42,7 +43,7 @@ def surface_panel(
     Returns
     -------
     Figure
-        `notes` state the share of values beyond a bar and the vertices without a value.
+        The caption ends with the share of values beyond a bar; `notes` state the vertices without a value.
 
     Raises
     ------
@@ -52,13 +53,15 @@ def surface_panel(
     return _composed(_rows(views), width, title, caption, field_of_view, supersampling)[0]
 
 
-def vector_panel(views: Sequence[SurfaceView], form: Literal["svg", "pdf"], *, width: int = 1600) -> bytes:
+def vector_panel(
+    views: Sequence[SurfaceView] | Sequence[Sequence[SurfaceView]], form: Literal["svg", "pdf"], *, width: int = 1600
+) -> bytes:
     """The panel of `surface_panel` as a drawing: surfaces as pictures, words and colour bars as lines and letters.
 
     Parameters
     ----------
-    views : sequence of SurfaceView
-        One row.
+    views : sequence, or sequence of sequences, of SurfaceView
+        One row, or rows.
     form : "svg" or "pdf"
     width : int
         In pixels of the pictures.
@@ -88,10 +91,13 @@ def _composed(
         )
     everything = [view for row in grid for view in row]
     scales = fitted_scales(everything)
-    layout = arrange(grid, width, bool(title), bool(scales), field_of_view)
+    beyond, em, names = _beyond(everything, scales), text_size(width), names_of(everything)
+    foot = round((BAR_BAND + WORD_BAND * bool(beyond)) * em) if scales else 0
+    layout = arrange(grid, width, bool(title), foot + legend_height(names, width, em), field_of_view)
     with canvas(width, layout.height) as figure:
         _write(figure, layout, grid, title)
         draw_bars(figure, layout, grid, scales)
+        draw_legend(figure, layout, names)
         pixels = drawn(figure)
         for i, row in enumerate(grid):
             for j, view in enumerate(row):
@@ -104,7 +110,7 @@ def _composed(
                 if form:
                     _put(figure, picture, (left / width, 1.0 - (top + size[1]) / layout.height))
         drawing = saved(figure, form) if form else b""
-    return Figure(pixels, caption, title, notes=_notes(everything, scales)), drawing
+    return Figure(pixels, " ".join([caption, *beyond]).strip(), title, notes=_notes(everything)), drawing
 
 
 def _put(figure: Any, picture: NDArray[np.uint8], corner: tuple[float, float]) -> None:
@@ -130,16 +136,23 @@ def _write(figure: Any, layout: Layout, grid: Grid, title: str) -> None:
             figure.text(layout.middle(j, len(row)), y, view.title, fontsize=size, ha="center", va="center")
 
 
-def _notes(views: Sequence[SurfaceView], scales: Scales) -> tuple[str, ...]:
-    notes = []
+def _beyond(views: Sequence[SurfaceView], scales: Scales) -> list[str]:
+    """Return a sentence for each bar that does not hold all values."""
+    found = []
     for scale, fitted in scales.items():
         beyond = 100.0 * sum(fitted.share_beyond(values_on(scale, views)))
         if beyond > 0.0:
             bar = f"the bar {fitted.label!r}" if fitted.label else "the bar"
-            notes.append(f"{beyond:.2g} % of the values lie beyond {bar} and take its end colours.")
+            found.append(f"{beyond:.2g} % of the values lie beyond {bar} and take its end colours.")
+    return found
+
+
+def _notes(views: Sequence[SurfaceView]) -> tuple[str, ...]:
+    notes = []
     for view in views:
         if view.missing:
             where = f" of {view.title!r}" if view.title else ""
-            notes.append(f"{view.missing} vertices{where} have no value; their faces are drawn grey.")
+            lacking = "value; their faces are" if view.labels is None else "label; they are"
+            notes.append(f"{view.missing} vertices{where} have no {lacking} drawn grey.")
     # two views of one surface say the same
     return tuple(dict.fromkeys(notes))

@@ -17,6 +17,8 @@ Grid = Sequence[Sequence[SurfaceView]]
 FONT, SMALLEST_FONT = 0.0135, 14.0
 # heights of bands in multiples of the text's size
 TITLE_BAND, HEAD_BAND, BAR_BAND = 2.0, 2.7, 4.9
+# a line below a bar that says what lies beyond it
+WORD_BAND = 1.3
 # empty space around a surface as a share of the panel's width
 MARGIN = 0.010
 # a row is at most this many times as high as the mean column is wide
@@ -38,7 +40,7 @@ class Layout:
     title_bands : tuple of int
         Heights of the bands with the titles of each row.
     foot : int
-        Height of the band with the colour bars.
+        Height of the band with the colour bars and the legend.
     scale : float
         Pixels per unit of length, the same for all surfaces.
     width : int
@@ -74,7 +76,12 @@ class Layout:
         return (self.left(column, count) + 0.5 * self.columns[column]) / self.width
 
 
-def arrange(grid: Grid, width: int, has_head: bool, has_bars: bool, field_of_view: float) -> Layout:
+def text_size(width: int) -> float:
+    """Return the size of the text in a panel of a width, in pixels."""
+    return max(FONT * width, SMALLEST_FONT)
+
+
+def arrange(grid: Grid, width: int, has_head: bool, foot: int, field_of_view: float) -> Layout:
     """The layout in which the surfaces are largest at equal scale; columns are as wide as what they show."""
     extents = [
         [projected_extent(unit_camera(view.mesh, view.view, field_of_view), view.mesh) for view in row] for row in grid
@@ -87,13 +94,13 @@ def arrange(grid: Grid, width: int, has_head: bool, has_bars: bool, field_of_vie
     columns = np.diff(borders)
     scale = float(np.min((columns - 2 * gap) / np.maximum(widest, 1e-300)))
     scale = min(scale, TALLEST * width / count / max(tallest, 1e-300))
-    em = max(FONT * width, SMALLEST_FONT)
+    em = text_size(width)
     return Layout(
         columns=tuple(columns.tolist()),
         rows=tuple(int(np.ceil(scale * max(h for _, h in row))) + 2 * gap for row in extents),
         head=round(HEAD_BAND * em) if has_head else 0,
         title_bands=tuple(round(TITLE_BAND * em) if any(view.title for view in row) else 0 for row in grid),
-        foot=round(BAR_BAND * em) if has_bars else 0,
+        foot=foot,
         scale=scale,
         width=width,
         em=em,

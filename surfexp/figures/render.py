@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import reduce
 
 import numpy as np
@@ -12,7 +12,9 @@ from surfexp.contract.arrays import Floats
 from surfexp.figures.ambient_occlusion import ambient_occlusion
 from surfexp.figures.camera import Camera, View, fit_camera
 from surfexp.figures.colormap import MISSING, ColorScale
-from surfexp.figures.contours import RED, Contours, contour_coverage
+from surfexp.figures.contours import RED, Contours, line_coverage
+from surfexp.figures.labelling import Labelling
+from surfexp.figures.lines import Lines
 from surfexp.figures.rasterizer import rasterize
 from surfexp.figures.shading import shade, to_display, to_linear
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -40,8 +42,11 @@ class SurfaceView:
     view : str or (float, float)
         A name of `camera.VIEWS`, "lateral", "medial", or azimuth and elevation in degrees.
     scale : ColorScale
-    contours : tuple of Contours
+    contours : tuple of Contours or Lines
+        One over the other, in their order.
     title : str
+    labels : Labelling, optional
+        Flat colours, in place of values.
 
     Raises
     ------
@@ -53,22 +58,32 @@ class SurfaceView:
     values: Floats | None = None
     view: View = "oblique"
     scale: ColorScale = field(default_factory=ColorScale)
-    contours: tuple[Contours, ...] = ()
+    contours: tuple[Contours | Lines, ...] = ()
     title: str = ""
+    labels: Labelling | None = None
 
     def __post_init__(self) -> None:
         n = len(self.mesh.vertices)
         if self.values is not None and np.shape(self.values) not in ((n,), (n, 3)):
             raise ValueError(f"values have shape {np.shape(self.values)}, expected ({n},) or ({n}, 3) on this mesh")
+        if self.labels is not None and self.labels.index.shape != (n,):
+            raise ValueError(f"labels have shape {self.labels.index.shape}, expected ({n},) on this mesh")
 
     @property
     def is_scalar(self) -> bool:
         """Whether the colours stand for numbers and need a bar."""
-        return self.values is not None and np.ndim(self.values) == 1
+        return self.labels is None and self.values is not None and np.ndim(self.values) == 1
+
+    @property
+    def is_coloured(self) -> bool:
+        """Whether the colours mean something: numbers or labels."""
+        return self.labels is not None or self.values is not None
 
     @property
     def missing(self) -> int:
         """Number of vertices without a finite value, drawn grey."""
+        if self.labels is not None:
+            return int((self.labels.index < 0).sum())
         if self.values is None:
             return 0
         return int((~np.isfinite(self.values.reshape(len(self.values), -1)).all(axis=1)).sum())
@@ -119,22 +134,28 @@ def draw(scene: SurfaceView, camera: Camera, supersampling: int = 2) -> Pixels:
     raster = rasterize(mesh, fine)
     if not raster.covered.any():
         return np.full((camera.size[1], camera.size[0], 3), 255, dtype=np.uint8)
-    strength = CLAY_SHADING if scene.values is None else VALUE_SHADING
-    shaded = shade(mesh, camera, raster, *_coloring(scene), strength, supersampling)
+    strength = VALUE_SHADING if scene.is_coloured else CLAY_SHADING
+    flat = scene.labels is not None
+    shaded = shade(mesh, camera, raster, *_coloring(scene), strength, supersampling, flat)
     picture = shaded.light * _visible_sky(
         scene, _nearest_of_blocks(raster.depth, supersampling), shaded.normals, camera
     )
     picture += 1.0 - shaded.coverage[:, :, None]
-    for contours in scene.contours:
-        wide = replace(contours, width=supersampling * contours.width)
-        share = _mean_of_blocks(contour_coverage(mesh, wide, fine, raster), supersampling)[:, :, None]
-        picture += share * (to_linear(np.array(to_rgb(contours.color))) - picture)
+    for given in scene.contours:
+        lines = given.lines(mesh) if isinstance(given, Contours) else given
+        for color, width in lines.strokes:
+            covered = line_coverage(mesh, lines, supersampling * width, fine, raster)
+            share = _mean_of_blocks(covered, supersampling)[:, :, None]
+            picture += share * (to_linear(np.array(to_rgb(color))) - picture)
     return to_display(picture)
 
 
 def _coloring(scene: SurfaceView) -> tuple[Floats, Floats]:
     """Colours as `shade` takes them: positions in a table or linear colours at the vertices, and the table."""
     missing = to_linear(np.array([MISSING]))
+    if scene.labels is not None:
+        positions = (scene.labels.values + 0.5) / max(len(scene.labels.names), 1)
+        return positions[:, None], np.concatenate([to_linear(scene.labels.colors), missing])
     if scene.values is None:
         return np.zeros((len(scene.mesh.vertices), 1)), np.concatenate([to_linear(np.array([CLAY])), missing])
     if not scene.is_scalar:
@@ -148,7 +169,7 @@ def _visible_sky(scene: SurfaceView, depth: Floats, normals: Floats, camera: Cam
     # not mesh.edge_length, which is NaN as soon as one vertex is
     edge = 1.5 * np.sqrt(np.nanmean(scene.mesh.areas))
     hidden = ambient_occlusion(depth * camera.scale, normals, OCCLUSION_REACH * max(camera.size), edge * camera.scale)
-    strength = CLAY_OCCLUSION if scene.values is None else VALUE_OCCLUSION
+    strength = VALUE_OCCLUSION if scene.is_coloured else CLAY_OCCLUSION
     return np.maximum(1.0 - strength * hidden, DARKEST_FOLD)[:, :, None]
 
 

@@ -62,7 +62,14 @@ def seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
 
 
 def shade(
-    mesh: TriangleMesh, camera: Camera, raster: Raster, coloring: Floats, table: Floats, strength: float, factor: int
+    mesh: TriangleMesh,
+    camera: Camera,
+    raster: Raster,
+    coloring: Floats,
+    table: Floats,
+    strength: float,
+    factor: int,
+    flat: bool = False,
 ) -> Shaded:
     """Light from a surface with interpolated normals under a key light, a fill light and the sky.
 
@@ -77,6 +84,8 @@ def shade(
     strength : float
         0 leaves the colours as they are, 1 is full light and shade.
     factor : int
+    flat : bool
+        Whether a point takes the colour of the corner nearest to it, as labels do, and not the mean of the three.
     """
     height, width = raster.face.shape[0] // factor, raster.face.shape[1] // factor
     light, normals = np.zeros((height, width, 3)), np.zeros((height, width, 3))
@@ -84,7 +93,7 @@ def shade(
     turn = np.where(seen_from_behind(mesh, camera), -1.0, 1.0)
     vertex_normals = mesh.vertex_normals @ camera.axes.T
     _shade(
-        raster.face, raster.barycentric, mesh.faces, vertex_normals, turn, coloring, table, strength, factor,
+        raster.face, raster.barycentric, mesh.faces, vertex_normals, turn, coloring, table, strength, factor, flat,
         light, normals, coverage,
     )  # fmt: skip
     lengths = np.linalg.norm(normals, axis=2, keepdims=True)
@@ -105,7 +114,7 @@ def illumination(x: float, y: float, z: float) -> float:
 @njit(cache=True, nogil=True)
 def _shade(
     face: Integers, barycentric: Floats, faces: Integers, vertex_normals: Floats, turn: Floats, coloring: Floats,
-    table: Floats, strength: float, factor: int, light: Floats, normals: Floats, coverage: Floats,
+    table: Floats, strength: float, factor: int, flat: bool, light: Floats, normals: Floats, coverage: Floats,
 ) -> None:  # fmt: skip
     share = 1.0 / factor**2
     last = len(table) - 2
@@ -118,13 +127,17 @@ def _shade(
             i, j = row // factor, column // factor
             color[:] = 0.0
             x = y = z = 0.0
+            nearest = np.argmax(barycentric[row, column]) if flat else -1
             for k in range(3):
                 weight, vertex = barycentric[row, column, k], faces[t, k]
                 x += weight * vertex_normals[vertex, 0]
                 y += weight * vertex_normals[vertex, 1]
                 z += weight * vertex_normals[vertex, 2]
                 for channel in range(coloring.shape[1]):
-                    color[channel] += weight * coloring[vertex, channel]
+                    share_of_corner = (1.0 if k == nearest else 0.0) if flat else weight
+                    # a corner that counts nothing may have no value
+                    if share_of_corner != 0.0 or not flat:
+                        color[channel] += share_of_corner * coloring[vertex, channel]
             length = turn[t] * np.sqrt(x * x + y * y + z * z)
             # opposite normals cancel at a needle; it is lit from the front
             x, y, z = (x / length, y / length, z / length) if length != 0.0 else (0.0, 0.0, 1.0)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import re
 from collections.abc import Sequence
 from typing import Any
@@ -14,6 +12,7 @@ from markupsafe import Markup, escape
 from surfexp.records.table import format_number, short_name
 from surfexp.report.repeats import spread
 from surfexp.report.words import duration, word
+from surfexp.viewer.page import asset, policy_of
 
 
 def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
@@ -23,7 +22,7 @@ def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
     ----------
     template : str
     scripts : sequence of str
-        Names of further scripts beside that of the tables.
+        Names of the viewer's scripts, beside that of the tables.
     **content
         What the template shows.
     """
@@ -32,17 +31,10 @@ def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
     environment.filters.update(
         number=format_number, spread=spread, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
     )
-    style, *texts = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js", *scripts))
-    policy = "; ".join(
-        (
-            "default-src 'none'",
-            "img-src 'self' data:",
-            f"style-src {_hash(style)}",
-            f"script-src {' '.join(map(_hash, texts))}",
-            "base-uri 'none'",
-            "form-action 'none'",
-        )
-    )
+    style, tables = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js"))
+    style += asset("viewer.css")
+    texts = [tables, *map(asset, scripts)]
+    policy = policy_of(style, texts, "'self' data:")
     page = environment.get_template(template)
     own = {"style": Markup(style), "scripts": [*map(Markup, texts)]}  # noqa: S704, the package's own files
     return page.render(**own, policy=policy, **content)
@@ -56,7 +48,3 @@ def prose(text: str) -> Markup:
 def exact(value: float | None) -> str:
     """All digits of a number, by which a column is sorted; nothing where there is none."""
     return "" if value is None or value != value else repr(float(value)).replace("inf", "Infinity")
-
-
-def _hash(text: str) -> str:
-    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"

@@ -7,7 +7,7 @@ import pytest
 from scipy.ndimage import label
 
 from surfexp.figures.camera import Camera, fit_camera
-from surfexp.figures.contours import Contours, contour_coverage
+from surfexp.figures.contours import Contours, line_coverage
 from surfexp.figures.rasterizer import rasterize
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -15,7 +15,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 def drawn_line(mesh: TriangleMesh, contours: Contours, camera: Camera) -> np.ndarray:
-    return contour_coverage(mesh, contours, camera, rasterize(mesh, camera))
+    return line_coverage(mesh, contours.lines(mesh), contours.width, camera, rasterize(mesh, camera))
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.4, 1.3])

@@ -19,5 +19,5 @@ def test_level_set_length(capsys: pytest.CaptureFixture[str]) -> None:
 def test_surface_figure(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     runpy.run_path(str(EXAMPLES / "surface_figure.py"))
     # 1200 pixels wide, and light enough for a page
-    assert capsys.readouterr().out.startswith("(555, 1200, 3) 1.1 % of the values")
+    assert capsys.readouterr().out.startswith("(576, 1200, 3) 1.1 % of the values")
     assert 50_000 < (working_folder / "surface_figure.png").stat().st_size < 350_000

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import matplotlib
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import draw_bars, fitted_scales
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.panel import surface_panel
-from surfexp.figures.panel_layout import arrange
+from surfexp.figures.panel_layout import BAR_BAND, arrange, text_size
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -33,7 +35,7 @@ def test_pictures_of_one_panel_have_one_scale() -> None:
 
 def test_panel_holds_the_very_pixels_of_the_pictures() -> None:
     view = SurfaceView(SPHERE, 100.0 + 50.0 * Z, "top", GREY)
-    layout = arrange([[view, view]], 500, False, True, 0.0)
+    layout = arrange([[view, view]], 500, False, round(BAR_BAND * text_size(500)), 0.0)
     pixels = surface_panel([view, view], width=500).pixels
     assert pixels.shape == (layout.height, 500, 3)
     size = (layout.columns[1], layout.rows[0])
@@ -51,7 +53,7 @@ def test_equal_scales_share_their_limits() -> None:
 def test_bars_have_the_limits_ticks_and_label_of_their_scale() -> None:
     views = [SurfaceView(SPHERE, 127.0 + 100.0 * Z, scale=GREY), SurfaceView(SPHERE, 0.3 * Z, scale=DIFFERENCE)]
     scales = fitted_scales(views)
-    layout = arrange([views], 1000, False, True, 0.0)
+    layout = arrange([views], 1000, False, round(BAR_BAND * text_size(1000)), 0.0)
     with canvas(1000, layout.height) as figure:
         draw_bars(figure, layout, [views], scales)
         pixels = drawn(figure)
@@ -59,7 +61,8 @@ def test_bars_have_the_limits_ticks_and_label_of_their_scale() -> None:
         assert grey.get_xlim() == (0.0, 255.0) and difference.get_xlim() == scales[DIFFERENCE].limits
         ticks = {tick: text.get_text() for tick, text in zip(grey.get_xticks(), grey.get_xticklabels(), strict=True)}
         assert {tick: text for tick, text in ticks.items() if 0 <= tick <= 255} == {0: "0", 100: "100", 200: "200"}
-        assert (grey.get_xlabel(), difference.get_xlabel()) == ("grey value", "residual (mm)")
+        assert grey.get_xlabel() == "grey value"
+        assert re.fullmatch(r"residual \(mm\)\n[\d.]+ % of the values lie beyond", difference.get_xlabel())
         # the colour above each tick is the colour of its value
         for axes, scale in ((grey, GREY), (difference, scales[DIFFERENCE])):
             row = layout.height - round(float(axes.bbox.y0 + axes.bbox.y1) / 2.0)
@@ -72,7 +75,7 @@ def test_bars_have_the_limits_ticks_and_label_of_their_scale() -> None:
 
 def test_each_bar_is_under_the_views_that_use_it() -> None:
     views = [SurfaceView(SPHERE, 100.0 * Z, scale=GREY)] * 3 + [SurfaceView(SPHERE, Z, scale=DIFFERENCE)]
-    layout = arrange([views], 1200, False, True, 0.0)
+    layout = arrange([views], 1200, False, round(BAR_BAND * text_size(1200)), 0.0)
     with canvas(1200, layout.height) as figure:
         draw_bars(figure, layout, [views], fitted_scales(views))
         centers = [axes.get_position().x0 + 0.5 * axes.get_position().width for axes in figure.axes]
@@ -81,7 +84,7 @@ def test_each_bar_is_under_the_views_that_use_it() -> None:
 
 def test_grid_bands_do_not_overlap_and_short_rows_are_centred() -> None:
     views = [[SurfaceView(SPHERE, title="a")] * 3, [SurfaceView(HALF)]]
-    layout = arrange(views, 900, True, False, 0.0)
+    layout = arrange(views, 900, True, 0, 0.0)
     assert layout.top(1) >= layout.top(0) + layout.rows[0]
     assert layout.height == layout.top(1) + layout.rows[1]
     assert layout.middle(0, 1) == pytest.approx(0.5, abs=1e-3)
@@ -94,10 +97,10 @@ def test_clipping_and_missing_values_are_said() -> None:
     figure = surface_panel([SurfaceView(SPHERE, values, scale=GREY, title="noisy")], width=300)
     beyond = np.mean((values[5:] < 0.0) | (values[5:] > 255.0))
     assert (
-        figure.notes[0]
+        figure.caption
         == f"{100 * beyond:.2g} % of the values lie beyond the bar 'grey value' and take its end colours."
     )
-    assert figure.notes[1] == "5 vertices of 'noisy' have no value; their faces are drawn grey."
+    assert figure.notes[0] == "5 vertices of 'noisy' have no value; their faces are drawn grey."
     assert surface_panel([SurfaceView(SPHERE)], width=300).notes == ()
 
 

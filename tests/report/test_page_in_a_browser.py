@@ -89,3 +89,20 @@ def test_no_text_of_an_experiment_runs(tmp_path: Path) -> None:
     injected = page.read_text().replace("</body>", "<script>document.title='run'</script></body>")
     page.write_text(injected.replace("<h1>", "<h1><img src='x' onerror=\"document.title='run'\">"))
     assert "<title>run</title>" not in shown(page) and 'class="tools"' in shown(page)
+
+
+@pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs pdftotext")
+def test_no_number_breaks_on_paper(tmp_path: Path) -> None:
+    page = page_of(tmp_path)
+    # many columns: each number six times
+    wide = re.sub(
+        r'(<td class="number.*?</td>|<th class="number.*?</th>)', 6 * r"\1", page.read_text(), flags=re.DOTALL
+    )
+    page.write_text(wide)
+    numbers = set(re.findall(r'<td class="number[^>]*>([\d.e\u202f−-]{4,})', page.read_text()))
+    assert BROWSER is not None and len(numbers) > 10
+    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path / 'profile'}"]
+    paper = tmp_path / "page.pdf"
+    subprocess.run([BROWSER, *options, f"--print-to-pdf={paper}", page.as_uri()], capture_output=True, timeout=120)
+    text = subprocess.run(["pdftotext", "-layout", paper, "-"], capture_output=True, text=True, check=True).stdout
+    assert text.count("\n") and not numbers - {*text.split()}

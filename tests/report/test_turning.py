@@ -22,17 +22,20 @@ from surfexp.lab.store import store
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.report.turning import scene as scene_module
 from surfexp.report.turning.fields import MODES, feature_field, image_fields, mode_field
-from surfexp.report.turning.payload import Payload
-from surfexp.report.turning.quantised import packed, quantised, unpacked
-from surfexp.report.turning.scene import Drawn, Scene, scene_of
-from surfexp.report.turning.turning import SCRIPTS, Turning
+from surfexp.report.turning.scene import scene_of
+from surfexp.report.turning.turning import Turning
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
+from surfexp.viewer import page as page_module
+from surfexp.viewer.page import SCRIPTS
+from surfexp.viewer.payload import Payload
+from surfexp.viewer.quantised import packed, quantised, unpacked
+from surfexp.viewer.scene import Drawn, Scene
 
-TEMPLATES = Path(scene_module.__file__).parents[1] / "templates"
+ASSETS = Path(page_module.__file__).parent / "assets"
 VIEWER = Path(__file__).resolve().parents[2] / "viewer"
 FLOATS = st.floats(-1e150, 1e150) | st.floats(-1.0, 1.0) | st.sampled_from([np.nan, np.inf, -np.inf])
 SHAPES = st.tuples(st.integers(0, 6), st.integers(1, 4))
@@ -189,7 +192,7 @@ def test_a_feature_has_the_levels_and_the_graph_of_its_skeleton() -> None:
     (step,) = feature_field(MESH, feature, skeleton).steps
     levels, *graph = step.lines
     assert set(np.round(levels.points[:, 0], 12)) == {-2.0, -1.0, 0.0, 1.0, 2.0} and not levels.through
-    assert all(one.through for one in graph) and (graph[1].segments == skeleton.arcs).all()
+    assert all(one.through for one in graph) and (graph[0].segments == skeleton.arcs).all()
     assert not feature_field(MESH, feature, None).steps[0].lines
 
 
@@ -210,7 +213,7 @@ def test_colours_of_several_channels_are_fields_of_their_own() -> None:
 
 
 def test_the_light_is_that_of_the_still_pictures() -> None:
-    script = (TEMPLATES / "turning" / "surface.js").read_text()
+    script = (ASSETS / "surface.js").read_text()
     for name in ("KEY_STRENGTH", "FILL_STRENGTH", "SKY", "GROUND", "WRAP", "RIM_DARKENING", "BACK_SHARE"):
         found = re.search(rf"\b{name} = ([\d.]+)", script)
         assert found and float(found[1]) == getattr(shading, name), name
@@ -220,15 +223,15 @@ def test_the_light_is_that_of_the_still_pictures() -> None:
 
 
 def test_the_library_is_the_pinned_one_and_names_no_address() -> None:
-    bundle = (TEMPLATES / "turning" / "three.bundle.js").read_text()
+    bundle = (ASSETS / "three.bundle.js").read_text()
     pins = json.loads((VIEWER / "pins.json").read_text())
     assert bundle.startswith(f"// three.js {pins['three']['version']}, MIT licence")
     assert all(re.fullmatch(r"sha512-[\w+/]{86}==", pin["integrity"]) for pin in pins.values())
-    assert "MIT License" in (TEMPLATES / "turning" / "three.LICENSE.txt").read_text()
+    assert "MIT License" in (ASSETS / "three.LICENSE.txt").read_text()
     # the name of a language, which nothing fetches
     assert set(re.findall(r"https?://[^\s\"'`]*", bundle)) == {"http://www.w3.org/1999/xhtml"}
     for script in SCRIPTS:
-        text = (TEMPLATES / script).read_text()
+        text = (ASSETS / script).read_text()
         assert not re.search(r"</script|<!--|\beval\(|new Function", text), script
         assert "bundle" in script or not re.search(r"https?:|innerHTML|insertAdjacentHTML|document\.write", text), (
             script

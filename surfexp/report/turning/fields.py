@@ -3,67 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats, Integers
-from surfexp.drawings.skeleton_drawing import CAPS, JUNCTIONS, LEVELS, LINE
+from surfexp.contract.arrays import Floats
+from surfexp.drawings.skeleton_drawing import LEVELS, skeleton_lines
 from surfexp.figures.boundary_line import without_rim
 from surfexp.figures.colormap import ColorScale
-from surfexp.figures.contours import RED
-from surfexp.figures.level_set import level_set
+from surfexp.figures.contours import RED, Contours
+from surfexp.figures.labelling import labelling
+from surfexp.figures.lines import CASING, Lines
 from surfexp.figures.typography import INK
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.feature import Feature
-from surfexp.skeleton.skeleton import CAP, JUNCTION, Skeleton
+from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
+from surfexp.viewer.scene import Field, Step
 
 # modes that a page holds of each surface, and levels of each feature that it draws
 MODES, LEVELS_DRAWN = 21, 60
-
-
-@dataclass(frozen=True, eq=False)
-class Lines:
-    """Segments in space.
-
-    Parameters
-    ----------
-    points : (p, 3) float64
-    segments : (s, 2) int64
-    color : str
-        As in CSS, six digits.
-    width : float
-        In pixels.
-    through : bool
-        Whether they are seen through the surface, as a skeleton inside is.
-    """
-
-    points: Floats
-    segments: Integers
-    color: str
-    width: float = 2.0
-    through: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Step:
-    """One function on a surface, what it is called, and the lines drawn with it."""
-
-    values: Floats
-    name: str = ""
-    lines: tuple[Lines, ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
-class Field:
-    """Functions of one name and scale, with a slider where there are several; the bare surface where there is none."""
-
-    name: str
-    steps: tuple[Step, ...] = ()
-    scale: ColorScale = field(default_factory=ColorScale)
 
 
 def image_fields(mesh: TriangleMesh, image: Image, solution: Solution | None, colormap: str) -> list[Field]:
@@ -75,9 +36,9 @@ def image_fields(mesh: TriangleMesh, image: Image, solution: Solution | None, co
     scale = ColorScale(image.name, image.unit, colormap)
     if solution is not None and solution.segmentation is not None:
         lines = _boundaries(mesh, solution)
-        regions = Step(np.asarray(solution.segmentation, dtype=np.float64), "", lines)
+        regions = labelling(np.asarray(solution.segmentation, dtype=np.int64))
         images = [one for name, values in shown.items() for one in _by_channel(name, values, scale, lines)]
-        return [*images, Field("regions", (regions,), ColorScale("region"))]
+        return [*images, Field("regions", (Step(regions.values, "", lines),), labels=regions)]
     if solution is None or solution.values.shape != observed.shape:
         return [one for name, values in shown.items() for one in _by_channel(name, values, scale)]
     shown["result"] = solution.values
@@ -111,31 +72,12 @@ def feature_field(mesh: TriangleMesh, feature: Feature, skeleton: Skeleton | Non
     return Field(feature.name, (Step(feature.values, "", lines),), ColorScale(feature.name, feature.unit))
 
 
-def skeleton_lines(skeleton: Skeleton) -> list[Lines]:
-    """The arcs of a graph on a white edge, and dots where it ends or branches, seen through the surface."""
-    positions, arcs = skeleton.positions, skeleton.arcs
-    found = [Lines(positions, arcs, color, width, through=True) for color, width in (("#ffffff", 6.0), (LINE, 3.0))]
-    for kind, color in ((CAP, CAPS), (JUNCTION, JUNCTIONS)):
-        nodes = positions[skeleton.kinds == kind]
-        # a line with round ends as short as a dot: it needs a direction
-        ends = nodes + 1e-4 * np.ptp(positions, axis=0)
-        pairs = np.arange(2 * len(nodes)).reshape(2, -1).T
-        if len(nodes):
-            found.append(Lines(np.concatenate([nodes, ends]), pairs, color, 9.0, through=True))
-    return found
-
-
 def level_lines(
-    mesh: TriangleMesh, values: Floats, levels: Sequence[float], color: str, width: float = 2.0
+    mesh: TriangleMesh, values: Floats, levels: Sequence[float], color: str, width: float = 2.0, casing: float = 0.0
 ) -> tuple[Lines, ...]:
     """The lines on which a function takes some levels, as one; none where it takes none."""
-    points, segments, count = [], [], 0
-    for level in levels:
-        line = level_set(mesh, values, level)
-        points.append(line.points)
-        segments.append(line.segments + count)
-        count += len(line.points)
-    return (Lines(np.concatenate(points), np.concatenate(segments), color, width),) if count else ()
+    found = Contours(values, tuple(levels), color, width, casing).lines(mesh)
+    return (found,) if len(found.segments) else ()
 
 
 def _by_channel(name: str, values: Floats, scale: ColorScale, lines: tuple[Lines, ...] = ()) -> list[Field]:
@@ -153,6 +95,9 @@ def _boundaries(mesh: TriangleMesh, solution: Solution) -> tuple[Lines, ...]:
     labels = np.asarray(solution.segmentation, dtype=np.float64)
     if len(np.unique(labels)) < 3:
         values, level = solution.boundary
-        return level_lines(mesh, values, (level,), RED)
-    apart = [level_lines(mesh, (labels == label).astype(np.float64), (0.5,), RED) for label in np.unique(labels)[1:]]
+        return level_lines(mesh, values, (level,), RED, casing=CASING)
+    apart = [
+        level_lines(mesh, (labels == label).astype(np.float64), (0.5,), RED, casing=CASING)
+        for label in np.unique(labels)[1:]
+    ]
     return tuple(line for lines in apart for line in lines)

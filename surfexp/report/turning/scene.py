@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from surfexp.figures.camera import VIEWS, View, viewing_direction
+from surfexp.figures.camera import View, viewing_direction
 from surfexp.figures.colormap import ColorScale
 from surfexp.lab.plan.plan import Node
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.report.turning.fields import Field, Step, feature_field, image_fields, mode_field
+from surfexp.report.turning.fields import feature_field, image_fields, mode_field
 from surfexp.variational.solution import Solution
+from surfexp.viewer.scene import Drawn, Field, Scene, Step
 
 Load = Callable[[str, str], Any]
 # results that belong to a surface, with their stages, by kind and label
@@ -23,33 +24,6 @@ KINDS = ("image", "solver", "eigensolver", "feature", "skeleton")
 
 # beyond these a browser has too much to draw at once
 SURFACES, PANELS = 6, 4
-
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """A surface of a scene and what it can be coloured by, at least one field; NaN is drawn grey."""
-
-    name: str
-    mesh: TriangleMesh
-    fields: list[Field]
-
-
-@dataclass(frozen=True, eq=False)
-class Scene:
-    """What a figure becomes when it is turned.
-
-    Parameters
-    ----------
-    surfaces : list of Drawn
-    panels : list of (int, int)
-        Side by side: the surface of each, and the field that it shows at first.
-    view : (float, float)
-        Azimuth and elevation of the eye in degrees.
-    """
-
-    surfaces: list[Drawn]
-    panels: list[tuple[int, int]]
-    view: tuple[float, float] = field(default=VIEWS["oblique"])
 
 
 def scene_of(nodes: Mapping[str, Node], key: str, load: Load) -> Scene | None:
@@ -132,7 +106,8 @@ def _masked(one: Field, surface: Surface) -> Field:
     if surface.mask is None:
         return one
     inside = surface.mask
-    return replace(one, steps=tuple(replace(s, values=np.where(inside, s.values, np.nan)) for s in one.steps))
+    hidden = (None if step.values is None else np.where(inside, step.values, np.nan) for step in one.steps)
+    return replace(one, steps=tuple(replace(s, values=v) for s, v in zip(one.steps, hidden, strict=True)))
 
 
 def _panels(surfaces: list[Drawn]) -> list[tuple[int, int]]:

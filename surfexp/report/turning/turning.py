@@ -10,11 +10,9 @@ from typing import Any
 from surfexp.lab.errors import DamagedResult
 from surfexp.lab.plan.plan import Node
 from surfexp.lab.store import store
-from surfexp.report.turning.payload import Payload
 from surfexp.report.turning.scene import scene_of
-
-# in the order in which a page runs them; the library is the largest part of a page without surfaces
-SCRIPTS = tuple(f"turning/{name}.js" for name in ("three.bundle", "arrays", "surface", "panel", "turning"))
+from surfexp.viewer.page import SCRIPTS
+from surfexp.viewer.payload import Payload
 
 
 class Turning:

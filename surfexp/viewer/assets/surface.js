@@ -33,6 +33,25 @@ const FRAGMENT = `
     gl_FragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
   }`;
 
+// Labels are flat: a point takes the label of the corner nearest to it, of three that all corners of its face know.
+const FLAT_VERTEX = `
+  attribute vec3 labels;
+  flat varying vec3 known;
+  varying vec3 shares;
+  varying vec3 turned;
+  void main() {
+    int corner = gl_VertexID % 3;
+    known = labels;
+    shares = vec3(corner == 0, corner == 1, corner == 2);
+    turned = normalMatrix * normal;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  }`;
+const FLAT_FRAGMENT = FRAGMENT.replace("varying vec2 shaded;", "flat varying vec3 known;\n  varying vec3 shares;").replace(
+  /int entry = .*;/,
+  `float label = shares.x > shares.y ? (shares.x > shares.z ? known.x : known.z) : (shares.y > shares.z ? known.y : known.z);
+    int entry = label < 0.0 ? missing : int(label + 0.5);`,
+);
+
 // What panels share of a surface: positions about the middle of its box, normals, faces.
 async function readSurface({ positions, faces, outside }) {
   const [at, corners] = await Promise.all([numbersOf(positions), codesOf(faces)]);
@@ -74,16 +93,27 @@ function surfaceMesh({ geometry, radius, side }) {
   for (const name of ["position", "normal"]) own.setAttribute(name, geometry.attributes[name]);
   own.setAttribute("shade", new THREE.BufferAttribute(new Float32Array(2 * count), 2));
   own.boundingSphere = new THREE.Sphere(new THREE.Vector3(), radius);
-  const material = new THREE.ShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader: FRAGMENT,
+  return new THREE.Mesh(own, surfaceMaterial(VERTEX, FRAGMENT, side));
+}
+
+// Corners of their own for each face.
+function flatMesh({ geometry, radius, side }) {
+  const own = geometry.toNonIndexed(), count = own.attributes.position.count;
+  own.setAttribute("labels", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+  own.boundingSphere = new THREE.Sphere(new THREE.Vector3(), radius);
+  return new THREE.Mesh(own, surfaceMaterial(FLAT_VERTEX, FLAT_FRAGMENT, side));
+}
+
+function surfaceMaterial(vertexShader, fragmentShader, side) {
+  return new THREE.ShaderMaterial({
+    vertexShader,
+    fragmentShader,
     uniforms: { table: { value: null }, shading: { value: 1 } },
     side,
     polygonOffset: true,
     polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
   });
-  return new THREE.Mesh(own, material);
 }
 
 // Colours from the lower limit to the upper, then that of no value.
@@ -93,15 +123,16 @@ async function readTable(described) {
   return pixels;
 }
 
-async function colour(mesh, field, step) {
+async function colour(mesh, field, step, corners) {
   const shade = mesh.geometry.attributes.shade, { uniforms } = mesh.material;
-  const pixels = await readTable(field.table), values = step && (await numbersOf(step.values));
+  const pixels = await readTable(field.table), values = step?.values && (await numbersOf(step.values));
   const [low, high] = field.limits ?? [0, 1];
-  for (let row = 0; row < shade.count; row++) {
+  for (let row = 0; shade && row < shade.count; row++) {
     const value = values ? values(row) : low, missing = Number.isNaN(value);
     shade.setXY(row, missing ? 0 : (value - low) / (high - low), missing ? 1 : 0);
   }
-  shade.needsUpdate = true;
+  if (shade) shade.needsUpdate = true;
+  else labelFaces(mesh.geometry.attributes.labels, corners, values);
   uniforms.table.value?.dispose();
   const linear = Float32Array.from(pixels, (channel) => (channel / 255) ** 2.2);
   uniforms.table.value = new THREE.DataTexture(linear, pixels.length / 4, 1, THREE.RGBAFormat, THREE.FloatType);
@@ -110,15 +141,24 @@ async function colour(mesh, field, step) {
   return { values, pixels };
 }
 
+function labelFaces(labels, corners, values) {
+  const code = (vertex) => { const value = values(vertex); return Number.isNaN(value) ? -1 : Math.round(value); };
+  for (let i = 0; i < corners.length; i += 3) {
+    const [a, b, c] = [code(corners[i]), code(corners[i + 1]), code(corners[i + 2])];
+    for (let k = 0; k < 3; k++) labels.setXYZ(i + k, a, b, c);
+  }
+  labels.needsUpdate = true;
+}
+
 async function lineMesh(described, middle, order) {
   const [at, segments] = await Promise.all([numbersOf(described.points), codesOf(described.segments)]);
   const ends = new Float32Array(3 * segments.length);
   segments.forEach((point, i) => middle.forEach((centre, k) => (ends[3 * i + k] = at(point, k) - centre)));
   const geometry = new THREE.LineSegmentsGeometry().setPositions(ends);
   const { color, width, through } = described;
-  const material = new THREE.LineMaterial({ color, linewidth: width, depthTest: !through });
+  const material = new THREE.LineMaterial({ color, linewidth: width, depthTest: !through, depthWrite: false });
   const lines = new THREE.LineSegments2(geometry, material);
   // lines seen through the surface come last, each over the one before it
-  Object.assign(lines, { width, frustumCulled: false, renderOrder: through ? 1 + order : 1 });
+  Object.assign(lines, { width, frustumCulled: false, renderOrder: (through ? 1000 : 1) + order });
   return lines;
 }

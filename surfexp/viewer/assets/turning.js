@@ -1,6 +1,7 @@
 "use strict";
 // Under each still picture of surfaces a button turns it: its panels, and those of its comparison, turn together.
-const KEYS = { f: "front", b: "back", l: "left", r: "right", t: "top" };
+// A figure without a still picture turns at once.
+const KEYS = { f: "front", b: "back", l: "left", r: "right", t: "top", u: "bottom", o: "lateral", i: "medial" };
 const ARROWS = { ArrowLeft: [15, 0], ArrowRight: [-15, 0], ArrowUp: [0, -15], ArrowDown: [0, 15] };
 // milliseconds: without a change for so long a surface rests; a frame of the comparison that takes longer is too slow
 const REST = 150, SLOW = 33;
@@ -40,7 +41,9 @@ class TurningFigure {
     this.note = element("span", { className: "note" });
     this.note.setAttribute("role", "status");
     this.views = element("span", { className: "views", hidden: true });
+    const own = this.scene.surfaces.flatMap(({ sides }) => Object.keys(sides ?? {}));
     for (const name of ["reset", ...Object.values(KEYS)]) {
+      if (name !== "reset" && !(name in this.scene.views) && !own.includes(name)) continue;
       const button = element("button", { type: "button", textContent: name });
       button.addEventListener("click", () => this.face(name));
       this.views.append(button);
@@ -48,7 +51,10 @@ class TurningFigure {
     this.tools = element("div", { className: "tools" }, this.button, this.views, this.note);
     this.place = element("div", { className: "panels" });
     this.place.dataset.count = this.scene.panels.length;
-    element_.querySelector("a").after(this.place, this.tools);
+    const still = element_.querySelector("a");
+    if (still) still.after(this.place, this.tools);
+    else element_.prepend(this.place, this.tools);
+    this.button.hidden = !still;
     this.button.addEventListener("click", () => (this.panels.length ? this.still() : this.turn()));
     this.watcher = new ResizeObserver(() => redraw([this]));
   }
@@ -56,6 +62,14 @@ class TurningFigure {
   start() {
     const [azimuth, elevation] = this.scene.view;
     this.view = { azimuth, elevation, zoom: 1, x: 0, y: 0 };
+    const { eyes = [] } = this.scene;
+    this.apart(this.panels.map((_, k) => eyes[k] ?? this.scene.view));
+  }
+
+  // Each panel looks from its own side of the common view.
+  apart(eyes) {
+    const { azimuth, elevation } = this.view;
+    this.panels.forEach((panel, k) => (panel.offset = [eyes[k][0] - azimuth, eyes[k][1] - elevation]));
   }
 
   async turn() {
@@ -64,10 +78,11 @@ class TurningFigure {
       startRenderer();
       const surfaces = await Promise.all(this.scene.surfaces.map(readSurface));
       this.radius = Math.max(...surfaces.map(({ radius }) => radius)) || 1;
+      this.scene.panels.forEach(([which, field], k) => {
+        const title = this.scene.titles?.[k];
+        this.panels.push(new Panel(this, surfaces[which], this.scene.surfaces[which], field, title));
+      });
       this.start();
-      for (const [which, field] of this.scene.panels) {
-        this.panels.push(new Panel(this, surfaces[which], this.scene.surfaces[which], field));
-      }
       this.place.append(...this.panels.map((panel) => panel.element));
       this.element.classList.add("turns");
       this.panels.forEach((panel) => this.listen(panel));
@@ -129,7 +144,11 @@ class TurningFigure {
   face(name) {
     for (const figure of this.linked) {
       figure.start();
-      if (name in figure.scene.views) [figure.view.azimuth, figure.view.elevation] = figure.scene.views[name];
+      const common = figure.scene.views[name];
+      const eyes = figure.panels.map(({ described }) => common ?? described.sides?.[name]);
+      if (!eyes[0]) continue;
+      [figure.view.azimuth, figure.view.elevation] = eyes[0];
+      figure.apart(eyes.map((eye) => eye ?? eyes[0]));
     }
     redraw(this.linked);
   }
@@ -184,3 +203,4 @@ const turning = [...document.querySelectorAll("section")].flatMap((section) => {
   const linked = new Set();
   return [...section.querySelectorAll("figure:has(> script.scene)")].map((figure) => new TurningFigure(figure, linked));
 });
+for (const figure of turning) if (figure.element.classList.contains("live")) figure.turn();

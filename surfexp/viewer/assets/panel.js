@@ -14,14 +14,16 @@ const digits = (value, count) =>
   value.toLocaleString("en", { maximumSignificantDigits: count, useGrouping: false }).replace("-", "−");
 
 class Panel {
-  constructor(figure, surface, described, field) {
-    Object.assign(this, { figure, surface, described, scene: new THREE.Scene(), lines: [], turn: 0 });
+  constructor(figure, surface, described, field, title = "") {
+    Object.assign(this, { figure, surface, described, scene: new THREE.Scene(), lines: [], turn: 0, offset: [0, 0] });
     this.camera = new THREE.OrthographicCamera();
     this.mesh = surfaceMesh(surface);
     this.scene.add(this.mesh);
     this.canvas = element("canvas", { tabIndex: 0 });
     this.canvas.setAttribute("role", "img");
     this.bar = element("canvas", { height: 1 });
+    this.names = element("ul", { className: "names" });
+    this.ends = ["below", "above"].map((end) => element("i", { className: end, hidden: true }));
     this.ticks = element("span", { className: "ticks" });
     this.label = element("span", { className: "label" });
     this.told = element("output", { className: "told", textContent: " " });
@@ -31,10 +33,12 @@ class Panel {
     this.fields.setAttribute("aria-label", `what ${described.name} shows`);
     this.fields.value = field;
     this.sliding = element("label", { className: "step" }, this.slider, this.step);
-    const colours = element("div", { className: "colours" }, this.bar, this.ticks, this.label);
+    const [below, above] = this.ends, bar = element("div", { className: "bar" }, below, this.bar, above);
+    this.colours = element("div", { className: "colours" }, bar, this.ticks, this.label);
     const head = element("div", { className: "head" }, this.fields, this.sliding);
-    if (figure.scene.surfaces.length > 1) head.prepend(element("b", { textContent: described.name }));
-    this.element = element("div", { className: "panel" }, head, this.canvas, this.told, colours);
+    const name = title || (figure.scene.surfaces.length > 1 ? described.name : "");
+    if (name) head.prepend(element("b", { textContent: name }));
+    this.element = element("div", { className: "panel" }, head, this.canvas, this.told, this.colours, this.names);
     this.fields.addEventListener("change", () => this.show(0));
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
   }
@@ -51,8 +55,12 @@ class Panel {
   async show(at) {
     const field = this.field, step = field.steps[at], turn = ++this.turn;
     const lines = await Promise.all((step?.lines ?? []).map((one, k) => lineMesh(one, this.surface.middle, k)));
-    const { values, pixels } = await colour(this.mesh, field, step);
+    if (field.labels && !this.flat) this.scene.add((this.flat = flatMesh(this.surface)));
+    const drawn = field.labels ? this.flat : this.mesh;
+    const { values, pixels } = await colour(drawn, field, step, this.surface.geometry.index.array);
     if (turn !== this.turn) return lines.forEach(release);
+    this.mesh.visible = !field.labels;
+    if (this.flat) this.flat.visible = !!field.labels;
     this.values = values;
     this.lines.forEach((old) => this.scene.remove(release(old)));
     this.lines = lines;
@@ -70,19 +78,31 @@ class Panel {
   }
 
   legend(field, pixels) {
-    this.bar.parentElement.hidden = !field.limits;
+    this.colours.hidden = !field.limits;
+    this.names.replaceChildren(...(field.labels ?? []).map((name, k) => {
+      const swatch = element("i"), color = [...pixels.subarray(4 * k, 4 * k + 3)];
+      swatch.style.background = `rgb(${color})`;
+      return element("li", {}, swatch, name);
+    }));
     if (!field.limits) return;
     const [low, high] = field.limits, width = pixels.length / 4 - 1;
     this.bar.width = width;
     this.bar.getContext("2d").putImageData(new ImageData(pixels.slice(0, 4 * width), width, 1), 0, 0);
     const marks = [low, 0.5 * (low + high), high].map((value) => element("span", { textContent: digits(value, 3) }));
     this.ticks.replaceChildren(...marks);
-    this.label.textContent = field.label;
+    const beyond = field.beyond ?? [0, 0], part = 100 * (beyond[0] + beyond[1]), [first, last] = [0, 4 * (width - 1)];
+    this.ends.forEach((end, k) => {
+      end.hidden = !beyond[k];
+      end.style.background = `rgb(${[...pixels.subarray([first, last][k], [first, last][k] + 3)]})`;
+    });
+    const said = part ? `${digits(part, 2)} % of the values lie beyond` : "";
+    this.label.textContent = [field.label, said].filter(Boolean).join("\n");
   }
 
   // An orthographic eye at the azimuth and elevation of the still pictures.
   look() {
-    const { azimuth, elevation, zoom, x, y } = this.figure.view;
+    const { zoom, x, y } = this.figure.view, azimuth = this.figure.view.azimuth + this.offset[0];
+    const elevation = Math.max(-90, Math.min(90, this.figure.view.elevation + this.offset[1]));
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const [a, e] = [azimuth, elevation].map((angle) => (angle * Math.PI) / 180), size = this.figure.radius;
     const unit = (1.04 * size) / (zoom * Math.min(width, height) || 1), { camera } = this;
@@ -136,15 +156,17 @@ class Panel {
   }
 
   tell(vertex) {
-    const value = this.values?.(vertex), { unit } = this.field;
-    const text = value === undefined ? "" : Number.isNaN(value) ? ": no value" : `: ${digits(value, 5)} ${unit}`;
+    const value = this.values?.(vertex), { unit, labels } = this.field;
+    const name = (known) => (labels ? labels[Math.round(known)] : `${digits(known, 5)} ${unit}`);
+    const text = value === undefined ? "" : Number.isNaN(value) ? `: no ${labels ? "label" : "value"}` : `: ${name(value)}`;
     this.told.textContent = vertex < 0 ? " " : `vertex ${vertex}${text}`.trim();
     Object.assign(this.told.dataset, { vertex, value: vertex < 0 ? "" : String(value ?? "") });
   }
 
   end() {
-    [this.mesh, ...this.lines].forEach(release);
-    this.mesh.material.uniforms.table.value?.dispose();
+    const meshes = [this.mesh, this.flat].filter(Boolean);
+    [...meshes, ...this.lines].forEach(release);
+    meshes.forEach(({ material }) => material.uniforms.table.value?.dispose());
   }
 }
 

@@ -10,11 +10,11 @@ import numpy as np
 
 from surfexp.figures.camera import VIEWS
 from surfexp.figures.colormap import MISSING
+from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, CLAY_SHADING, VALUE_SHADING
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.report.turning.fields import Field, Lines
-from surfexp.report.turning.quantised import Codes, packed, quantised
-from surfexp.report.turning.scene import Drawn, Scene
+from surfexp.viewer.quantised import Codes, packed, quantised
+from surfexp.viewer.scene import Drawn, Field, Scene
 
 # a page is to be 12 MB at most: this, the library (0.6 MB), and tables
 BUDGET = 9_000_000
@@ -48,7 +48,14 @@ class Payload:
                 "that surfaces may take of a page"
             )
         self.arrays = taken.arrays
-        return {"surfaces": surfaces, "panels": [*map(list, scene.panels)], "view": list(scene.view), "views": VIEWS}
+        return {
+            "surfaces": surfaces,
+            "panels": [*map(list, scene.panels)],
+            "titles": list(scene.titles),
+            "eyes": [*map(list, scene.eyes)],
+            "view": list(scene.view),
+            "views": VIEWS,
+        }
 
     def _surface(self, drawn: Drawn) -> dict[str, Any]:
         small = np.uint16 if len(drawn.mesh.vertices) <= 1 << 16 else np.uint32
@@ -58,22 +65,29 @@ class Payload:
             "positions": self._numbers(drawn.mesh.vertices),
             "faces": self._codes(drawn.mesh.faces.astype(small)),
             "fields": [self._field(one) for one in drawn.fields],
+            "sides": {name: list(direction) for name, direction in drawn.sides.items()},
         }
 
     def _field(self, one: Field) -> dict[str, Any]:
-        if not one.steps:
-            return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": []}
-        scale = one.scale.fitted(np.concatenate([step.values for step in one.steps]))
         steps = [
             {
                 "name": step.name,
-                "values": self._numbers(step.values),
-                "lines": [self._lines(line) for line in step.lines],
+                "values": None if step.values is None else self._numbers(step.values),
+                "lines": [stroke for line in step.lines for stroke in self._strokes(line)],
             }
             for step in one.steps
         ]
+        if one.labels is not None:
+            table, names = self._table(one.labels.colors), list(one.labels.names)
+            return {"name": one.name, "labels": names, "table": table, "shading": VALUE_SHADING, "steps": steps}
+        numbers = [step.values for step in one.steps if step.values is not None]
+        if not numbers:
+            return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": steps}
+        values = np.concatenate(numbers)
+        scale = one.scale.fitted(values)
         return {
             "name": one.name,
+            "beyond": list(scale.share_beyond(values)),
             "label": scale.title,
             "unit": scale.unit,
             "limits": list(scale.limits or ()),
@@ -82,14 +96,11 @@ class Payload:
             "steps": steps,
         }
 
-    def _lines(self, line: Lines) -> dict[str, Any]:
-        return {
-            "points": self._numbers(line.points),
-            "segments": self._codes(line.segments.astype(np.uint32)),
-            "color": line.color,
-            "width": line.width,
-            "through": line.through,
-        }
+    def _strokes(self, line: Lines) -> list[dict[str, Any]]:
+        """What is drawn of a line, one over the other, with the same arrays."""
+        points, segments = self._numbers(line.points), self._codes(line.segments.astype(np.uint32))
+        where = {"points": points, "segments": segments, "through": line.through}
+        return [{**where, "color": color, "width": width} for color, width in line.strokes]
 
     def _table(self, colors: Any) -> dict[str, Any]:
         """Colours from the lower limit to the upper, then that of NaN."""

@@ -1,0 +1,224 @@
+"""What pictures and views show: surfaces with a map, labels and lines, seen from named sides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from surfexp.contract.arrays import Floats, Integers
+from surfexp.drawings.skeleton_drawing import skeleton_lines
+from surfexp.extras import require_installed
+from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View, viewing_direction
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.contours import Contours
+from surfexp.figures.labelling import Labelling, border_lines, labelling
+from surfexp.figures.lines import Lines
+from surfexp.figures.render import CLAY, SurfaceView
+from surfexp.figures.typography import INK
+from surfexp.mesh.given_numbers import one_of, real_number, real_pair
+from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import surface_part
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.inputs import as_map, as_surface
+from surfexp.tasks.soundness import usable_vertices
+
+# FreeSurfer's maps by the end of their names: what they are called, and the power of the length in their unit
+FREESURFER = {
+    "curv": ("curv (FreeSurfer, + in sulci)", -1),
+    "sulc": ("sulc (FreeSurfer, + in sulci)", 0),
+    "thickness": ("", 1),
+    "area": ("", 2),
+}
+POWERS = {-1: "1/{}", 0: "", 1: "{}", 2: "{}²"}
+INSIDE = "inside the mask"
+Rows = list[list[SurfaceView]]
+
+
+def shown_surfaces(
+    surface: Any,
+    values: Any = None,
+    *,
+    views: Sequence[View] | View | None = None,
+    colormap: str | None = None,
+    limits: tuple[float, float] | None = None,
+    contours: ArrayLike | None = None,
+    borders: Any = None,
+    skeleton: Skeleton | None = None,
+    label: str = "",
+    unit: str = "",
+) -> Rows:
+    """Return one row for each map, and in it each surface from each side, as `plot` describes its arguments.
+
+    Raises
+    ------
+    ValueError
+        If a map does not fit, or a name is unknown.
+    """
+    require_installed("sx.plot", "matplotlib", "PIL")
+    limits = None if limits is None else real_pair(limits, "limits")
+    if limits is not None and not limits[0] < limits[1]:
+        raise ValueError(f"limits = {limits}, the lower one before the upper one is needed")
+    if colormap is not None:
+        from matplotlib import colormaps
+
+        one_of(colormap, "colormap", colormaps)
+    levels = () if contours is None else tuple(real_number(level, "contours") for level in np.atleast_1d(contours))
+    given = [views] if isinstance(views, str) else views or ()
+    chosen = [_checked_view(view) for view in given]
+    surfaces = [as_surface(one) for one in (surface if is_several(surface) else [surface])]
+    rows: Rows = []
+    for name, maps in _rows_of_maps(values, len(surfaces)).items():
+        row = []
+        for owner, one in zip(surfaces, maps, strict=True):
+            called = label or name or (one if isinstance(one, str) else "")
+            base = _coloured(owner, one)
+            if base.is_scalar:
+                base = replace(base, scale=_scale(base, owner, called, unit, colormap, limits))
+            lines = _lines(owner, base, levels, borders, skeleton)
+            row += [
+                replace(base, view=_direction(view, owner), contours=lines, title=_title(view, owner, surfaces))
+                for view in chosen or _default_views(owner)
+            ]
+        rows.append(row)
+    if len(rows) == 1 and len(rows[0]) == 1:
+        rows = [[replace(rows[0][0], title="")]]
+    return rows
+
+
+def sides(surface: Surface) -> dict[str, tuple[float, float]]:
+    """Return the lateral and medial direction of a hemisphere; none of another surface."""
+    return {name: _direction(name, surface) for name in HEMISPHERE_VIEWS} if surface.hemisphere else {}
+
+
+def is_several(given: Any) -> bool:
+    """Whether a list of surfaces is given, and not a pair (vertices, faces)."""
+    if not isinstance(given, list | tuple) or not given:
+        return False
+    return len(given) != 2 or isinstance(given[0], str | Surface) or hasattr(given[0], "faces")
+
+
+def _rows_of_maps(values: Any, count: int) -> dict[str, list[Any]]:
+    """Return the maps of each row by its name: one map for all surfaces, one for each, or rows by name."""
+    if isinstance(values, Mapping):
+        return {str(name): _of_each(one, count) for name, one in values.items()}
+    if isinstance(values, list | tuple) and count == 1 and values and not isinstance(values[0], int | float):
+        return {one if isinstance(one, str) else f"map {number}": [one] for number, one in enumerate(values, 1)}
+    return {"": _of_each(values, count)}
+
+
+def _of_each(values: Any, count: int) -> list[Any]:
+    several = isinstance(values, list | tuple) and count > 1
+    if several and len(values) != count:
+        raise ValueError(f"{len(values)} maps for {count} surfaces: give one for each, or one name for all")
+    return list(values) if several else [values] * count
+
+
+def _coloured(owner: Surface, given: Any) -> SurfaceView:
+    """Return the surface with its map, or labels, without a scale."""
+    part = surface_part(owner.mesh, usable_vertices(owner.mesh))
+    inside = None if owner.mask is None else np.asarray(part.restrict(owner.mask), dtype=np.bool_)
+    found = _labels(owner, given)
+    if found is None and given is None and owner.mask is not None:
+        found = Labelling(np.where(owner.mask, 0, -1), (INSIDE,), np.array([CLAY]))
+    if found is not None:
+        index = np.asarray(part.restrict(found.index), dtype=np.int64)
+        index = index if inside is None else np.where(inside, index, -1)
+        return SurfaceView(part.mesh, labels=replace(found, index=index))
+    if given is None:
+        return SurfaceView(part.mesh)
+    field = as_map(owner, getattr(given, "values", given))
+    field = field[:, 0] if field.shape[1:] == (1,) else field
+    field = np.asarray(part.restrict(field), dtype=np.float64)
+    if inside is not None:
+        field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
+    return SurfaceView(part.mesh, field)
+
+
+def _labels(owner: Surface, given: Any) -> Labelling | None:
+    """Return labels where they are given: a `LabelMap`, a result that has one, a name, or whole numbers as integers."""
+    given = getattr(given, "label_map", given)
+    if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
+        given = owner.labels[given]
+    if isinstance(given, LabelMap):
+        return labelling(_fitting(given.keys, owner), given.names)
+    if isinstance(given, str) or given is None or hasattr(given, "values"):
+        return None
+    array = np.asarray(given)
+    if array.dtype == np.bool_ and array.ndim == 1:
+        return labelling(_fitting(array.astype(np.int64), owner), {0: "outside", 1: "inside"})
+    if array.dtype.kind in "iu" and array.ndim == 1:
+        return labelling(_fitting(array.astype(np.int64), owner))
+    return None
+
+
+def _fitting(keys: Integers, owner: Surface) -> Integers:
+    if len(keys) != len(owner.mesh.vertices):
+        raise ValueError(f"labels have shape {np.shape(keys)}, the surface has {len(owner.mesh.vertices)} vertices")
+    return np.asarray(keys, dtype=np.int64)
+
+
+def _scale(
+    base: SurfaceView, owner: Surface, name: str, unit: str, colormap: str | None, limits: tuple[float, float] | None
+) -> ColorScale:
+    """Return the colours of a map; FreeSurfer's are named with their sign, in the unit of the surface."""
+    called, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
+    length = owner.unit
+    known = POWERS[power].format(length) if power is not None and length else ""
+    return ColorScale(called or name, unit or known, colormap or _colormap_for(base.values), limits)
+
+
+def _lines(
+    owner: Surface, base: SurfaceView, levels: tuple[float, ...], outlined: Any, skeleton: Skeleton | None
+) -> tuple[Contours | Lines, ...]:
+    """Return the borders of labels, the level lines of the map, and the skeleton, one over the other."""
+    found: list[Contours | Lines] = []
+    if base.labels is not None and len(base.labels.names) > 1:
+        found.append(border_lines(base.mesh, base.labels.index))
+    if outlined is not None:
+        regions = _labels(owner, outlined)
+        if regions is None:
+            raise ValueError(f"borders = {outlined!r}: give labels by name, a LabelMap, or integers")
+        part = surface_part(owner.mesh, usable_vertices(owner.mesh))
+        found.append(border_lines(base.mesh, np.asarray(part.restrict(regions.index), dtype=np.int64)))
+    if levels:
+        if not base.is_scalar or base.values is None:
+            raise ValueError("contours are levels of a map of one channel: give one")
+        found.append(Contours(base.values, levels, INK, 1.6, casing=0.8))
+    return (*found, *(() if skeleton is None else skeleton_lines(skeleton)))
+
+
+def _checked_view(given: Any) -> View:
+    if given is None or isinstance(given, str | int | float):
+        return one_of(given, "views", (*VIEWS, *HEMISPHERE_VIEWS))
+    return real_pair(given, "views")
+
+
+def _default_views(owner: Surface) -> tuple[View, ...]:
+    return HEMISPHERE_VIEWS if owner.hemisphere else ("oblique",)
+
+
+def _direction(view: View, owner: Surface) -> tuple[float, float]:
+    """Return azimuth and elevation; the side of a hemisphere is what its file says, not where it lies."""
+    if owner.hemisphere and view in HEMISPHERE_VIEWS:
+        return VIEWS["left" if (owner.hemisphere == "left") == (view == "lateral") else "right"]
+    return viewing_direction(view, owner.mesh)
+
+
+def _title(view: View, owner: Surface, surfaces: Sequence[Surface]) -> str:
+    side = view if isinstance(view, str) else f"{view[0]:g}°, {view[1]:g}°"
+    if len(surfaces) == 1:
+        return side
+    name = owner.hemisphere if len({one.hemisphere for one in surfaces}) == len(surfaces) else owner.name
+    return f"{name}, {side}" if owner.hemisphere else name
+
+
+def _colormap_for(field: Floats | None) -> str:
+    if field is None or field.ndim > 1 or not np.isfinite(field).any():
+        return "viridis"
+    low, high = np.nanpercentile(field, [1.0, 99.0])
+    return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"

@@ -1,0 +1,205 @@
+"""A surface that turns: in a notebook, or as a page of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from surfexp.figures.camera import View, viewing_direction
+from surfexp.figures.color_bar import fitted_scales
+from surfexp.figures.contours import Contours
+from surfexp.figures.render import SurfaceView
+from surfexp.io.replacing import check_writable, replacing
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.inputs import SurfaceLike, as_surface
+from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of
+from surfexp.tasks.shown import is_several, shown_surfaces, sides
+from surfexp.viewer.page import viewer_page
+from surfexp.viewer.scene import Drawn, Field, Scene, Step
+
+# bytes of a page's surfaces; pixels of a row of panels in a notebook
+LARGEST, ROW_HEIGHT, PANELS_ABREAST = 40_000_000, 560, 3
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TurningView:
+    """Surfaces that turn together, shown by notebooks as they are.
+
+    Parameters
+    ----------
+    scene : Scene
+    rows : tuple of tuples of SurfaceView
+        The same as pictures.
+    title : str
+    """
+
+    scene: Scene
+    rows: tuple[tuple[SurfaceView, ...], ...]
+    title: str = ""
+
+    def html(self) -> str:
+        """Return the page: it holds all that it needs, asks no host, and runs no script but the viewer's.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        ValueError
+            If the surfaces take more than 40 MB.
+        """
+        return viewer_page(self.scene, title=self.title, budget=LARGEST)
+
+    def save(self, path: Path | str) -> None:
+        """Write the view as .html, or its first look as .png, .svg or .pdf.
+
+        Parameters
+        ----------
+        path : path
+
+        Raises
+        ------
+        ValueError
+            If the format is unknown.
+        """
+        target = Path(path)
+        check_view_target(target)
+        if target.suffix.lower() != ".html":
+            picture_of(self.rows).save(target)
+            return
+        with replacing(target) as temporary:
+            temporary.write_text(self.html(), encoding="utf-8")
+
+    def __repr__(self) -> str:
+        return f"<TurningView: {len(self.scene.panels)} panels of {len(self.scene.surfaces)} surfaces>"
+
+    def _repr_html_(self) -> str:
+        height = ROW_HEIGHT * -(-len(self.scene.panels) // PANELS_ABREAST)
+        frame = f'width="100%" height="{height}" style="border:0" sandbox="allow-scripts"'
+        return f'<iframe srcdoc="{escape(self.html())}" {frame} title="{escape(self.title or "surface")}"></iframe>'
+
+
+def view(
+    surface: SurfaceLike | Sequence[SurfaceLike],
+    values: Any = None,
+    *,
+    views: Sequence[View] | View | None = None,
+    colormap: str | None = None,
+    limits: tuple[float, float] | None = None,
+    contours: ArrayLike | None = None,
+    borders: Any = None,
+    skeleton: Skeleton | None = None,
+    label: str = "",
+    unit: str = "",
+    title: str = "",
+) -> TurningView:
+    """Show a surface that turns, coloured by a map or by labels; the pointer tells the value at a vertex.
+
+    Parameters
+    ----------
+    surface : Surface, path, or (vertices, faces); or a list of them
+        Each is a panel, and all panels turn together.
+    values : str, (n,) array, `LabelMap`, or a result with `values`, optional
+        A map, or labels: integers and truth values are labels. A list has one for each of several surfaces, or of one
+        surface a panel for each; so has a dict, with their names.
+    views : name, (azimuth, elevation) in degrees, or a sequence of these
+        Where panels look from at first: one for each. By default one, lateral for a hemisphere.
+    colormap : str, optional
+    limits : (float, float), optional
+    contours : sequence of float, optional
+    borders : str, `LabelMap`, or (n,) integers, optional
+    skeleton : Skeleton, optional
+    label, unit : str
+        These as in `plot`.
+    title : str
+
+    Returns
+    -------
+    TurningView
+        `save(path)` writes .html, .png, .svg or .pdf.
+
+    Raises
+    ------
+    ImportError
+        If the extra `figures` is not installed.
+    ValueError
+        If the map does not fit.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=3)
+    >>> seen = sx.view(sphere, sphere.mesh.vertices[:, 2], label="height")
+    >>> seen, len(seen.html()) < 700_000
+    (<TurningView: 1 panels of 1 surfaces>, True)
+    """
+    several = is_several(surface)
+    owners = [as_surface(one) for one in (surface if several else [surface])]
+    hemispheres = all(owner.hemisphere for owner in owners)
+    rows = shown_surfaces(
+        owners if several else owners[0],
+        values,
+        views=views or ("lateral" if hemispheres else "oblique"),
+        colormap=colormap,
+        limits=limits,
+        contours=contours,
+        borders=borders,
+        skeleton=skeleton,
+        label=label,
+        unit=unit,
+    )
+    return TurningView(_scene(rows, owners), tuple(map(tuple, rows)), title)
+
+
+def check_view_target(target: Path) -> None:
+    """Refuse a file that no view can be written to.
+
+    Raises
+    ------
+    ValueError
+        Naming the formats.
+    """
+    if target.suffix.lower() == ".html":
+        check_writable(target)
+    elif target.suffix.lower() in SUFFIXES:
+        check_picture_target(target)
+    else:
+        raise ValueError(f"{target} has an unknown format, choose one of {', '.join(('.html', *SUFFIXES))}")
+
+
+def _scene(rows: list[list[SurfaceView]], owners: Sequence[Any]) -> Scene:
+    """Return each surface once with its maps, and the panels that show them."""
+    everything = [one for row in rows for one in row]
+    scales = fitted_scales(everything)
+    looks = len(rows[0]) // len(owners)
+    surfaces = [Drawn(owner.name, rows[0][k * looks].mesh, [], sides(owner)) for k, owner in enumerate(owners)]
+    panels, eyes, titles = [], [], []
+    for row in rows:
+        for k, drawn in enumerate(surfaces):
+            first = row[k * looks]
+            fields = _fields(first, scales.get(first.scale, first.scale), drawn.mesh)
+            place = len(drawn.fields)
+            drawn.fields.extend(fields)
+            for one in row[k * looks : (k + 1) * looks]:
+                panels += [(k, place + j) for j in range(len(fields))]
+                eyes += [viewing_direction(one.view, one.mesh)] * len(fields)
+                titles += [one.title] * len(fields)
+    return Scene(surfaces, panels, eyes[0], eyes, titles)
+
+
+def _fields(shown: SurfaceView, scale: Any, mesh: TriangleMesh) -> list[Field]:
+    """Return the map or the labels with their lines; of several channels each."""
+    lines = tuple(one.lines(mesh) if isinstance(one, Contours) else one for one in shown.contours)
+    drawn = tuple(line for line in lines if len(line.segments))
+    if shown.labels is not None:
+        return [Field("labels", (Step(shown.labels.values, "", drawn),), labels=shown.labels)]
+    if shown.values is None or shown.is_scalar:
+        return [Field(scale.label or "map", (Step(shown.values, "", drawn),), scale)]
+    return [Field(f"channel {k}", (Step(one, "", drawn),), scale) for k, one in enumerate(shown.values.T, 1)]

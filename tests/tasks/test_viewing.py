@@ -1,0 +1,140 @@
+"""Views and pictures from Python: the same surfaces, maps, labels and lines, in a page that asks nobody."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.figures.camera import fit_camera
+from surfexp.figures.contours import Contours
+from surfexp.figures.labelling import border_lines, label_colors, labelling
+from surfexp.figures.render import SurfaceView, draw
+from surfexp.mesh.triangle_mesh import TriangleMesh
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
+from browser import PROGRAM, browser
+
+BALL = sx.shape("icosphere", levels=4)
+X, Y, Z = BALL.mesh.vertices.T
+# Machado, Oliveira and Fernandes (2009): deuteranopia, in linear light
+DEUTERANOPIA = np.array([[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]])
+
+
+def test_a_page_holds_everything_and_its_policy_allows_no_host() -> None:
+    page = sx.view(BALL, Z).html()
+    policy = re.search(r'Security-Policy" content="([^"]*)"', page)
+    assert policy is not None and policy[1].startswith("default-src 'none'; img-src data:; style-src 'sha256-")
+    assert "unsafe" not in policy[1] and not re.search(r"(?:src|href)=[\"']?(?!data:)", page.split("<script>")[0])
+    assert len(page) < 1_500_000
+
+
+def test_a_notebook_gets_the_page_in_a_frame_whose_words_are_escaped() -> None:
+    shown = sx.view(BALL, Z, title='"><img src=x>')._repr_html_()
+    assert shown.startswith("<iframe srcdoc=") and "<img" not in shown and 'sandbox="allow-scripts"' in shown
+
+
+@pytest.mark.parametrize("suffix", ["html", "png", "svg", "pdf"])
+def test_a_view_is_saved_in_every_format(tmp_path: Path, suffix: str) -> None:
+    file = tmp_path / f"ball.{suffix}"
+    sx.view(BALL, Z).save(file)
+    assert file.stat().st_size > 5000
+    with pytest.raises(ValueError, match=r"\.html, \.png, \.svg, \.pdf"):
+        sx.view(BALL).save(tmp_path / "ball.gif")
+
+
+def test_integers_are_labels_and_floats_a_map() -> None:
+    (drawn,) = sx.view(BALL, (Z > 0).astype(int) + 3).scene.surfaces
+    assert drawn.fields[0].labels is not None and drawn.fields[0].labels.names == ("3", "4")
+    (drawn,) = sx.view(BALL, (Z > 0).astype(float)).scene.surfaces
+    assert drawn.fields[0].labels is None
+
+
+def test_a_label_is_one_flat_colour_of_each_pixel_and_never_a_mean_of_two() -> None:
+    square = TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 3]]))
+    view = SurfaceView(square, view="top", labels=labelling(np.array([0, 1, 2, 1])))
+    pixels = draw(view, fit_camera(square, "top", (90, 90)), supersampling=1).reshape(-1, 3)
+    assert len(np.unique(pixels[(pixels < 255).any(axis=1)], axis=0)) <= 3 + 3  # two ends of the occlusion at rims
+
+
+def test_borders_run_from_cut_edges_to_the_middles_of_faces() -> None:
+    face = TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    lines = border_lines(face, np.array([0, 0, 1]))
+    ends = {tuple(np.round(p, 6)) for p in lines.points[lines.segments].reshape(-1, 3)}
+    assert ends == {(0.5, 0.5, 0.0), (0.0, 0.5, 0.0), (0.333333, 0.333333, 0.0)}
+    assert len(border_lines(face, np.array([2, 2, 2])).segments) == 0
+
+
+@pytest.mark.parametrize("casing, seen", [(1.5, True), (0.0, False)])
+def test_a_boundary_is_seen_by_a_deuteranope_on_purple_with_its_casing_alone(casing: float, seen: bool) -> None:
+    purple = np.tile((0.60, 0.40, 0.70), (len(Z), 1))
+    contours = (Contours(Z, (0.0,), casing=casing),)
+    camera = fit_camera(BALL.mesh, "front", (300, 300))
+    with_line, without = (draw(SurfaceView(BALL.mesh, purple, "front", contours=c), camera) for c in (contours, ()))
+    light = [
+        np.clip((p / 255.0) ** 2.2 @ DEUTERANOPIA.T, 0, 1) @ (0.2126, 0.7152, 0.0722) for p in (with_line, without)
+    ]
+    contrast = (light[0] + 0.05) / (light[1] + 0.05)
+    middle = contrast[140:160, 140:160].max()
+    assert bool(middle >= 3.0) == seen
+
+
+def test_the_first_six_label_colours_differ_for_a_deuteranope() -> None:
+    seen = np.clip(label_colors(6) ** 2.2 @ DEUTERANOPIA.T, 0, 1) ** (1 / 2.2)
+    apart = np.linalg.norm(seen[:, None] - seen[None], axis=2) + np.eye(6)
+    assert apart.min() > 0.12
+
+
+def test_what_lies_beyond_a_bar_is_said() -> None:
+    picture = sx.plot(BALL, Z, limits=(-0.5, 0.5), width=400)
+    assert re.search(r"% of the values lie beyond", picture.figure.caption)
+    assert "beyond" not in sx.plot(BALL, Z, limits=(-1.0, 1.0), width=400).figure.caption
+
+
+def test_the_side_of_a_hemisphere_is_what_it_says_and_not_where_it_lies() -> None:
+    right = sx.Surface(TriangleMesh(BALL.mesh.vertices - (9.0, 0, 0), BALL.mesh.faces), hemisphere="right")
+    views = sx.plot(right, width=400).views[0]
+    assert [one.view for one in views] == [(0.0, 0.0), (180.0, 0.0)]
+    assert [one.title for one in views] == ["lateral", "medial"]
+
+
+def test_fsaverage5_is_a_hemisphere_seen_from_two_sides() -> None:
+    pytest.importorskip("nilearn")
+    brain = sx.shape("fsaverage5", hemisphere="left")
+    assert brain.hemisphere == "left"
+    (row,) = sx.plot(brain, "curv", width=400).views
+    assert len(row) == 2 and row[0].scale.title == "curv (FreeSurfer, + in sulci) (1/mm)"
+
+
+def test_several_surfaces_and_maps_are_panels() -> None:
+    seen = sx.view([BALL, BALL], [Z, X])
+    assert seen.scene.panels == [(0, 0), (1, 0)]
+    assert sx.view(BALL, {"x": X, "z": Z}).scene.panels == [(0, 0), (0, 1)]
+    with pytest.raises(ValueError, match="2 surfaces"):
+        sx.view([BALL, BALL], [Z, X, Y])
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="needs chromium")
+def test_a_browser_turns_labels_and_a_skeleton_and_asks_no_host(tmp_path: Path) -> None:
+    file = tmp_path / "ball.html"
+    torus = sx.shape("torus")
+    graph = sx.reeb_graph(torus, torus.mesh.vertices[:, 0])
+    keys = (torus.mesh.vertices[:, 2] > 0).astype(int)
+    sx.view(torus, {"side": keys, "height": torus.mesh.vertices[:, 2]}, skeleton=graph).save(file)
+    with browser(tmp_path / "profile") as tab:
+        tab.call("Network.enable")
+        tab.open(file)
+        tab.wait("turning[0].panels.length === 2 && !waiting.size && !moving.size && !turning[0].button.disabled")
+        assert tab.run("turning[0].panels[0].names.textContent") == "01"
+        before = tab.run("turning[0].view.azimuth")
+        box = "(({ left, top, width, height }) => [left + width / 2, top + height / 2])"
+        x, y = tab.run(f"{box}(turning[0].panels[0].canvas.getBoundingClientRect())")
+        tab.drag((x, y), (x + 40, y))
+        assert tab.run("turning[0].view.azimuth") == before - 20.0
+        assert [text for text in tab.complaints if "GL Driver" not in text] == []
+        asked = [e["params"]["request"]["url"] for e in tab.events if e.get("method") == "Network.requestWillBeSent"]
+        assert all(url.startswith(("file:", "data:", "blob:")) for url in asked)
