@@ -30,9 +30,8 @@ def places_of(document: Any) -> Iterator[Place]:
             if key == "chapter" and isinstance(value, list):
                 yield "chapter", str(value[0])
             elif key == "published" and isinstance(value, dict):
-                for kind, number in value.items():
-                    if kind != "value" and (found := re.match(NUMBER, str(number))):
-                        yield kind, found[1]
+                for source in map(str, value):
+                    yield from ((kind.lower(), number) for kind, number in CITED.findall(source))
             elif key in ("reference", "title", "caption") and isinstance(value, str):
                 yield from ((kind.lower(), number) for kind, number in CITED.findall(value))
             else:

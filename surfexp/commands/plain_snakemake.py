@@ -55,9 +55,10 @@ def planned(config: Mapping[str, Any], workflow: Any) -> Path:
         execution.before_snakemake(plan, path.parent.parent)
         # Snakemake compares small inputs by content, with its own last report: a new word says that the page is of another plan
         page, asked = path.parent.parent / plan.settings.experiment / "report.html", path.with_suffix(".asked")
-        if not asked.exists() or (page.exists() and not execution.is_finished(path, plan)):
+        finished = page.exists() and execution.is_finished(path, plan)
+        if not asked.exists() or (page.exists() and not finished):
             asked.write_text(str(time.time_ns()))
-        elif page.exists():
+        if finished:
             os.utime(asked, (0, 0))
     return path
 

@@ -13,10 +13,10 @@ from surfexp.lab.errors import UserError
 from surfexp.lab.registry.folders import experiments
 
 DOCUMENTS = {
-    "one": {"chapter": [2, 4], "figures": [{"segmentation": {"reference": "figure 2.3"}}]},
-    "other": {"variants": [{"claims": [{"A": {"published": {"table": "2.3", "value": "2.4"}}}]}]},
-    "third": {"claims": [{"published": {"figure": "2.30 left", "value": "7"}}], "image": {"reference": "2.3"}},
-    "fourth": {"figures": [{"restoration": {"reference": "equation (2.7)"}}]},
+    "one": {"chapter": [2, 4], "figures": [{"name": "segmentation", "reference": "figure 2.3"}]},
+    "other": {"variants": [{"claims": [{"claim": "A", "published": {"table 2.3": "2.4"}}]}]},
+    "third": {"claims": [{"published": {"figure 2.30 left": "7"}}], "image": {"reference": "2.3"}},
+    "fourth": {"figures": [{"name": "restoration", "reference": "equation (2.7)"}]},
 }
 
 

@@ -16,15 +16,15 @@ from surfexp.lab.experiment.hydra_flags import FLAGS, WITH_VALUE, parted
 OWN = """# @package _global_
 experiment: own
 title: Own
-surface: {icosphere: {levels: 2}}
+surface: {name: icosphere, levels: 2}
 image: two_phase
 operator: fem
 model: rof
 columns: [relative_gap]
 claims: []
 variants:
-  - {comparison: A, solver: {primal_dual: {tolerance: 1.0e-3}}}
-  - {comparison: A, solver: {newton: {tolerance: 1.0e-5}}}
+  - {comparison: A, solver: {name: primal_dual, tolerance: 1.0e-3}}
+  - {comparison: A, solver: {name: newton, tolerance: 1.0e-5}}
 """
 
 
@@ -193,7 +193,7 @@ def test_what_is_removed_is_not_computed_with(own: Path, capsys: pytest.CaptureF
 
     (removed,) = plan_and_act(["experiment=own", "~surface.levels"], lambda plan: None)
     file = own / "conf" / "experiment" / "own.yaml"
-    file.write_text(OWN.replace("surface: {icosphere: {levels: 2}}", "surface: icosphere"))
+    file.write_text(OWN.replace("surface: {name: icosphere, levels: 2}", "surface: icosphere"))
     (default,) = plan_and_act(["experiment=own"], lambda plan: None)
     file.write_text(OWN)
     (whole,) = plan_and_act(["experiment=own"], lambda plan: None)

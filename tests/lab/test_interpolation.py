@@ -43,7 +43,7 @@ def test_what_another_key_says_is_filled_in() -> None:
 def test_the_environment_is_in_nothing_that_is_written(command: str, working_folder: Path) -> None:
     folder = working_folder / "conf" / "experiment"
     folder.mkdir(parents=True)
-    text = "title: t\ncaption: '${oc.env:SECRET}'\nsurface: {icosphere: {levels: 1}}\noperator: fem\n"
+    text = "title: t\ncaption: '${oc.env:SECRET}'\nsurface: {name: icosphere, levels: 1}\noperator: fem\n"
     (folder / "strange.yaml").write_text(f"# @package _global_\n{text}")
     done = subprocess.run(
         [sys.executable, "-P", "-m", "surfexp.commands.command_line", command, "experiment=strange"],

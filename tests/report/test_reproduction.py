@@ -121,7 +121,7 @@ STATED = (
 def document(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     """Of one experiment of chapter 2, with a third claim that cannot be compared, and of one without a chapter."""
     monkeypatch.setattr(stamp, "state_of_code", lambda: STATE)
-    other = {"not_comparable": "Another ball.", "between": None, "because": "", "claim": "as large as his"}
+    other = {"between": "not comparable", "because": "Another ball.", "claim": "as large as his"}
     plan.settings.claims[:] = [CLAIM, CLAIM | {"claim": "ours", "between": [1, 2], "published": {}}, CLAIM | other]
     ours = plan.settings.model_copy(update={"chapter": None})
     apart = dataclasses.replace(plan, settings=ours) if dataclasses.is_dataclass(plan) else plan
