@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +42,7 @@ def surface_options(command: Command) -> Command:
 
 
 def picture_options(command: Command) -> Command:
-    """Add the options of a picture: sides, colours, limits, lines."""
+    """Add the options of a picture (sides, colours, limits, lines), handed on as `looks`, as `sx.plot` and `sx.view` take them."""
     options: list[Callable[[Command], Command]] = [
         click.option(
             "--views", metavar="NAME,...", help="lateral, medial, left, right, front, back, top, bottom, oblique"
@@ -50,32 +51,21 @@ def picture_options(command: Command) -> Command:
         click.option("--limits", nargs=2, type=float, metavar="LOW HIGH", help="ends of the colour bar"),
         click.option("--contours", multiple=True, type=float, metavar="LEVEL", help="draw a line; repeatable"),
         click.option("--borders", metavar="NAME", help="draw the borders of labels that the surface carries"),
-        click.option(
-            "--label", default="", show_default=False, help="of the colour bar; by default the name of the map"
-        ),
+        click.option("--label", help="of the colour bar; by default the name of the map"),
     ]
+
+    @wraps(command)
+    def gathered(map_name: str | None, **given: Any) -> Any:
+        looks = {name: given.pop(name) or None for name in ("views", "colormap", "limits", "contours", "borders")}
+        if looks["views"]:
+            looks["views"] = [name.strip() for name in looks["views"].split(",")]
+        looks["label"] = given.pop("label") or Path(map_name or "").name
+        return command(map_name=map_name, looks=looks, **given)
+
+    decorated: Command = gathered
     for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def looks(
-    views: str | None,
-    colormap: str | None,
-    limits: tuple[float, float] | None,
-    contours: tuple[float, ...],
-    borders: str | None,
-    label: str,
-) -> dict[str, Any]:
-    """Return the options of a picture as `sx.plot` and `sx.view` take them."""
-    return {
-        "views": [name.strip() for name in views.split(",")] if views else None,
-        "colormap": colormap,
-        "limits": limits or None,
-        "contours": contours or None,
-        "borders": borders,
-        "label": label,
-    }
+        decorated = option(decorated)
+    return decorated
 
 
 def result_option(required: bool = True) -> Callable[[Command], Command]:

@@ -12,7 +12,6 @@ from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import (
     finish,
-    looks,
     map_of,
     opened,
     picture_options,
@@ -229,12 +228,7 @@ def plot(
     map_name: str | None,
     width: int,
     target: Path,
-    views: str | None,
-    colormap: str | None,
-    limits: tuple[float, float] | None,
-    contours: tuple[float, ...],
-    borders: str | None,
-    label: str,
+    looks: dict[str, Any],
     **given: Any,
 ) -> None:
     """Draw a surface, coloured by a map or by labels.
@@ -247,6 +241,5 @@ def plot(
     surface, files = opened(path, **given)
     values = shown_map(surface, map_name, files)
     ready(target, files, check_picture_target)
-    named = label or Path(map_name or "").name
-    task(surface, values, width=width, **looks(views, colormap, limits, contours, borders, named)).save(target)
+    task(surface, values, width=width, **looks).save(target)
     click.echo(str(target))

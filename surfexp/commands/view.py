@@ -10,7 +10,6 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import (
-    looks,
     opened,
     picture_options,
     ready,
@@ -34,12 +33,7 @@ def view(
     map_name: str | None,
     title: str,
     target: Path | None,
-    views: str | None,
-    colormap: str | None,
-    limits: tuple[float, float] | None,
-    contours: tuple[float, ...],
-    borders: str | None,
-    label: str,
+    looks: dict[str, Any],
     **given: Any,
 ) -> None:
     """Turn a surface, coloured by a map or by labels.
@@ -53,8 +47,7 @@ def view(
     values = shown_map(surface, map_name, files)
     if target is not None:
         ready(target, files, check_view_target)
-    named = label or Path(map_name or "").name
-    seen = task(surface, values, title=title, **looks(views, colormap, limits, contours, borders, named))
+    seen = task(surface, values, title=title, **looks)
     chosen = target or Path(tempfile.mkdtemp(prefix="surfexp-")) / f"{Path(path).name}.html"
     seen.save(chosen)
     click.echo(str(chosen))
