@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from surfexp.tasks.distances import align as align
     from surfexp.tasks.distances import distance as distance
     from surfexp.tasks.files import read as read
-    from surfexp.tasks.files import write as write
     from surfexp.tasks.fingerprints import fingerprint as fingerprint
     from surfexp.tasks.noise_of_map import noise as noise
     from surfexp.tasks.null_maps import null_maps as null_maps
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.spectra import eigsh as eigsh
     from surfexp.tasks.spectrum_of_surface import Spectrum as Spectrum
     from surfexp.tasks.viewing import view as view
+    from surfexp.tasks.written_files import write as write
 
 try:
     __version__ = version("surfexp")

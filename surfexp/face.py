@@ -29,5 +29,5 @@ FACE = {
     "shape": "surfexp.tasks.shapes",
     "smooth": "surfexp.tasks.denoising",
     "view": "surfexp.tasks.viewing",
-    "write": "surfexp.tasks.files",
+    "write": "surfexp.tasks.written_files",
 }

@@ -53,6 +53,7 @@ def collect(
     """
     import yaml
 
+    from surfexp.io.replacing import replacing
     from surfexp.lab.experiment.dataset_files import (
         CLASS_OF_NAME,
         PATTERNS,
@@ -61,7 +62,7 @@ def collect(
         unused_columns,
     )
 
-    target = Path("conf", "datasets", f"{name or name_of_dataset(source)}.yaml")
+    target = Path("conf", "datasets", f"{(name or name_of_dataset(source)).removesuffix('.yaml')}.yaml")
     if target.exists() and not force:
         raise UserError(f"{target} exists; --force replaces it, --to chooses another name")
     known = items_of_files(source, list(patterns) or PATTERNS, group or CLASS_OF_NAME, surface)
@@ -74,7 +75,9 @@ def collect(
         raise UserError(f"{source}: {len(items)} surfaces can be read, a dataset needs at least 2")
     target.parent.mkdir(parents=True, exist_ok=True)
     left_out = "".join(f"# left out: {file.name}: {reason}\n" for file, reason in refused.items())
-    target.write_text(left_out + yaml.safe_dump({dataset: items}, sort_keys=False, allow_unicode=True, width=1000))
+    listed = yaml.safe_dump({dataset: items}, sort_keys=False, allow_unicode=True, width=1000)
+    with replacing(target) as temporary:
+        temporary.write_text(left_out + listed, encoding="utf-8")
     click.echo(f"written: {target}; use it with datasets={target.stem}")
 
 

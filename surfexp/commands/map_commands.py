@@ -59,12 +59,13 @@ def denoise(
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
-    from surfexp.tasks.files import check_target
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    maps = given_maps(surface, map_name, files)
-    ready(target, files, check_target)
+    maps = given_maps(surface, map_name, files, given["hemisphere"])
     values = side_by_side(maps, map_name)
+    channels = 1 if values.ndim == 1 else values.shape[1]
+    ready(target, files, check_target, channels=channels, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     with progress_line("denoise") as progress:
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
@@ -97,12 +98,13 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import smooth as task
-    from surfexp.tasks.files import check_target
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    maps = given_maps(surface, map_name, files)
-    ready(target, files, check_target)
+    maps = given_maps(surface, map_name, files, given["hemisphere"])
     values = side_by_side(maps, map_name)
+    channels = 1 if values.ndim == 1 else values.shape[1]
+    ready(target, files, check_target, channels=channels, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     smoothed = task(surface, values, width)
     facts = smoothed.certificate | {"seconds": time.perf_counter() - started}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -54,25 +55,30 @@ def check(files: tuple[str, ...]) -> int:
 @click.command(**shown("repair", "scan.ply --to sound.ply", "scan.obj --largest-component --to sound.ply"))
 @click.argument("file", type=click.Path())
 @click.option("--largest-component", is_flag=True, help="keep the component of largest area only")
+@click.option("--renumber", is_flag=True, help="drop vertices without faces; without it all keep their numbers")
+@click.option("--hemisphere", type=click.Choice(["left", "right"]), help="overrides what the file says")
 @click.option("--to", "target", type=click.Path(path_type=Path), required=True, help="result; the suffix decides")
-def repair(file: str, largest_component: bool, target: Path) -> None:
+def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str | None, target: Path) -> None:
     """Repair the defects of a mesh and name each change.
 
-    Maps are taken along where the format of the result holds some.
+    Maps are taken along where the format of the result holds some. Vertices keep their numbers, so that maps beside FILE fit;
+    copies of vertices that are split stand behind all others.
     """
-    from surfexp.io.reading import hemisphere_of_file, read_mesh_file
-    from surfexp.io.writing import WITH_MAPS, check_mesh_target, write_mesh
-    from surfexp.mesh.repair import repair as task
+    from surfexp.io.hemisphere import hemisphere_of_file
+    from surfexp.tasks.repairing import repair as task
+    from surfexp.tasks.written_files import check_surface_target, written
 
     files = Inputs(file)
-    ready(target, files, check_mesh_target)
-    given = read_mesh_file(file)
-    mesh, changes, origin = task(given.vertices, given.faces, largest_component=largest_component)
-    kept = (
-        {name: values[origin] for name, values in given.scalars.items()} if target.suffix.lower() in WITH_MAPS else {}
-    )
-    write_mesh(target, mesh, kept, given.frame, hemisphere_of_file(file))
+    side = hemisphere or hemisphere_of_file(file)
+    ready(target, files, check_surface_target, hemisphere=side)
+    surface = replace(task(file, largest_component=largest_component, renumber=renumber), hemisphere=side)
+    mesh, changes = surface.mesh, surface.notes
+    lost = written(target, surface)
     facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
-    proof = write_certificate(target, "repair", {"largest_component": largest_component}, files, facts, tuple(changes))
+    proof = write_certificate(
+        target, "repair", {"largest_component": largest_component, "renumber": renumber}, files, facts, changes
+    )
     click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
     click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    for note in lost:
+        click.echo(note)

@@ -25,14 +25,14 @@ def noise(path: str, map_name: str, second_name: str | None, target: Path | None
 
     MAP is a file, or a map that the surface carries. With --to the level at each vertex is written.
     """
-    from surfexp.tasks.files import check_target
     from surfexp.tasks.noise_of_map import noise as task
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files)
-    second = map_of(surface, second_name, files) if second_name else None
+    values = map_of(surface, map_name, files, given["hemisphere"])
+    second = map_of(surface, second_name, files, given["hemisphere"]) if second_name else None
     if target is not None:
-        ready(target, files, check_target)
+        ready(target, files, check_target, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     found = task(surface, values, second)
     seconds = time.perf_counter() - started

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,12 +33,12 @@ def segment(path: str, map_name: str | None, smoothness: float, tolerance: float
     They are where MAP is larger and where it is smaller. Without MAP it is the mean curvature, clipped at the median of
     its size: gyri and sulci of a cortex.
     """
-    from surfexp.tasks.files import check_target
     from surfexp.tasks.segmentation import segment as task
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files) if map_name else None
-    ready(target, files, partial(check_target, labels=True))
+    values = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None
+    ready(target, files, check_target, hemisphere=surface.hemisphere, labels=True)
     started = time.perf_counter()
     with progress_line("segment") as progress:
         parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, progress=progress)

@@ -33,7 +33,7 @@ def surface_options(command: Command) -> Command:
             "--map", "maps", multiple=True, type=click.Path(), metavar="NAME=FILE", help="attach a map; repeatable"
         ),
         click.option("--unit", default="", show_default=False, help="unit of length, for colour bars and tables"),
-        click.option("--hemisphere", type=click.Choice(["left", "right"]), help="where the file does not say it"),
+        click.option("--hemisphere", type=click.Choice(["left", "right"]), help="overrides what the files say"),
         click.option("--repair", is_flag=True, help=repaired),
     ]
     for option in reversed(options):
@@ -92,28 +92,34 @@ def opened(
     return surface, files
 
 
-def map_of(surface: Surface, given: str, files: Inputs) -> Floats:
+def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Floats:
     """Return a map by the name that the surface carries it under, or those of a file side by side."""
     from surfexp.io.map_files import side_by_side
 
-    return side_by_side(given_maps(surface, given, files), given)
+    return side_by_side(given_maps(surface, given, files, side), given)
 
 
-def shown_map(surface: Surface, given: str | None, files: Inputs) -> Any:
+def shown_map(surface: Surface, given: str | None, files: Inputs, side: str | None) -> Any:
     """Return what a picture shows: the labels of a name, a map as `map_of`, or nothing."""
     if not given:
         return None
-    return surface.labels[given] if given in surface.labels else map_of(surface, given, files)
+    return surface.labels[given] if given in surface.labels else map_of(surface, given, files, side)
 
 
-def given_maps(surface: Surface, given: str, files: Inputs) -> dict[str, Floats]:
+def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) -> dict[str, Floats]:
     """Return a map by the name that the surface carries it under, or those of a file, which joins the inputs.
+
+    Parameters
+    ----------
+    side : {"left", "right"}, optional
+        As the user says; it overrides what the file says.
 
     Raises
     ------
     ValueError
-        If there is neither, or the file cannot be read.
+        If there is neither, the file cannot be read, or it is of the other hemisphere.
     """
+    from surfexp.io.hemisphere import check_same_side
     from surfexp.io.map_files import read_maps
 
     if given in surface.scalars:
@@ -124,6 +130,8 @@ def given_maps(surface: Surface, given: str, files: Inputs) -> dict[str, Floats]
         hint = f"did you mean {near[0]!r}?" if near else f"it carries {', '.join(known)}"
         raise ValueError(f"{given} is no file, and no map that {surface.name} carries; {hint}")
     files.add(given)
+    if side is None:
+        check_same_side("map", given, surface.hemisphere)
     return read_maps(given, surface.hemisphere)
 
 
@@ -141,15 +149,24 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in zip(maps, parts, strict=True)}
 
 
-def ready(target: Path, files: Inputs, check: Callable[[Path], None]) -> None:
+def ready(target: Path, files: Inputs, check: Callable[..., None], **wanted: Any) -> None:
     """Refuse a result that cannot be written, or would overwrite what it is made of, before anything is computed.
+
+    Parameters
+    ----------
+    target : Path
+    files : Inputs
+    check : callable
+        Refuses targets of the kind of the result.
+    **wanted
+        What `check` has to know of the result beside the target.
 
     Raises
     ------
     ValueError
         Naming what is wrong with the target.
     """
-    check(target)
+    check(target, **wanted)
     files.refuse_to_overwrite(target)
 
 
@@ -187,9 +204,9 @@ def finish(
     int
         3 where the certificate says that something did not converge or is not proved complete, else 0.
     """
-    from surfexp.tasks.files import write
+    from surfexp.tasks.written_files import written
 
-    write(target, result, surface)
+    notes = (*notes, *written(target, result, surface))
     said = tuple(dict.fromkeys((*(surface.notes if surface is not None else ()), *notes)))
     certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:

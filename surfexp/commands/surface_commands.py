@@ -45,11 +45,11 @@ EXAMPLES = {
 @result_option()
 def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> int:
     """Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."""
-    from surfexp.tasks.files import check_target
     from surfexp.tasks.spectra import eigenpairs
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target)
+    ready(target, files, check_target, count=count, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     with progress_line("modes") as progress:
         system = eigenpairs(surface, count, tolerance=tolerance, progress=progress)
@@ -72,11 +72,11 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     """Measure the geodesic distance from vertices, with a bound from below."""
     import numpy as np
 
-    from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import geodesic as task
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target)
+    ready(target, files, check_target, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     values, lower = task(surface, sources, bounds=True)
     unreached = np.isinf(values)
@@ -93,11 +93,11 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
 @result_option()
 def curvature(path: str, target: Path, **given: Any) -> None:
     """Compute the mean curvature, positive where the surface bulges outward."""
-    from surfexp.tasks.files import check_target
     from surfexp.tasks.skeletons import mean_curvature
+    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target)
+    ready(target, files, check_target, hemisphere=surface.hemisphere)
     finish(target, {"mean curvature": mean_curvature(surface)}, surface, "mean curvature", {}, files, {})
 
 
@@ -118,7 +118,7 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     from surfexp.tasks.spectra import eigenpairs
 
     surface, files = opened(path, **given)
-    given_map = map_of(surface, map_name, files) if map_name else None
+    given_map = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None
     ready(target, files, check_skeleton_target)
     values = first_eigenfunction(eigenpairs(surface, 3)) if given_map is None else given_map
     graph = reeb_graph(surface, values, count=count)
@@ -177,11 +177,13 @@ def align(first: str, second: str, count: int, target: Path) -> None:
 
     Signs, order and rotations of the modes of SECOND become those of FIRST.
     """
-    from surfexp.io.map_files import check_map_target
+    from surfexp.io.replacing import check_writable
     from surfexp.tasks.distances import align as task
 
     files = Inputs(first, second)
-    ready(target, files, check_map_target)
+    if target.suffix.lower() != ".npz":
+        raise ValueError(f"{target} cannot hold the aligned modes and their basis, two arrays: choose .npz")
+    ready(target, files, check_writable)
     started = time.perf_counter()
     with progress_line("align") as progress:
         found = task(first, second, count, progress=progress)
@@ -203,17 +205,16 @@ def align(first: str, second: str, count: int, target: Path) -> None:
 def convert(path: str, target: Path, **given: Any) -> None:
     """Write a surface in another format, with its maps.
 
-    The suffix of TARGET decides; maps are left out where the format has no room for them.
+    The suffix of TARGET decides; what its format has no room for is named.
     """
-    from surfexp.io.writing import check_mesh_target, format_of
-    from surfexp.tasks.files import write
+    from surfexp.tasks.written_files import check_surface_target, written
 
     surface, files = opened(path, **given)
-    ready(target, files, check_mesh_target)
-    write(target, surface)
+    ready(target, files, check_surface_target, hemisphere=surface.hemisphere)
+    notes = written(target, surface)
     click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
-    if lost := surface.frame.lost_in(format_of(target)):
-        click.echo(lost)
+    for note in notes:
+        click.echo(note)
 
 
 @click.command(**shown("plot", *EXAMPLES["plot"]))
@@ -239,7 +240,7 @@ def plot(
     from surfexp.tasks.pictures import plot as task
 
     surface, files = opened(path, **given)
-    values = shown_map(surface, map_name, files)
+    values = shown_map(surface, map_name, files, given["hemisphere"])
     ready(target, files, check_picture_target)
     task(surface, values, width=width, **looks).save(target)
     click.echo(str(target))

@@ -44,7 +44,7 @@ def view(
     from surfexp.tasks.viewing import view as task
 
     surface, files = opened(path, **given)
-    values = shown_map(surface, map_name, files)
+    values = shown_map(surface, map_name, files, given["hemisphere"])
     if target is not None:
         ready(target, files, check_view_target)
     seen = task(surface, values, title=title, **looks)

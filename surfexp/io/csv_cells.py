@@ -27,6 +27,11 @@ def cell(value: Any) -> Any:
     return value
 
 
+def uncell(text: str) -> str:
+    """Return the text of a cell without the mark that `cell` has put before it."""
+    return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
+
+
 def cells(row: Iterable[Any]) -> list[Any]:
     """Return the cells of a row."""
     return [cell(value) for value in row]

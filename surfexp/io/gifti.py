@@ -172,7 +172,8 @@ def read_gifti_labels(path: Path) -> LabelMap:
         If the file is not GIFTI.
     """
     image = _load(path)
-    names = {int(key): str(name) for key, name in image.labeltable.get_labels_as_dict().items()}
+    # an empty name is no attribute of nibabel's entry
+    names = {int(entry.key): str(getattr(entry, "label", "")) for entry in image.labeltable.labels}
     arrays, nodes = _nodes(image.darrays)
     if not arrays:
         raise ValueError("it holds no labels")

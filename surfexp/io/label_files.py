@@ -12,6 +12,8 @@ from surfexp.contract.arrays import Integers
 from surfexp.io.cifti import is_cifti, read_cifti_labels
 from surfexp.io.foreign import parsing
 from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels
+from surfexp.io.hemisphere import check_named_side
+from surfexp.io.map_names import check_label_names
 from surfexp.io.replacing import replacing
 from surfexp.mesh.label_map import LabelMap
 
@@ -23,34 +25,49 @@ def label_colors(count: int) -> NDArray[np.int64]:
 
 
 def write_labels(path: Path | str, labels: Integers, names: Sequence[str], hemisphere: str = "") -> None:
+    """Write labels from 0 to the number of names less 1 as `write_label_map` does.
+
+    Raises
+    ------
+    ValueError
+        As `write_label_map`, or if a label has no name.
+    """
+    labels = np.asarray(labels, dtype=np.int64)
+    if len(labels) and (labels.min() < 0 or labels.max() >= len(names)):
+        given = f"labels go from {labels.min()} to {labels.max()}"
+        raise ValueError(f"{given}, the {len(names)} names are of 0..{len(names) - 1}")
+    write_label_map(path, LabelMap(labels, dict(enumerate(names))), hemisphere)
+
+
+def write_label_map(path: Path | str, table: LabelMap, hemisphere: str = "") -> None:
     """Write labels as .label.gii (or .gii) or .annot, by the file's name, with a colour for each.
 
     Parameters
     ----------
-    labels : (n,) int64
-        From 0 to the number of names less 1; by use 0 is "unknown".
-    names : sequence of str
-        One for each label.
+    table : LabelMap
+        By use 0 is "unknown". An annotation numbers labels from 0 in the order of the names.
     hemisphere : {"", "left", "right"}
         GIFTI says it; an annotation says it by its name alone.
 
     Raises
     ------
     ValueError
-        If a label has no name, names repeat, or the format is another.
+        If an annotation has a label without a name, a name cannot be stored, the format is another, or the file is named as
+        the other hemisphere.
     """
-    path, labels = Path(path), np.asarray(labels, dtype=np.int64)
-    if len(labels) and (labels.min() < 0 or labels.max() >= len(names)):
-        given = f"labels go from {labels.min()} to {labels.max()}"
-        raise ValueError(f"{given}, the {len(names)} names are of 0..{len(names) - 1}")
-    table = LabelMap(labels, dict(enumerate(names)))
+    path = Path(path)
     if path.suffix not in (".gii", ".annot"):
         raise ValueError(f"{path} has an unknown format of labels, choose one of .label.gii, .annot")
+    check_named_side(path, hemisphere)
+    check_label_names(table.names.values())
+    largest = int(np.abs([*table.names, *(table.keys.min(), table.keys.max())]).max()) if len(table.keys) else 0
+    if largest > np.iinfo(np.int32).max:
+        raise ValueError(f"label {largest} is beyond {np.iinfo(np.int32).max}, the largest that a file holds: renumber")
     with replacing(path) as temporary:
         if path.suffix == ".gii":
-            write_gifti_labels(temporary, labels, dict(table.names), label_colors(len(names)), hemisphere)
+            write_gifti_labels(temporary, table.keys, dict(table.names), label_colors(len(table.names)), hemisphere)
         else:
-            _write_annotation(temporary, labels, names)
+            _write_annotation(temporary, table)
 
 
 def read_label_map(path: Path | str, hemisphere: str = "") -> LabelMap:
@@ -113,8 +130,15 @@ def _read_annotation(path: Path) -> LabelMap:
     return LabelMap(keys, {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)})
 
 
-def _write_annotation(path: Path, labels: Integers, names: Sequence[str]) -> None:
+def _write_annotation(path: Path, table: LabelMap) -> None:
+    """Write labels by their place in the table of names; -1, which no name may have, is none."""
     from nibabel.freesurfer import write_annot
 
-    table = np.column_stack([label_colors(len(names)), np.zeros(len(names), np.int64)]).astype(np.int32)
-    write_annot(path, labels.astype(np.int32), table, [name.encode() for name in names], fill_ctab=True)
+    count, place = len(table.names), {key: number for number, key in enumerate(table.names)}
+    used = np.unique(table.keys).tolist()
+    nameless = next((key for key in used if key not in place and key != -1), None)
+    if nameless is not None or not count:
+        raise ValueError(f"label {nameless if count else used[0]} has no name, an annotation holds named ones: name it")
+    places = np.array([place.get(key, -1) for key in used], dtype=np.int32)[np.searchsorted(used, table.keys)]
+    colors = np.column_stack([label_colors(count), np.zeros(count, np.int64)]).astype(np.int32)
+    write_annot(path, places, colors, [name.encode() for name in table.names.values()], fill_ctab=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +13,12 @@ from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
+from surfexp.io.hemisphere import check_named_side
 from surfexp.io.label_files import read_label_map
 from surfexp.io.map_names import check_map_names
 from surfexp.io.map_shapes import check_map_shapes, scalar_channels
 from surfexp.io.medial_wall import is_outside, outside_names
-from surfexp.io.npz import read_arrays
+from surfexp.io.npz import HEMISPHERE, read_arrays, write_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_maps
@@ -57,20 +57,24 @@ def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
         maps = _read(path, hemisphere)
         check_map_shapes(maps)
     if len(maps) == 1 and next(iter(maps)) in UNNAMED:
-        return {_stem(path): next(iter(maps.values()))}
+        return {name_of_map(path): next(iter(maps.values()))}
     return maps
 
 
-def _stem(path: Path) -> str:
-    """Name of a map by its file: lh.thickness.mgz is lh.thickness, faithful.npy is faithful."""
-    words = path.name.split(".")
+def name_of_map(path: Path | str) -> str:
+    """Return the name of a map by its file: lh.thickness.mgz is lh.thickness, faithful.npy is faithful."""
+    words = Path(path).name.split(".")
     return ".".join(words[:2]) if words[0] in ("lh", "rh") and len(words) > 1 else words[0]
 
 
 def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
     suffix = path.suffix.lower()
     if suffix in (".npy", ".npz"):
-        return {name: real_array(array, f"array {name!r}") for name, array in read_arrays(path).items()}
+        return {
+            name: real_array(array, f"array {name!r}")
+            for name, array in read_arrays(path).items()
+            if name != HEMISPHERE or array.dtype.kind != "U"
+        }
     if suffix in TEXT:
         return read_table(path)
     if is_cifti(path):
@@ -219,10 +223,12 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     Raises
     ------
     ValueError
-        If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range.
+        If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range, or the file
+        is named as the other hemisphere.
     """
     path = Path(path)
-    check_map_target(path)
+    channels = max((values.shape[1] for values in maps.values() if values.ndim == 2), default=1)
+    check_map_target(path, len(maps), channels, hemisphere)
     check_map_names(maps)
     lengths = {len(values) for values in maps.values()}
     # an archive also holds results whose arrays are no maps
@@ -231,8 +237,7 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     suffix = path.suffix.lower()
     with replacing(path) as temporary:
         if suffix == ".npz":
-            arrays: dict[str, Any] = dict(maps)
-            np.savez_compressed(temporary, **arrays)
+            write_arrays(temporary, maps, hemisphere)
         elif suffix in TEXT:
             write_table(temporary, scalar_channels(maps))
         elif is_cifti(path):
@@ -240,32 +245,42 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
         elif is_gifti(path):
             write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
         elif suffix == ".npy":
-            np.save(temporary, _single(path, maps))
+            np.save(temporary, next(iter(maps.values())))
         elif suffix in VOLUMES:
-            freesurfer.write_volume_map(temporary, _single(path, check_single_precision_maps(maps)))
+            freesurfer.write_volume_map(temporary, next(iter(check_single_precision_maps(maps).values())))
         else:
-            freesurfer.write_curvature(temporary, _single(path, check_single_precision_maps(maps)))
+            freesurfer.write_curvature(temporary, next(iter(check_single_precision_maps(maps).values())))
 
 
-def check_map_target(path: Path | str) -> None:
-    """Refuse a file that no map can be written to: of an unknown format, or in no writable folder.
+def check_map_target(path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None) -> None:
+    """Refuse a file that maps cannot be written to: of a format that is unknown or too narrow, or in no writable folder.
+
+    Parameters
+    ----------
+    path : path
+    count : int
+        Number of maps.
+    channels : int
+        The most channels that one has.
+    hemisphere : {"", "left", "right"}, optional
+        Of the maps; None if it is not known yet.
 
     Raises
     ------
     ValueError
-        Naming the formats.
+        Naming the formats that can hold them, or if the file is named as the other hemisphere.
     """
     path = Path(path)
     suffix = path.suffix.lower()
     known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or is_cifti(path) or is_gifti(path)
     if not known and not freesurfer.hemisphere_of(path):
         raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
+    if count != 1 and not holds_names(path):
+        raise ValueError(f"{path} holds one map, there are {count}: choose .npz, .func.gii or .csv")
+    if channels > 1 and not holds_names(path) and suffix not in (".npy", *VOLUMES):
+        raise ValueError(f"{path} holds one number a vertex, the map has {channels}: choose .mgh, .npz or .func.gii")
+    if hemisphere is not None:
+        check_named_side(path, hemisphere)
+        if is_cifti(path) and not hemisphere:
+            raise ValueError(f"{path} needs a hemisphere, none is known: give hemisphere=left or right")
     check_writable(path)
-
-
-def _single(path: Path, maps: dict[str, Floats]) -> Floats:
-    if len(maps) != 1:
-        raise ValueError(
-            f"{path} takes one map, there are {len(maps)} ({', '.join(maps)}): choose .npz, .func.gii or .csv"
-        )
-    return next(iter(maps.values()))

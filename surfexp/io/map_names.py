@@ -18,6 +18,19 @@ def check_map_names(names: Iterable[str]) -> None:
             raise ValueError(f"map name {name!r} is empty or has characters that are not printed: rename the map")
 
 
+def check_label_names(names: Iterable[str]) -> None:
+    """Refuse names of labels with control characters, which no reader gives back; one may be empty.
+
+    Raises
+    ------
+    ValueError
+        Naming the first of them.
+    """
+    for name in names:
+        if not name.isprintable() or name != name.strip():
+            raise ValueError(f"name {name!r} of a label has characters that are not printed: rename the label")
+
+
 def names_without_spaces(names: Iterable[str], reserved: Collection[str] = ()) -> list[str]:
     """Return names for formats whose names are words: an underscore stands for white space.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import zipfile
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.numbers import checked_geometry, real_array
 from surfexp.io.unpacked_sizes import check_arrays
 from surfexp.mesh.triangle_mesh import TriangleMesh
+
+HEMISPHERE, SIDES = "hemisphere", ("left", "right")
 
 
 def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
@@ -51,15 +54,46 @@ def read_npz_mesh(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     return *checked_geometry(vertices, faces), maps
 
 
-def write_npz_mesh(path: Path, mesh: TriangleMesh, maps: dict[str, Floats]) -> None:
-    """Write vertices, faces and maps, compressed.
+def hemisphere_of_npz(path: Path) -> str:
+    """Return "left" or "right" where the array "hemisphere" says so, else nothing.
 
     Raises
     ------
     ValueError
-        If a map is called "vertices" or "faces".
+        As `read_arrays`.
+    """
+    found = read_arrays(path).get(HEMISPHERE)
+    return str(found) if found is not None and found.dtype.kind == "U" and str(found) in SIDES else ""
+
+
+def write_npz_mesh(path: Path, mesh: TriangleMesh, maps: dict[str, Floats], hemisphere: str = "") -> None:
+    """Write vertices, faces, maps and the hemisphere, compressed.
+
+    Raises
+    ------
+    ValueError
+        As `write_arrays`, or if a map is called "vertices" or "faces".
     """
     if {"vertices", "faces"} & set(maps):
         raise ValueError("a map is called 'vertices' or 'faces', the names of the mesh: rename it")
-    arrays: dict[str, Any] = {"vertices": mesh.vertices, "faces": mesh.faces, **scalar_channels(maps)}
-    np.savez_compressed(path, **arrays)
+    write_arrays(path, {"vertices": mesh.vertices, "faces": mesh.faces, **scalar_channels(maps)}, hemisphere)
+
+
+def write_arrays(path: Path, arrays: Mapping[str, NDArray[np.generic]], hemisphere: str = "") -> None:
+    """Write arrays under their names, compressed, and the hemisphere as the array of that name.
+
+    Raises
+    ------
+    ValueError
+        If an array has that name, or one that ends in .npy.
+    """
+    if hemisphere and HEMISPHERE in arrays:
+        raise ValueError(f"a map is called {HEMISPHERE!r}, the name of what says left or right: rename it")
+    kept = {**arrays, **({HEMISPHERE: np.array(hemisphere)} if hemisphere else {})}
+    if reserved := [name for name in kept if name.endswith(".npy")]:
+        raise ValueError(f"map name {reserved[0]!r} ends as the files in an archive do: rename the map")
+    # numpy's own function has parameters that could be names of maps
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in kept.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)

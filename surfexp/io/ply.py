@@ -28,6 +28,8 @@ TYPES = {
     **{"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
     **{"float": "f4", "double": "f8", "float32": "f4", "float64": "f8"},
 }
+HEMISPHERE = re.compile(rb"^comment hemisphere (left|right)[ \t]*\r?$", re.M)
+LONGEST_HEADER = 1 << 16
 ORDERS = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -104,7 +106,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
         raise ValueError("it has no PLY header")
     end = closing.start()
     order, elements = "", list[Element]()
-    for line in data[:end].decode("ascii", "replace").splitlines():
+    for line in data[:end].decode("utf-8", "replace").splitlines():
         words = line.split()
         if words[:1] == ["format"] and len(words) > 1 and words[1] in ORDERS:
             order = ORDERS[words[1]]
@@ -212,8 +214,18 @@ def _mixed_element(data: bytes, at: int, element: Element, order: str) -> tuple[
     return {name: _scalars_or_lists(lists[name], length) for name, _, length in element.properties}, at
 
 
-def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
+def hemisphere_of_ply(path: Path) -> str:
+    """Return "left" or "right" where a comment of the header says so, else nothing."""
+    with path.open("rb") as stream:
+        head = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
+    found = HEMISPHERE.search(head)
+    return found[1].decode() if found and head.startswith(b"ply") else ""
+
+
+def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None, hemisphere: str = "") -> None:
     """Write binary little-endian PLY in double precision, each scalar map as a vertex property of its name.
+
+    The hemisphere is a comment of the header.
 
     A map of three whole numbers from 0 to 255 that is called a colour is written as such, as viewers read it.
     """
@@ -227,7 +239,8 @@ def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     properties += [(name, "double", "<f8", values) for name, values in zip(names, channels.values(), strict=True)]
     for values in colours.values():
         properties += [(name, "uchar", "u1", values[:, k]) for k, name in enumerate(COLOURS)]
-    head = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
+    head = ["ply", "format binary_little_endian 1.0", *([f"comment hemisphere {hemisphere}"] if hemisphere else [])]
+    head.append(f"element vertex {len(mesh.vertices)}")
     head += [f"property {kind} {name}" for name, kind, _, _ in properties]
     head += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
     vertices = np.empty(len(mesh.vertices), dtype=[(name, code) for name, _, code, _ in properties])

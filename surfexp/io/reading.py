@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.io import freesurfer
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
-from surfexp.io.gifti import hemisphere_of_gifti, is_gifti, read_gifti_rest, read_gifti_surface
+from surfexp.io.gifti import is_gifti, read_gifti_rest, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.mesh_file import Decoded, MeshFile
@@ -36,11 +35,7 @@ ARRAYS: dict[str, Callable[[Path], Any]] = {".vert": read_vert_tri, ".tri": read
 ARRAYS |= {".asc": freesurfer.read_ascii_geometry}
 KNOWN = ", ".join([*READERS, ".gii, .npz, .vert/.tri, .asc, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"])
 
-LEFT = {"l", "lh", "left"}
-# lh and rh anywhere between signs, left and right, hemi-L, and the single letters of HCP and BIDS
-NAMED_SIDE = re.compile(r"(?:^|(?<=[._-]))(lh|rh|LH|RH|left|right|(?<=hemi-)[LR]|(?<=[.])[LR](?=[.]))(?=$|[._-])")
-
-__all__ = ["hemisphere_of_file", "read_maps", "read_mesh", "read_mesh_file"]
+__all__ = ["read_maps", "read_mesh", "read_mesh_file"]
 
 
 def read_mesh(path: Path | str) -> tuple[Floats, Integers, dict[str, Floats]]:
@@ -78,22 +73,6 @@ def read_mesh_file(path: Path | str) -> MeshFile:
             if len(values) != len(points):
                 raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")
     return MeshFile(points, corners, found.scalars, (*found.notes, *notes), found.frame)
-
-
-def hemisphere_of_file(path: Path | str) -> str:
-    """Return "left" or "right" where a GIFTI file or the name of a file says so, else nothing."""
-    path = Path(path)
-    inside = ""
-    if is_gifti(path):
-        check_declared_sizes(path)
-        inside = hemisphere_of_gifti(path)
-    return inside or hemisphere_of_name(path.name)
-
-
-def hemisphere_of_name(name: str) -> str:
-    """Return "left" or "right" for names such as lh.white, sub-1_hemi-L_pial.gii, fsLR.R.sulc.gii, else nothing."""
-    sides = {"left" if match.lower() in LEFT else "right" for match in NAMED_SIDE.findall(name)}
-    return sides.pop() if len(sides) == 1 else ""
 
 
 def _read(path: Path) -> Decoded:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.csv_cells import cell
+from surfexp.io.csv_cells import cell, uncell
 from surfexp.io.numbers import real_array
 
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
@@ -29,7 +29,7 @@ def read_table(path: Path) -> dict[str, Floats]:
     rows = [row for row in rows if not row[0].lstrip().startswith("#")]
     if not rows:
         raise ValueError("it holds no row")
-    header = [] if all(map(_is_number, rows[0])) else [word.strip() for word in rows.pop(0)]
+    header = [] if all(map(_is_number, rows[0])) else [uncell(word.strip()) for word in rows.pop(0)]
     width = len(header) or len(rows[0])
     for number, row in enumerate(rows, 1 + bool(header)):
         if len(row) != width:
@@ -45,12 +45,25 @@ def read_table(path: Path) -> dict[str, Floats]:
 
 
 def write_table(path: Path, maps: dict[str, Floats]) -> None:
-    """Write columns with all their digits: .csv with a header, else numbers alone; NaN is written nan."""
-    separator = "," if path.suffix.lower() == ".csv" else " "
-    rows = zip(*(values.tolist() for values in maps.values()), strict=True)
-    lines = [separator.join(map(repr, row)) for row in rows]
-    head = [separator.join(cell(name.replace(",", " ")) for name in maps)] if separator == "," else []
-    path.write_text("\n".join([*head, *lines]) + "\n")
+    """Write columns with all their digits: .csv with a header, else numbers alone; NaN is written nan.
+
+    Raises
+    ------
+    ValueError
+        If the names in a header would be read as numbers or as a comment, or a name begins as one that is masked.
+    """
+    named = path.suffix.lower() == ".csv"
+    if named and all(map(_is_number, maps)):
+        raise ValueError(f"map names {', '.join(maps)} are read as numbers in a table: rename the maps")
+    for number, name in enumerate(maps):
+        if named and (uncell(cell(name)) != name or (number == 0 and name.startswith("#"))):
+            raise ValueError(f"map name {name!r} is not read back from a table: rename the map")
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, delimiter="," if named else " ", lineterminator="\n")
+        if named:
+            writer.writerow(map(cell, maps))
+        for row in zip(*(values.tolist() for values in maps.values()), strict=True):
+            writer.writerow(map(repr, row))
 
 
 def _is_number(text: str) -> bool:

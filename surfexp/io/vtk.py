@@ -28,7 +28,7 @@ CELLS = ("POLYGONS", "VERTICES", "LINES", "TRIANGLE_STRIPS", "CELLS")
 def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None = None) -> None:
     """Write legacy ASCII polygonal data with one SCALARS block for each map (or channel)."""
     n, m = len(mesh.vertices), len(mesh.faces)
-    lines = ["# vtk DataFile Version 3.0", path.stem, "ASCII", "DATASET POLYDATA", f"POINTS {n} double"]
+    lines = ["# vtk DataFile Version 3.0", "surfexp", "ASCII", "DATASET POLYDATA", f"POINTS {n} double"]
     lines += [" ".join(map(repr, row)) for row in mesh.vertices.tolist()]
     lines += [f"POLYGONS {m} {4 * m}", *(f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist())]
     if scalars:
@@ -36,7 +36,7 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     channels = scalar_channels(scalars or {})
     for name, values in channels.items():
         lines += [f"SCALARS {name_to_word(name)} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
-    path.write_text("\n".join(lines) + "\n")
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
 def read_vtk(path: Path) -> Decoded:

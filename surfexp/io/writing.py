@@ -8,6 +8,7 @@ from pathlib import Path
 from surfexp.contract.arrays import Floats
 from surfexp.io.freesurfer import hemisphere_of, write_freesurfer_geometry
 from surfexp.io.gifti import write_gifti
+from surfexp.io.hemisphere import check_named_side
 from surfexp.io.map_names import check_map_names
 from surfexp.io.npz import write_npz_mesh
 from surfexp.io.obj import write_obj
@@ -23,7 +24,10 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Writer = Callable[[Path, TriangleMesh], None]
 WriterOfMaps = Callable[[Path, TriangleMesh, dict[str, Floats]], None]
-WITH_MAPS: dict[str, WriterOfMaps] = {".ply": write_ply, ".vtk": write_vtk, ".vtp": write_vtp, ".npz": write_npz_mesh}
+WriterOfSides = Callable[[Path, TriangleMesh, dict[str, Floats], str], None]
+WITH_HEMISPHERE: dict[str, WriterOfSides] = {".ply": write_ply, ".npz": write_npz_mesh}
+VTK: dict[str, WriterOfMaps] = {".vtk": write_vtk, ".vtp": write_vtp}
+WITH_MAPS = (".ply", *VTK, ".npz")
 WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".stl": write_stl}
 GIFTI = ".gii"
 SUFFIXES = (*WITHOUT_MAPS, GIFTI, *WITH_MAPS)
@@ -41,13 +45,13 @@ def write_mesh(
     """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
 
     .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision. GIFTI and
-    FreeSurfer's files carry their own part of `frame`, the space of the vertices, and GIFTI the hemisphere.
+    FreeSurfer's files carry their own part of `frame`, the space of the vertices; GIFTI, .ply and .npz the hemisphere.
 
     Raises
     ------
     ValueError
-        If the format is unknown or cannot carry scalar maps, a map has another length than the mesh, or single precision
-        cannot hold the mesh.
+        If the format is unknown or cannot carry scalar maps, a map has another length than the mesh, single precision
+        cannot hold the mesh, or the file is named as the other hemisphere.
     """
     path, maps = Path(path), {}
     check_map_names(scalars or {})
@@ -88,9 +92,12 @@ def _writer(
 ) -> Callable[[Path], None]:
     """Return what writes the mesh, once the format is known to hold it."""
     check_mesh_target(path)
+    check_named_side(path, hemisphere)
     suffix = path.suffix.lower()
-    if suffix in WITH_MAPS:
-        return lambda place: WITH_MAPS[suffix](place, mesh, maps)
+    if suffix in WITH_HEMISPHERE:
+        return lambda place: WITH_HEMISPHERE[suffix](place, mesh, maps, hemisphere)
+    if suffix in VTK:
+        return lambda place: VTK[suffix](place, mesh, maps)
     if maps:
         raise ValueError(f"{path} cannot carry scalar maps ({', '.join(maps)}), choose one of {', '.join(WITH_MAPS)}")
     freesurfer = _is_freesurfer(path)

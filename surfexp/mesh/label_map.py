@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Integers
+from surfexp.mesh.given_arrays import frozen, index_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,21 +18,26 @@ class LabelMap:
 
     Parameters
     ----------
-    keys : (n,) int64
-        The label of each vertex; one that `names` lacks means none.
+    keys : (n,) or (n, 1) int64
+        The label of each vertex; one that `names` lacks means none. Kept as (n,), read-only.
     names : dict of int to str
         What each label stands for.
 
     Raises
     ------
     ValueError
-        If two labels have one name.
+        If two labels have one name, or there is not one whole number a vertex.
     """
 
     keys: Integers
     names: Mapping[int, str]
 
     def __post_init__(self) -> None:
+        keys = index_array(self.keys, "labels")
+        keys = keys[:, 0] if keys.ndim == 2 and keys.shape[1] == 1 else keys
+        if keys.ndim != 1:
+            raise ValueError(f"labels have shape {keys.shape}, one whole number a vertex is needed")
+        object.__setattr__(self, "keys", frozen(keys, self.keys))
         listed = list(self.names.values())
         if len(set(listed)) < len(listed):
             twice = next(name for name in listed if listed.count(name) > 1)

@@ -44,5 +44,6 @@ def cut_to_mask(surface: Surface, mask: ArrayLike | None) -> Surface:
         truth=truth,
         mask=None,
         part=part,
+        file=None,
         notes=(*surface.notes, said, *part.notes),
     )

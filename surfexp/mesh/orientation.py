@@ -77,8 +77,10 @@ def inside_out_components(mesh: TriangleMesh) -> Mask:
     count = mesh.component_labels.max(initial=-1) + 1
     defects = (mesh.edge_face_counts != 2) | inconsistent_edges(mesh)
     closed = np.bincount(label, defects[mesh.face_edges].any(axis=1), count) == 0
-    centred = mesh.vertices - mesh.vertices.mean(axis=0)
-    shares = (centred[mesh.faces[:, 0]] * mesh.face_cross_products).sum(axis=1)
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[mesh.faces] = True
+    middle = mesh.vertices[used].mean(axis=0)
+    shares = ((mesh.vertices[mesh.faces[:, 0]] - middle) * mesh.face_cross_products).sum(axis=1)
     volumes = np.where(closed, np.bincount(label, shares, count), 0.0)
     turned = volumes < 0
     if not turned.any() or (volumes != 0).sum() == 1:

@@ -46,7 +46,8 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     Merges vertices of equal position on boundaries and moves others apart; drops faces with a repeated index and
     copies of faces; flips faces without area into their neighbours; at an edge with more than two faces keeps the two
     that hang together best and drops the others; orients faces consistently and closed components outward; cuts where
-    no orientation is possible; splits vertices at which several fans meet; drops vertices without faces.
+    no orientation is possible; splits vertices at which several fans meet; drops faces at vertices that are not finite, and
+    vertices without faces.
 
     Parameters
     ----------
@@ -67,8 +68,13 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     mesh = TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces))
     origin = np.arange(len(mesh.vertices))
     changes: list[str] = []
+    unknown = ~np.isfinite(mesh.vertices[mesh.faces]).all(axis=(1, 2))
+    if unknown.any():
+        changes.append(f"dropped, because a corner is not finite: {unknown.sum()} faces")
+        mesh, origin = _drop_unreferenced(TriangleMesh(mesh.vertices, mesh.faces[~unknown]), origin, changes)
     for _ in range(10):
-        if validate(mesh.vertices, mesh.faces).ok:
+        found = validate(mesh.vertices, mesh.faces)
+        if found.ok and not found.count("unreferenced vertices"):
             break
         mesh, origin = _one_round(mesh, origin, changes)
     else:
@@ -96,8 +102,7 @@ def _one_round(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tupl
 def _merge_vertices(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tuple[TriangleMesh, Integers]:
     # a vertex inside its surface gains nothing from a merger, which would only glue two sheets together
     open_edges = mesh.edges[mesh.edge_face_counts == 1]
-    inside = np.zeros(len(mesh.vertices), dtype=np.int64)
-    inside[mesh.faces] = 1
+    inside = np.ones(len(mesh.vertices), dtype=np.int64)
     inside[open_edges] = 0
     rows = np.column_stack([mesh.vertices + 0.0, inside * np.arange(1, len(inside) + 1)])
     first = first_equal_row(rows)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.file_vertices import FileVertices
 from surfexp.mesh.given_arrays import frozen, map_array, mask_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
@@ -77,11 +78,13 @@ class Surface(Summarized):
         What of a larger surface this mesh is, where a mask has cut it out.
     frame : SpatialFrame
         Where the vertices lie, as the file says it; written again where a format holds it.
+    file : FileVertices, optional
+        The vertices of its file, where repair has merged or split some. Results are written on these.
 
     Raises
     ------
     ValueError
-        If a map, a mask or a truth is not one number a vertex, or vertices lie off the shape.
+        If a map, labels, a mask or a truth is not one number a vertex, or vertices lie off the shape.
 
     Examples
     --------
@@ -107,6 +110,7 @@ class Surface(Summarized):
     labels: dict[str, LabelMap] = field(default_factory=dict)
     part: SurfacePart | None = None
     frame: SpatialFrame = field(default_factory=SpatialFrame)
+    file: FileVertices | None = None
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),
@@ -128,6 +132,9 @@ class Surface(Summarized):
             raise ValueError(f"the vertices of {self.name!r} do not lie on a {self.shape.words}: give shape=None")
         if self.mask is not None:
             object.__setattr__(self, "mask", frozen(mask_array(self.mask, n), self.mask))
+        for name, table in self.labels.items():
+            if len(table.keys) != n:
+                raise ValueError(f"labels {name!r} have {len(table.keys)} entries, the mesh has {n} vertices")
         maps = {}
         for name, given in self.scalars.items():
             values = map_array(given, f"scalar map {name!r}")

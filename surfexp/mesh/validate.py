@@ -184,9 +184,15 @@ def _array_defects(vertices: NDArray[Any], faces: NDArray[Any]) -> Iterator[Defe
     if faces.size == 0 or vertices.size == 0:
         yield Defect("missing faces or vertices", 1, "refuse", (f"{len(vertices)} vertices, {len(faces)} faces",))
         return
-    yield from _entry("vertices that are not finite", "refuse", ~np.isfinite(vertices).all(axis=1), "vertex")
-    far = float(np.nanmax(np.abs(vertices), initial=0.0))
-    extent = float(np.ptp(vertices, axis=0).max()) if np.isfinite(far) else 1.0
+    unknown = ~np.isfinite(vertices).all(axis=1)
+    inside = faces[((faces >= 0) & (faces < len(vertices))).all(axis=1)]
+    cut = unknown[inside].any(axis=1)
+    if cut.any():
+        severity: Severity = "refuse" if cut.all() else "repairable"
+        yield from _entry("vertices that are not finite", severity, unknown, "vertex")
+    known = vertices[~unknown]
+    far = float(np.abs(known).max(initial=0.0))
+    extent = float(np.ptp(known, axis=0).max()) if len(known) else 1.0
     if far > LARGEST_COORDINATE or 0.0 < extent < SMALLEST_EXTENT:
         said = f"largest {far:g}, extent {extent:g}, {SMALLEST_EXTENT:g} to {LARGEST_COORDINATE:g} can be computed with"
         yield Defect("unit of length out of range", 1, "refuse", (f"{said}: change the unit",))
@@ -210,10 +216,12 @@ def _face_defects(mesh: TriangleMesh) -> Iterator[Defect]:
 
 
 def _vertex_defects(mesh: TriangleMesh) -> Iterator[Defect]:
-    yield from _entry("duplicate vertices", "repairable", later_copies(mesh.vertices), "vertex")
-    unreferenced = np.ones(len(mesh.vertices), dtype=bool)
-    unreferenced[mesh.faces] = False
-    yield from _entry("unreferenced vertices", "repairable", unreferenced, "vertex")
+    used = np.zeros(len(mesh.vertices), dtype=bool)
+    used[mesh.faces] = True
+    copies = np.zeros(len(used), dtype=bool)
+    copies[used] = later_copies(mesh.vertices[used])
+    yield from _entry("duplicate vertices", "repairable", copies, "vertex")
+    yield from _entry("unreferenced vertices", "note", ~used, "vertex")
 
 
 def _manifold_defects(mesh: TriangleMesh) -> Iterator[Defect]:

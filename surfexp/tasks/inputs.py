@@ -19,6 +19,8 @@ from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
 MapLike = str | ArrayLike
+# of trimesh, nilearn, LaPy and Open3D
+ATTRIBUTES = (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles"))
 
 
 def as_surface(given: SurfaceLike) -> Surface:
@@ -44,6 +46,19 @@ def as_surface(given: SurfaceLike) -> Surface:
     return sound_part(Surface(mesh), "surface")
 
 
+def is_mesh(given: Any) -> bool:
+    """Whether something is a surface, a mesh of any library, or vertices with faces, rather than a map or a result.
+
+    Parameters
+    ----------
+    given : object
+        Two arrays are a mesh where both have two axes.
+    """
+    if isinstance(given, tuple | list):
+        return len(given) == 2 and all(np.ndim(part) == 2 for part in given)
+    return isinstance(given, Surface) or any(all(hasattr(given, name) for name in names) for names in ATTRIBUTES)
+
+
 def arrays_of(given: SurfaceLike) -> tuple[Floats, Integers]:
     """Return vertices and faces of what is given, as numbers of the right type; defects are left as they are.
 
@@ -59,7 +74,7 @@ def arrays_of(given: SurfaceLike) -> tuple[Floats, Integers]:
 def _pair(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
     if isinstance(given, Surface):
         return given.mesh.vertices, given.mesh.faces
-    for names in (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles")):
+    for names in ATTRIBUTES:
         if all(hasattr(given, name) for name in names):
             vertices, faces = (getattr(given, name) for name in names)
             return vertices, faces
@@ -89,6 +104,8 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
             raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")
         return surface.scalars[given]
     array = real_array(given, "map")
+    if surface.file is not None and array.shape[:1] == surface.file.standing.shape:
+        array = np.asarray(surface.file.onto_mesh(array), dtype=np.float64)
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
     return array.copy() if array is given else array

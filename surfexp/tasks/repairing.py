@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
-from surfexp.io.reading import read_mesh
-from surfexp.mesh.repair import repair as repaired_mesh
-from surfexp.mesh.surface import Surface, Truth
+from surfexp.io.hemisphere import hemisphere_of_file
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.reading import read_mesh, read_mesh_file
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import Report, validate
 from surfexp.tasks.inputs import SurfaceLike, arrays_of
+from surfexp.tasks.repaired_surface import repaired
 
 
 def check(surface: SurfaceLike) -> Report:
@@ -40,19 +42,21 @@ def check(surface: SurfaceLike) -> Report:
     return validate(*(read_mesh(surface)[:2] if isinstance(surface, str | Path) else arrays_of(surface)))
 
 
-def repair(surface: SurfaceLike, *, largest_component: bool = False) -> Surface:
-    """Repair the defects of a surface; its maps, labels and mask follow.
+def repair(surface: SurfaceLike, *, largest_component: bool = False, renumber: bool = False) -> Surface:
+    """Repair the defects of a surface; its maps, labels and mask follow, and its vertices keep their numbers.
 
     Parameters
     ----------
     surface : Surface, TriangleMesh, (vertices, faces), or a path
     largest_component : bool
         Keep only the component of largest area.
+    renumber : bool
+        Drop vertices that have no face, so that others get their numbers. Without it they stay, and count as outside.
 
     Returns
     -------
     Surface
-        `notes` name each change.
+        `notes` name each change. Where vertices were split, the copies stand behind all others.
 
     Raises
     ------
@@ -68,23 +72,10 @@ def repair(surface: SurfaceLike, *, largest_component: bool = False) -> Surface:
     (True, 1)
     """
     if isinstance(surface, str | Path):
-        from surfexp.tasks.files import read
-
-        surface = read(surface, repair=True)
-    owner = surface if isinstance(surface, Surface) else None
-    vertices, faces = arrays_of(surface)
-    mesh, changes, origin = repaired_mesh(vertices, faces, largest_component=largest_component)
-    if owner is None:
-        return Surface(mesh, notes=changes)
-    return replace(
-        owner,
-        mesh=mesh,
-        scalars={name: values[origin] for name, values in owner.scalars.items()},
-        labels={name: replace(table, keys=table.keys[origin]) for name, table in owner.labels.items()},
-        mask=None if owner.mask is None else owner.mask[origin],
-        coordinates=None if owner.coordinates is None else owner.coordinates[origin],
-        truth=Truth(),
-        shape=None,
-        part=None,
-        notes=(*owner.notes, *changes),
-    )
+        file = read_mesh_file(surface)
+        mesh, scalars = TriangleMesh(file.vertices, file.faces), scalar_channels(file.scalars)
+        side = hemisphere_of_file(surface)
+        owner = Surface(mesh, Path(surface).stem, scalars=scalars, notes=file.notes, hemisphere=side, frame=file.frame)
+    else:
+        owner = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
+    return repaired(owner, largest_component, renumber)

@@ -135,6 +135,9 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) 
     unknown = wanted[(wanted < 0) | (wanted >= part.whole_count)]
     if len(unknown):
         raise ValueError(f"sources name vertex {unknown[0]}, the vertices are 0..{part.whole_count - 1}")
+    if owner.file is not None:
+        known = wanted < len(owner.file.standing)
+        wanted = np.r_[owner.file.standing[wanted[known]], wanted[~known]]
     if (number[wanted] < 0).any():
         outside = int(wanted[number[wanted] < 0][0])
         raise ValueError(

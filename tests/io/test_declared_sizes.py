@@ -17,8 +17,9 @@ from hypothesis import strategies as st
 from surfexp.io.cifti import write_cifti_maps
 from surfexp.io.declared_sizes import HEADER, check_declared_sizes
 from surfexp.io.gifti import write_gifti_labels, write_gifti_maps
+from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.io.map_files import read_maps, read_mask, read_named_labels
-from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh

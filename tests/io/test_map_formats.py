@@ -15,8 +15,9 @@ from hypothesis.extra.numpy import arrays
 from nibabel import cifti2
 
 from surfexp.io.freesurfer_sizes import check_volume
+from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.io.map_files import read_maps, read_mask, read_scalars, write_maps
-from surfexp.io.reading import hemisphere_of_file, read_mesh
+from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 

@@ -94,6 +94,17 @@ def test_collect_writes_a_dataset_and_lists_what_is_left_out(shapes: Path, capsy
 
 
 @pytest.mark.timeout(3600)
+def test_a_dataset_is_named_with_or_without_its_suffix_and_is_whole_or_not_there(
+    shapes: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert main(["collect", str(shapes), "--to", "mine.yaml"]) == 0
+    before = Path("conf/datasets/mine.yaml").read_bytes()
+    monkeypatch.setattr(Path, "write_text", lambda *_, **__: (_ for _ in ()).throw(OSError(28, "No space left")))
+    assert main(["collect", str(shapes), "--to", "mine.yaml", "--force"]) == 1
+    assert [file.name for file in Path("conf/datasets").iterdir()] == ["mine.yaml"]
+    assert Path("conf/datasets/mine.yaml").read_bytes() == before
+
+
 def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0
     command = [sys.executable, "-m", "surfexp.commands.command_line", "plan", "experiment=tosca_classification"]

@@ -83,11 +83,12 @@ def copies_by_sets(rows: NDArray[np.generic]) -> list[bool]:
 
 def defects_by_dictionaries(mesh: TriangleMesh) -> Counter[str]:
     faces = mesh.faces.tolist()
+    used = sorted({vertex for face in faces for vertex in face})
     found: Counter[str] = Counter()
     found["faces with a repeated index"] = sum(len(set(face)) < 3 for face in faces)
     found["duplicate faces"] = len(faces) - len({tuple(sorted(face)) for face in faces})
-    found["duplicate vertices"] = len(mesh.vertices) - len(set(map(tuple, (mesh.vertices + 0.0).tolist())))
-    found["unreferenced vertices"] = len(mesh.vertices) - len({vertex for face in faces for vertex in face})
+    found["duplicate vertices"] = len(used) - len(set(map(tuple, (mesh.vertices[used] + 0.0).tolist())))
+    found["unreferenced vertices"] = len(mesh.vertices) - len(used)
     proper = [face for face in faces if len(set(face)) == 3]
     around: defaultdict[frozenset[int], list[int]] = defaultdict(list)
     at: defaultdict[int, list[int]] = defaultdict(list)

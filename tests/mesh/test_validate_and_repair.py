@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from surfexp.mesh.orientation import inside_out_components
 from surfexp.mesh.repair import repair
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -103,7 +104,6 @@ PLANTED: dict[str, tuple[Callable[[], Arrays], int | None]] = {
     "zero-area faces": (zero_area, 1),
     "duplicate faces": (duplicate_face, 1),
     "duplicate vertices": (duplicate_vertex, None),
-    "unreferenced vertices": (unreferenced, 1),
     "non-manifold edges": (non_manifold_edge, 1),
     "non-manifold vertices": (non_manifold_vertex, 1),
     "flipped faces": (flipped, 3),
@@ -224,7 +224,22 @@ def test_notes_do_not_refuse() -> None:
 
 
 def test_allowed_kinds_pass() -> None:
-    require_valid(TriangleMesh(*unreferenced()), allow=("unreferenced vertices",))
+    require_valid(TriangleMesh(*flipped()), allow=("flipped faces",))
+
+
+def test_a_vertex_without_faces_is_a_note_and_repair_drops_it() -> None:
+    report = validate(*unreferenced())
+    assert report.ok and report.lines() == ["note: 1 unreferenced vertices (vertex 4)"]
+    assert repair(*unreferenced()).changes == ("dropped, because no face uses them: 1 vertices",)
+
+
+def test_faces_at_vertices_without_position_are_cut_away() -> None:
+    vertices, faces = arrays()
+    vertices[7] = np.nan
+    assert validate(vertices, faces).lines() == ["repairable: 1 vertices that are not finite (vertex 7)"]
+    mesh, changes, origin = repair(vertices, faces)
+    assert len(mesh.vertices) == len(vertices) - 1 and 7 not in origin and len(mesh.boundary_loops) == 1
+    assert "not finite: 6 faces" in changes[0] or "not finite: 5 faces" in changes[0]
 
 
 @st.composite
@@ -296,3 +311,13 @@ def test_beside_each_other_every_component_is_turned_outward() -> None:
     assert (
         np.linalg.det((mesh.vertices - mesh.vertices.mean(axis=0))[mesh.faces]).reshape(3, -1).sum(axis=1) > 0
     ).all()
+
+
+@pytest.mark.parametrize("lost", [np.nan, np.inf, 1e40])
+def test_a_vertex_without_a_face_does_not_hide_what_is_inside_out(lost: float) -> None:
+    ball = icosphere(1).mesh
+    vertices = np.r_[ball.vertices, [[lost, 0.0, 0.0]]]
+    sound, inward = (
+        inside_out_components(TriangleMesh(vertices, faces)) for faces in (ball.faces, ball.faces[:, ::-1])
+    )
+    assert not sound.any() and inward.all()

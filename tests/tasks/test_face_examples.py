@@ -100,7 +100,7 @@ def test_map_between_bodies(printed: list[str]) -> None:
 
 def test_mesh_repair(printed: list[str]) -> None:
     words = "\n".join(printed)
-    assert "1 non-manifold edges" in words and "genus 0, 642 vertices, area error 0.0e+00" in words
+    assert "1 non-manifold edges" in words and "genus 0, 643 vertices, area error 0.0e+00" in words
 
 
 def test_part_of_a_plate(printed: list[str]) -> None:

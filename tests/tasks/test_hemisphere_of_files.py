@@ -7,7 +7,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.commands.command_line import main
-from surfexp.io.reading import hemisphere_of_file
+from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh

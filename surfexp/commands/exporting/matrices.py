@@ -14,7 +14,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.skeleton.export import write_skeleton
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.tasks.files import write as write_result
+from surfexp.tasks.written_files import write as write_result
 
 
 @write.register

@@ -1,0 +1,103 @@
+"""Which hemisphere a file is of: what it says inside, else its name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from surfexp.io.cifti import is_cifti
+from surfexp.io.declared_sizes import check_declared_sizes
+from surfexp.io.gifti import hemisphere_of_gifti, is_gifti
+from surfexp.io.npz import hemisphere_of_npz
+from surfexp.io.ply import hemisphere_of_ply
+
+INSIDE = {".ply": hemisphere_of_ply, ".npz": hemisphere_of_npz}
+LEFT = {"l", "lh", "left"}
+# lh and rh anywhere between signs, left and right, hemi-L, and the single letters of HCP and BIDS
+NAMED_SIDE = re.compile(r"(?:^|(?<=[._-]))(lh|rh|LH|RH|left|right|(?<=hemi-)[LR]|(?<=[.])[LR](?=[.]))(?=$|[._-])")
+
+
+def hemisphere_of_file(path: Path | str) -> str:
+    """Return "left" or "right" where a GIFTI, PLY or npz file, or the name of any file, says so, else nothing.
+
+    Raises
+    ------
+    ValueError
+        If a GIFTI or npz file cannot be read.
+    """
+    path = Path(path)
+    inside = ""
+    if is_gifti(path):
+        check_declared_sizes(path)
+        inside = hemisphere_of_gifti(path)
+    elif path.suffix.lower() in INSIDE and path.is_file():
+        inside = INSIDE[path.suffix.lower()](path)
+    return inside or hemisphere_of_name(path.name)
+
+
+def hemisphere_of_name(name: str) -> str:
+    """Return "left" or "right" for names such as lh.white, sub-1_hemi-L_pial.gii, fsLR.R.sulc.gii, else nothing."""
+    sides = {"left" if match.lower() in LEFT else "right" for match in NAMED_SIDE.findall(name)}
+    return sides.pop() if len(sides) == 1 else ""
+
+
+def holds_hemisphere(path: Path) -> bool:
+    """Whether the format of a file has room for the hemisphere."""
+    return is_gifti(path) or is_cifti(path) or path.suffix.lower() in INSIDE
+
+
+def check_named_side(path: Path, hemisphere: str) -> None:
+    """Refuse a file whose name says another hemisphere than what is written to it.
+
+    Raises
+    ------
+    ValueError
+        If it does.
+    """
+    named = hemisphere_of_name(path.name)
+    if hemisphere and named and named != hemisphere:
+        raise ValueError(
+            f"{path} is named as the {named} hemisphere, what is written is of the {hemisphere}: choose another name"
+        )
+
+
+def check_same_side(what: str, file: Path | str, side: str) -> None:
+    """Refuse a file of another hemisphere than a surface that says its own.
+
+    Raises
+    ------
+    ValueError
+        If it is, or it cannot be read.
+    """
+    found = hemisphere_of_file(file) if side else ""
+    if found not in ("", side):
+        raise ValueError(
+            f"{what} {file} is of the {found} hemisphere, the surface of the {side}: give the file of the {side} one, "
+            f"or --hemisphere {side} if its name is wrong"
+        )
+
+
+def common_hemisphere(files: Iterable[tuple[str, Path | str]]) -> str:
+    """Return the hemisphere that files of one surface say, nothing where none says it.
+
+    Parameters
+    ----------
+    files : iterable of (what it is, path)
+
+    Raises
+    ------
+    ValueError
+        If they say both, or one cannot be read.
+    """
+    first, side = "", ""
+    for what, file in files:
+        found = hemisphere_of_file(file)
+        if side and found and found != side:
+            raise ValueError(
+                f"{what} {file} is of the {found} hemisphere, {first} of the {side}: "
+                f"give the file of the {side} one, or hemisphere={side} if its name is wrong"
+            )
+        if found and not side:
+            first, side = f"the {what}" if what == "surface" else f"{what} {file}", found
+    return side

@@ -1,0 +1,205 @@
+"""Surfaces and results as files: the suffix decides about the format, and what it cannot hold is said."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.contract.arrays import Floats
+from surfexp.io.hemisphere import check_named_side, hemisphere_of_name, holds_hemisphere
+from surfexp.io.label_files import write_label_map
+from surfexp.io.map_files import check_map_target, write_maps
+from surfexp.io.npz import write_arrays
+from surfexp.io.replacing import check_writable, replacing
+from surfexp.io.writing import WITH_MAPS, check_mesh_target, format_of, write_mesh
+from surfexp.mesh.given_arrays import map_array
+from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.inputs import arrays_of, as_map, is_mesh
+
+LABEL_SUFFIXES = (".label.gii", ".annot")
+# formats that hold a surface beside its maps; an archive holds either
+SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
+
+
+def write(path: Path | str, what: Any, surface: Surface | None = None) -> None:
+    """Write a surface, a map, labels, or a result; the suffix decides the format.
+
+    What the format cannot hold (maps, mask, labels, hemisphere, the space of the vertices) is named in a warning.
+
+    Parameters
+    ----------
+    path : path
+    what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, or a result
+        A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
+        ... and in .npz `values`, `vectors`, `residuals`. A result is a denoised map, a segmentation, ...
+    surface : Surface, optional
+        Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
+        repaired, maps alone are written on the vertices of its file.
+
+    Raises
+    ------
+    ValueError
+        If the format is unknown or cannot hold the data, or the file is named as the other hemisphere.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> sphere = sx.shape("icosphere", levels=2)
+    >>> sx.write("height.shape.gii", sphere.mesh.vertices[:, 2], sphere)
+    >>> sx.write("sphere.ply", (sphere.mesh.vertices, sphere.mesh.faces))
+    """
+    for note in written(path, what, surface):
+        warnings.warn(note, stacklevel=2)
+
+
+def written(path: Path | str, what: Any, surface: Surface | None = None) -> tuple[str, ...]:
+    """Write as `write` does, and return what the format cannot hold, one sentence each.
+
+    Raises
+    ------
+    ValueError
+        As `write`.
+    """
+    target = Path(path)
+    if is_mesh(what):
+        owner = what if isinstance(what, Surface) else Surface(TriangleMesh(*arrays_of(what)))
+        if not len(owner.mesh.faces):
+            raise ValueError(
+                f"surface has {len(owner.mesh.vertices)} vertices and 0 faces, at least one face is needed"
+            )
+        scalars = owner.scalars if target.suffix.lower() in WITH_MAPS else {}
+        write_mesh(target, owner.mesh, scalars, owner.frame, owner.hemisphere)
+        return left_out(target, owner)
+    side = surface.hemisphere if surface is not None else ""
+    unsaid = _side_left_out(target, side)
+    table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
+    if table is not None and (target.name.endswith(LABEL_SUFFIXES) or isinstance(what, LabelMap)):
+        _check_rows(len(table.keys), surface, "labels")
+        write_label_map(target, replace(table, keys=_on_file(table.keys, surface)), side)
+        return unsaid
+    if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
+        check_named_side(target, side)
+        arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
+        arrays["vectors"] = _on_file(arrays["vectors"], surface)
+        with replacing(target) as temporary:
+            write_arrays(temporary, arrays, side)
+        return unsaid
+    maps = maps_of(what)
+    for name, values in maps.items():
+        _check_rows(len(values), surface, f"map {name!r}")
+    if target.suffix.lower() not in SURFACES_WITH_MAPS:
+        write_maps(target, {name: _on_file(values, surface) for name, values in maps.items()}, side)
+        return unsaid
+    if surface is None:
+        raise ValueError(
+            f"{target} holds a surface beside its maps: give the surface, or choose .shape.gii, .npz, .csv"
+        )
+    beside = {name: as_map(surface, values) for name, values in maps.items()}
+    write_mesh(target, surface.mesh, beside, surface.frame, side)
+    return left_out(target, replace(surface, scalars={}, mask=None, labels={}))
+
+
+def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
+    """Return what the format of a file cannot hold of a surface, one sentence each."""
+    target = Path(path)
+    maps = {} if target.suffix.lower() in WITH_MAPS else surface.scalars
+    lost = [f"maps ({', '.join(maps)})"] if maps else []
+    lost += [f"labels ({', '.join(surface.labels)})"] if surface.labels else []
+    lost += ["mask"] if surface.mask is not None else []
+    said = [f"{target.name} does not hold {' and '.join(lost)} of the surface: they are left out."] if lost else []
+    moved = surface.frame.lost_in(format_of(target))
+    return (*said, *_side_left_out(target, surface.hemisphere), *([moved] if moved else []))
+
+
+def _side_left_out(target: Path, side: str) -> tuple[str, ...]:
+    if not side or holds_hemisphere(target) or hemisphere_of_name(target.name) == side:
+        return ()
+    return (f"{target.name} does not say the {side} hemisphere: a name that begins with {side[0]}h. would.",)
+
+
+def _on_file(values: NDArray[Any], surface: Surface | None) -> NDArray[Any]:
+    """Return rows on the vertices of the file of a surface."""
+    file = None if surface is None else surface.file
+    return values if file is None or len(values) != len(file.origin) else file.onto_file(values)
+
+
+def _check_rows(count: int, surface: Surface | None, what: str) -> None:
+    counts = (
+        ()
+        if surface is None
+        else (len(surface.mesh.vertices), *((len(surface.file.standing),) if surface.file else ()))
+    )
+    if surface is not None and count not in counts:
+        raise ValueError(f"{what} has {count} values, the surface has {len(surface.mesh.vertices)} vertices")
+
+
+def maps_of(what: Any) -> dict[str, Floats]:
+    """Return the maps (n,) or (n, c) that a result consists of, by name.
+
+    Raises
+    ------
+    ValueError
+        If it has none.
+    """
+    if isinstance(what, Mapping):
+        return {str(name): _written_map(values, f"map {str(name)!r}") for name, values in what.items()}
+    if hasattr(what, "vectors"):
+        return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
+    array = _written_map(getattr(what, "values", what), f"{type(what).__name__} given as a map")
+    return {what.name if isinstance(what, DenoisedMap) else "map": array}
+
+
+def _written_map(given: Any, what: str) -> Floats:
+    array = map_array(given, what)
+    if array.ndim not in (1, 2):
+        raise ValueError(f"{what} has shape {array.shape}, one row a vertex is needed")
+    return array
+
+
+def check_target(
+    path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None, labels: bool = False
+) -> None:
+    """Refuse a file that maps on a surface cannot be written to, before anything is computed.
+
+    Parameters
+    ----------
+    path : path
+    count, channels : int
+        Of the maps.
+    hemisphere : {"", "left", "right"}, optional
+        Of the maps; None if it is not known yet.
+    labels : bool
+        Whether formats of labels are among those that are known.
+
+    Raises
+    ------
+    ValueError
+        If the format is unknown or too narrow, the folder is missing, or it cannot be written to.
+    """
+    target = Path(path)
+    if target.suffix.lower() in WITH_MAPS or (labels and target.name.endswith(LABEL_SUFFIXES)):
+        check_named_side(target, hemisphere or "")
+        check_writable(target)
+    else:
+        check_map_target(target, count, channels, hemisphere)
+
+
+def check_surface_target(path: Path | str, hemisphere: str = "") -> None:
+    """Refuse a file that a surface of a hemisphere cannot be written to.
+
+    Raises
+    ------
+    ValueError
+        As `check_mesh_target`, or if it is named as the other hemisphere.
+    """
+    check_mesh_target(path)
+    check_named_side(Path(path), hemisphere)
