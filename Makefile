@@ -9,7 +9,7 @@ export PYTHONDONTWRITEBYTECODE :=
 # One after the other, a failed one does not stop the rest. The verdicts on published claims follow from the results.
 EXPERIMENTS := $(basename $(notdir $(wildcard conf/experiment/*.yaml)))
 
-.PHONY: run test test-all test-optional optional lint bench mutate torture torture-part reliability reproduction reproduction-changed site viewer ui lock dist audit clean
+.PHONY: run test test-all test-optional optional lint bench mutate torture torture-part reliability corpus reproduction reproduction-changed site viewer ui lock dist audit clean
 
 run: .venv/ready
 	$(BIN)/surfexp run
@@ -53,6 +53,9 @@ torture-part: .venv/ready
 
 reliability: optional # the other readers come with it
 	$(BIN)/python -m audits.reliability
+
+corpus: optional # downloads 200 MB by pip and apt-get into build/corpus; what cannot be had is left out with a line
+	$(BIN)/python -m audits.reliability --corpus
 
 # Exit code 3: a row did not converge, as those published schemes that stop at a number of iterations.
 # In a results folder of this state of numerics and experiments: empty at first, continued when it was interrupted.

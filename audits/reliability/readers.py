@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from audits.reliability.truth import LABELS, MAPS, MASK, SURFACE, Found, Truth
+from audits.reliability.truth import LABELS, LIST, MAPS, MASK, SURFACE, Found, Truth
+from surfexp.io.freesurfer import read_vertex_list
 from surfexp.io.map_files import read_maps, read_mask, read_named_labels
 from surfexp.io.reading import read_mesh_file
 
@@ -36,13 +37,15 @@ def ours(path: Path, truth: Truth) -> Found:
     if truth.kind == LABELS:
         found = read_named_labels(path, "left")
         return Found(labels=[found.names.get(key, "") for key in found.keys.tolist()])
+    if truth.kind == LIST:
+        return Found(labels=list(map(str, read_vertex_list(path).tolist())))
     assert truth.kind == MASK and truth.mask is not None
     return Found(mask=read_mask(path, len(truth.mask)))
 
 
 def import_others() -> None:
     """Import other readers once, before processes are forked from this one."""
-    for package in ("vtk", "trimesh", "meshio"):
+    for package in ("vtk", "trimesh", "meshio", "open3d", "igl", "pandas"):
         if find_spec(package):
             importlib.import_module(package)
 
@@ -54,10 +57,16 @@ def theirs(path: Path, kind: str) -> Iterator[tuple[str, Callable[[Path], Found]
     if kind == SURFACE:
         if suffix in _VTK and find_spec("vtk"):
             yield "VTK", _with_vtk
-        if suffix in (".off", ".obj", ".ply", ".stl") and find_spec("trimesh"):
+        # trimesh leaves out the last of homogeneous coordinates without a word
+        homogeneous = suffix == ".off" and path.read_bytes()[:4] == b"4OFF"
+        if suffix in (".off", ".obj", ".ply", ".stl") and find_spec("trimesh") and not homogeneous:
             yield "trimesh", _with_trimesh
         if suffix in (".vtk", ".vtu", ".ply", ".obj", ".off", ".stl") and find_spec("meshio"):
             yield "meshio", _with_meshio
+        if suffix in (".ply", ".obj", ".off", ".stl") and find_spec("open3d"):
+            yield "open3d", _with_open3d
+        if suffix in (".ply", ".obj", ".off", ".stl"):
+            yield "libigl", _with_libigl
         if name.endswith((".gii", ".gii.gz")):
             yield "nibabel", _with_nibabel_gifti
         elif not path.suffix or suffix in (".white", ".pial", ".orig", ".inflated", ".sphere"):
@@ -65,7 +74,7 @@ def theirs(path: Path, kind: str) -> Iterator[tuple[str, Callable[[Path], Found]
     elif kind == LABELS:
         if name.endswith(".annot"):
             yield "nibabel", _with_nibabel_annotation
-        elif name.endswith((".label.gii", ".label.gii.gz")):
+        elif name.endswith((".gii", ".gii.gz")):
             yield "nibabel", _with_nibabel_labels
         elif name.endswith(".dlabel.nii"):
             yield "nibabel", _with_nibabel_cifti_labels
@@ -80,8 +89,10 @@ def theirs(path: Path, kind: str) -> Iterator[tuple[str, Callable[[Path], Found]
             yield "nibabel", _with_nibabel_morph
         elif suffix == ".npy":
             yield "numpy", lambda file: Found(maps={"": np.load(file).astype(float)}, named=False)
-    elif kind == MASK:
-        return
+        elif suffix == ".csv" and find_spec("pandas"):
+            yield "pandas", _with_pandas
+    elif kind == LIST:
+        yield "nibabel", _with_nibabel_list
 
 
 _VTK = (".vtk", ".vtp", ".vtu", ".ply", ".stl", ".obj")
@@ -165,6 +176,48 @@ def _with_meshio(path: Path) -> Found:
         row.tolist() for block in mesh.cells if block.type in ("triangle", "quad", "polygon") for row in block.data
     ]
     return Found(np.asarray(mesh.points, dtype=float), polygons, welds=False)
+
+
+def _with_open3d(path: Path) -> Found:
+    import open3d
+
+    with open3d.utility.VerbosityContextManager(open3d.utility.VerbosityLevel.Error):
+        mesh = open3d.io.read_triangle_mesh(str(path))
+    if not len(mesh.triangles):
+        raise ValueError("open3d finds no triangles")
+    return Found(np.array(mesh.vertices), np.array(mesh.triangles).tolist(), welds=False)
+
+
+def _with_libigl(path: Path) -> Found:
+    import igl
+
+    vertices, faces = igl.read_triangle_mesh(str(path))
+    if not len(faces) or faces.shape[1:] != (3,):
+        raise ValueError("libigl finds no triangles")
+    return Found(np.asarray(vertices, dtype=float), faces.tolist(), welds=False)
+
+
+def _with_pandas(path: Path) -> Found:
+    import pandas
+
+    first = path.open().readline().split(",")
+    plain = all(_is_number(word) for word in first)
+    table = pandas.read_csv(path, header=None if plain else 0)
+    return Found(maps={str(name): table[name].to_numpy(dtype=float) for name in table}, named=False)
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _with_nibabel_list(path: Path) -> Found:
+    import nibabel
+
+    return Found(labels=list(map(str, nibabel.freesurfer.read_label(path).tolist())))
 
 
 def _nibabel(path: Path) -> Any:

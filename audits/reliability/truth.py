@@ -11,7 +11,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-SURFACE, MAPS, LABELS, MASK = "surface", "maps", "labels", "mask"
+SURFACE, MAPS, LABELS, MASK, LIST = "surface", "maps", "labels", "mask", "list"
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Truth:
     Parameters
     ----------
     kind : str
-        SURFACE, MAPS, LABELS or MASK: by which door it is read.
+        SURFACE, MAPS, LABELS, MASK or LIST (of vertices): by which door it is read.
     vertices : (n, 3), optional
     polygons : sequence of sequences of int
         In the order of the file.

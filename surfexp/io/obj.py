@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
 
 import numpy as np
@@ -26,9 +27,11 @@ def read_obj(path: Path) -> Decoded:
     Raises
     ------
     ValueError
-        If a vertex or face is cut short, or none is there.
+        If a vertex or face is cut short, or no vertex is there.
     """
-    text = path.read_text("utf-8-sig", "replace")
+    with path.open("rb") as stream:
+        wide = stream.read(2) in (BOM_UTF16_BE, BOM_UTF16_LE)
+    text = path.read_text("utf-16" if wide else "utf-8-sig", "replace")
     if text.lstrip()[:2] in ("P ", "P\t"):
         return _read_mni(text.split())
     vertices: list[list[float]] = []
@@ -51,8 +54,8 @@ def read_obj(path: Path) -> Decoded:
         if words[0] in ("v", "f", "fo"):
             raise ValueError(f"line {number} is not an OBJ statement or is cut short: {line[:40]!r}")
         unknown[words[0][:12]] = unknown.get(words[0][:12], 0) + 1
-    if not vertices or not polygons:
-        raise ValueError(f"it has {len(vertices)} vertices and {len(polygons)} faces, at least one of each is needed")
+    if not vertices:
+        raise ValueError(f"it has 0 vertices and {len(polygons)} faces, at least one of each is needed")
     named = ", ".join(ascii(word) for word in list(unknown)[:5])
     notes = (f"{sum(unknown.values())} statements of unknown kinds are passed over: {named}.",) if unknown else ()
     return Decoded(np.array(vertices), polygons, notes=notes)

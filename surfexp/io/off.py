@@ -18,14 +18,16 @@ def read_off(path: Path) -> Decoded:
     """Vertices and faces of an OFF file in text; normals, colours and texture coordinates are left out.
 
     One row is read for each vertex and face; where rows do not fit, numbers are read in their order, as the format has it.
-    Homogeneous coordinates (4OFF) are divided by their last.
+    Homogeneous coordinates (4OFF) are divided by their last. Geomview's `appearance { ... }` before the header is left out.
 
     Raises
     ------
     ValueError
-        If the file breaks the format, is binary, of another dimension than 3, or ends early.
+        If the file breaks the format, is binary, of another dimension than 3, ends early, or a homogeneous coordinate is not
+        positive.
     """
-    lines = [line for raw in path.read_text("ascii", "replace").splitlines() if (line := raw.split("#")[0].split())]
+    bare = "\n".join(line.split("#")[0] for line in path.read_text("ascii", "replace").splitlines())
+    lines = [line for raw in _behind_appearance(bare).splitlines() if (line := raw.split())]
     header = HEADER.fullmatch(lines[0][0]) if lines else None
     if header is not None:
         lines[0] = ([header["count"]] if header["count"] else []) + lines[0][1:]
@@ -53,8 +55,24 @@ def read_off(path: Path) -> Decoded:
             raise error from None
     vertices = np.array(rows, dtype=np.float64).reshape(vertex_count, width)
     if width == 4:
+        least, most = vertices[:, 3].min(initial=1.0), vertices[:, 3].max(initial=1.0)
+        if not least > 0:
+            raise ValueError(
+                f"its homogeneous coordinates (4OFF) end in numbers from {least:g} to {most:g}, positive ones are needed: "
+                "a surface in four dimensions has to be projected first"
+            )
         vertices = vertices[:, :3] / vertices[:, 3:]
     return Decoded(vertices, polygons)
+
+
+def _behind_appearance(text: str) -> str:
+    """Return what follows Geomview's description of the appearance, or all where there is none."""
+    begin = re.match(r"\s*appearance\s*\{", text)
+    depth, at = (1, begin.end()) if begin else (0, 0)
+    while depth and at < len(text):
+        depth += {"{": 1, "}": -1}.get(text[at], 0)
+        at += 1
+    return text[at:]
 
 
 def _by_rows(body: Rows, vertex_count: int, face_count: int, width: int) -> tuple[Rows, list[list[int]]]:
@@ -75,6 +93,9 @@ def _by_rows(body: Rows, vertex_count: int, face_count: int, width: int) -> tupl
 def _by_words(body: Rows, vertex_count: int, face_count: int, width: int) -> tuple[Rows, list[list[int]]]:
     words = [word for line in body for word in line]
     at = width * vertex_count
+    # before any room is made for what a header announces
+    if at + face_count > len(words):
+        raise ValueError("it ends early")
     rows = [words[k : k + width] for k in range(0, at, width)]
     polygons = []
     for _ in range(face_count):

@@ -59,11 +59,7 @@ def read_ply(path: Path) -> Decoded:
         for element in elements:
             columns[element.name], offset = _binary_element(data, offset, element, order)
     vertex, polygons, strips = columns.get("vertex", {}), _lists(columns, "face"), _lists(columns, "tristrips")
-    if {"x", "y", "z"} <= set(vertex) and polygons is None and strips is None and len(vertex["x"]):
-        raise ValueError(
-            f"it holds {len(vertex['x'])} points without faces: reconstruct a surface from them first (point_cloud)"
-        )
-    if not {"x", "y", "z"} <= set(vertex) or (polygons is None and strips is None):
+    if not {"x", "y", "z"} <= set(vertex) or (polygons is None and strips is None and not len(vertex["x"])):
         raise ValueError(
             "it has no element 'vertex' with x, y, z or no element 'face' or 'tristrips' with vertex_indices"
         )
@@ -72,7 +68,7 @@ def read_ply(path: Path) -> Decoded:
         name: np.asarray(column, dtype=float) for name, column in vertex.items() if isinstance(column, np.ndarray)
     }
     found = triangles_of_strips([] if strips is None else strips)
-    if polygons is None:
+    if polygons is None:  # points alone have no faces
         return Decoded(positions, found, scalars)
     return Decoded(positions, polygons if not len(found) else [*found.tolist(), *polygons], scalars)
 
@@ -135,6 +131,11 @@ def _ascii_element(words: list[bytes], at: int, element: Element) -> tuple[dict[
     lists: dict[str, list[list[float]]] = {name: [] for name, _, _ in element.properties}
     for index in range(element.count):
         for name, kind, length in element.properties:
+            if length and at < len(words) and not words[at].isdigit():
+                said = words[at][:20].decode("ascii", "replace")
+                raise ValueError(
+                    f"entry {index} of {element.name!r} has {said!r} where the length of {name!r} is needed"
+                )
             size = int(words[at]) if length and at < len(words) else 1
             at += bool(length)
             if size < 0 or at + size > len(words):

@@ -60,7 +60,7 @@ def read_mesh_file(path: Path | str) -> MeshFile:
     Raises
     ------
     ValueError
-        If the file is missing, of an unknown format, broken or cut off; the message begins with the file's name.
+        If the file is missing, of an unknown format, broken or cut off, or holds points alone; the message begins with its name.
     """
     path = Path(path)
     with reading(path, "cannot be read as a mesh"):
@@ -68,6 +68,10 @@ def read_mesh_file(path: Path | str) -> MeshFile:
         vertices = real_array(np.asarray(found.vertices), "the vertices")
         faces, notes = triangulate(found.polygons, vertices)
         points, corners = checked_geometry(vertices, faces)
+        if len(points) and not len(corners):
+            raise ValueError(
+                f"it holds {len(points)} points without faces: reconstruct a surface from them first (point_cloud)"
+            )
         check_map_shapes(found.scalars)
         for name, values in found.scalars.items():
             if len(values) != len(points):

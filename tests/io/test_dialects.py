@@ -195,3 +195,64 @@ def test_bent_and_crossing_polygons_are_said() -> None:
     assert "1 polygons are bent" in triangulate([[0, 1, 2, 3]], square)[1][0]
     bow = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0]])
     assert "cross themselves" in triangulate([[0, 1, 2, 3]], bow)[1][0]
+
+
+def test_counts_beyond_the_file_are_refused_before_room_is_made(tmp_path: Path) -> None:
+    path = tmp_path / "a.off"
+    path.write_text("OFF\n353535235358 6 0\n0 0 0\n1 0 0\n0 1 0\n")
+    with pytest.raises(ValueError, match="ends after 3 of 353535235358 vertices"):
+        read_mesh(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\n"),
+        ("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                  "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"),
+        ("b.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                  "end_header\n0 0 0\n1 0 0\n0 1 0\n"),
+        ("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"),
+    ],
+)  # fmt: skip
+def test_points_alone_say_how_to_go_on(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError, match=r"3 points without faces: reconstruct .* \(point_cloud\)"):
+        read_mesh(tmp_path / name)
+
+
+def test_a_list_among_numbers_that_is_none_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "a.ply"
+    head = (
+        "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty list uchar int vertex_indices"
+    )
+    path.write_text(f"ply\nformat ascii 1.0\n{head}\nend_header\n0 0 0 7.5\n")
+    with pytest.raises(
+        ValueError, match=r"entry 0 of 'vertex' has '7\.5' where the length of 'vertex_indices' is needed"
+    ):
+        read_mesh(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_an_obj_of_windows_is_read(tmp_path: Path, encoding: str) -> None:
+    path = tmp_path / "a.obj"
+    path.write_bytes("\ufeffv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".encode(encoding))
+    vertices, faces, _ = read_mesh(path)
+    assert len(vertices) == 3 and faces.tolist() == [[0, 1, 2]]
+
+
+def test_what_geomview_says_before_off_is_passed_over(tmp_path: Path) -> None:
+    path = tmp_path / "a.off"
+    path.write_text("appearance {\n +texturing # }\n texture { file grid.pgm.gz }\n}\nSTOFF\n3 1 3\n"
+                    "0 0 0 .5 1\n1 0 0 .5 1\n0 1 0 .5 1\n3 0 1 2\n")  # fmt: skip
+    vertices, faces, _ = read_mesh(path)
+    assert vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]] and faces.tolist() == [[0, 1, 2]]
+
+
+@pytest.mark.parametrize("last", ["0", "-1"])
+def test_a_surface_in_four_dimensions_is_refused(tmp_path: Path, last: str) -> None:
+    path = tmp_path / "a.off"
+    path.write_text(f"4OFF\n3 1 3\n0 0 0 1\n1 0 0 2\n0 1 0 {last}\n3 0 1 2\n")
+    with pytest.raises(ValueError, match=rf"numbers from {last} to 2, positive ones are needed"):
+        read_mesh(path)

@@ -132,8 +132,8 @@ def test_garbage_is_refused_with_its_name(tmp_path: Path, suffix: str, content: 
         ("a.off", "OFF\n3 1 0\n0 0 x\n1 0 0\n0 1 0\n3 0 1 2\n", "x"),
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "line 4"),
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "names vertex 8"),
-        ("a.obj", "v 0 0 0\n", "1 vertices and 0 faces"),
-        ("a.obj", "v 0 0 0\nblah\n", "1 vertices and 0 faces"),
+        ("a.obj", "v 0 0 0\n", "1 points without faces"),
+        ("a.obj", "v 0 0 0\nblah\n", "1 points without faces"),
         (
             "a.ply",
             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
