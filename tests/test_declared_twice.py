@@ -21,6 +21,7 @@ from surfexp.lab.registry.loading import load_all
 from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.variational.models.deblurring import Deblurring
 
 # the default of an experiment is another one than that of the function, for the reason given in docs/defaults.md
@@ -247,3 +248,32 @@ def test_a_parameter_that_is_neither_input_nor_plain_value_is_refused(annotation
         ball.__annotations__ = {"values": type("Matrix", (), {})}
     with pytest.raises(UserError, match="values"):
         registry.register("surface", "neither")(ball)
+
+
+def rescaled(
+    mesh: TriangleMesh, way: Literal["twice", "thrice"], factor: float = 1.0, *, told: object = None
+) -> Surface:
+    """A mesh made larger."""
+    assert told is print
+    return Surface(TriangleMesh(mesh.vertices * {"twice": 2, "thrice": 3}[way] * factor, mesh.faces), way)
+
+
+def test_one_function_is_several_plugins_by_what_each_gives_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    for way in ("twice", "thrice"):
+        registry.register(
+            "surface",
+            way,
+            given={"way": way, "told": print},
+            options={"factor": Field(gt=0)},
+            summary=f"It is {way} as large.",
+        )(rescaled)
+    method, ball = registry.plugin("surface", "thrice"), icosphere(1)
+    assert method.summary == "It is thrice as large." and list(method.options.model_fields) == ["factor"]
+    assert {role: item.kind for role, item in method.inputs.items()} == {"surface": "surface"}
+    assert np.array_equal(method({"factor": 2.0}, surface=ball).mesh.vertices, ball.mesh.vertices * 6)
+    assert np.array_equal(registry.plugin("surface", "twice")({}, surface=ball).mesh.vertices, ball.mesh.vertices * 2)
+    with pytest.raises(UserError, match=r"rescaled has no parameter 'wya'; it has: mesh, way, factor, told"):
+        registry.register("surface", "wrong", given={"wya": "twice"}, options={})(rescaled)
+    with pytest.raises(ValidationError):
+        method({"way": "twice"}, surface=ball)

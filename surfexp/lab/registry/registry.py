@@ -35,23 +35,32 @@ class Plugin:
     metrics: Mapping[str, Metric] = field(default_factory=dict)
     exports: Callable[..., Iterable[tuple[str, Path]]] | None = None
     names: Mapping[str, str] = field(default_factory=dict)
+    given: Mapping[str, Any] = field(default_factory=dict)
+    stated: str = ""
 
     @cached_property
     def paths(self) -> frozenset[str]:
         """The options that name files."""
         return frozenset(name for name, item in self.options.model_fields.items() if "Path" in str(item.annotation))
 
+    @cached_property
+    def parts(self) -> dict[str, str]:
+        """By role, the part of its result that the function takes."""
+        return {role: item.part for role, item in self.inputs.items() if item.part}
+
     @property
     def summary(self) -> str:
-        """First line of the function's docstring."""
-        return (inspect.getdoc(self.function) or "").split("\n", 1)[0]
+        """What it does in one line: what it was registered with, or the first line of the function's docstring."""
+        return self.stated or (inspect.getdoc(self.function) or "").split("\n", 1)[0]
 
     def __call__(self, options: Mapping[str, Any], **inputs: Any) -> Any:
         """Call the function on checked options, with defaults for those that are not given, and on results by role."""
         named = inputs | dict(self.options(**options))
+        for role, part in self.parts.items():
+            named[part] = getattr(named.pop(role), part)
         for parameter, name in self.names.items():
             named[parameter] = named.pop(name)
-        return self.function(**named)
+        return self.function(**named, **self.given)
 
 
 PLUGINS: dict[tuple[str, str], Plugin] = {}
@@ -70,19 +79,22 @@ def register(
     exports: Callable[..., Iterable[tuple[str, Path]]] | None = None,
     options: Mapping[str, Any] | None = None,
     names: Mapping[str, str] | None = None,
+    given: Mapping[str, Any] | None = None,
+    summary: str = "",
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Register a function as plugin `name` of stage `kind`.
 
     A parameter annotated with the result type of a kind (or a list of it, or a dict of it by label or by `Member`) is an
-    input, named by its role. Every other parameter is an option: `tolerance: Annotated[float, Field(gt=0,
-    description="...")] = 1e-4`. An option without default has the one of the parameter of its name in `defaults_of`, the first
-    function that has one, or else is required.
+    input, named by its role; `mesh: TriangleMesh` takes the mesh of the role `surface`. Every other parameter is an option:
+    `tolerance: Annotated[float, Field(gt=0, description="...")] = 1e-4`. An option without default has the one of the
+    parameter of its name in `defaults_of`, the first function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
     `options` registers a function or class of the library as it stands: `register("model", "rof", options={"w":
     Field(gt=0)})(ROF)`. Of its parameters these are options, each with its bounds; types and defaults are those of the
     signature. `names` says what an experiment calls a parameter where the function calls it otherwise: `names={"matrix":
-    "distance_matrix"}`.
+    "distance_matrix"}`. `given` are parameters that the plugin always gives, `given={"method": "k_nearest"}`, and `summary`
+    says in one line what it then does, where the function's docstring does not.
     `exports` writes further files when a result is exported: it is called with a folder and with what the function is
     called with, and yields the name of each file, from which that in the export is made, and its path.
     """
@@ -100,11 +112,12 @@ def register(
                 raise UserError(f"{where}: a name is a word of letters, digits and underscores, e.g. 'split_bregman'")
             check_known("stage kind", [kind], KINDS)
             sources = (defaults_of,) if callable(defaults_of) else tuple(defaults_of)
-            model, inputs = options_and_inputs(where, function, sources, options, names or {})
+            model, inputs = options_and_inputs(where, function, sources, options, names or {}, given or {})
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
             PLUGINS[kind, name] = Plugin(
-                kind, name, function, model, inputs, file, restrictions, metrics or {}, exports, names or {}
-            )
+                kind, name, function, model, inputs, file, restrictions, metrics or {}, exports, names or {},
+                given or {}, summary,
+            )  # fmt: skip
         return function
 
     return decorate

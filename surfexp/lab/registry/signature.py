@@ -14,7 +14,7 @@ from pydantic.fields import FieldInfo
 
 from surfexp.contract.member import Member
 from surfexp.lab.errors import UserError
-from surfexp.lab.store.kinds import KINDS, kind_of
+from surfexp.lab.store.kinds import KINDS, kind_of, part_of
 
 NEW_FORM = "def f(surface: Surface, *, radius: Annotated[float, Field(gt=0, description='...')] = 1.0) -> Surface"
 SHAPES = {list: "list", dict: "dict", Mapping: "dict"}
@@ -28,10 +28,14 @@ class Options(BaseModel):
 
 @dataclass(frozen=True)
 class Input:
-    """One input of a plugin: the kind it asks for, and how it takes results: one, a list, or a dict by label or by member."""
+    """One input of a plugin: the kind it asks for, how it takes results, and which part of a result, if not the whole.
+
+    It takes one, a list, or a dict by label or by member.
+    """
 
     kind: str
     shape: str
+    part: str = ""
 
 
 def options_and_inputs(
@@ -40,6 +44,7 @@ def options_and_inputs(
     defaults_of: Sequence[Callable[..., Any]],
     chosen: Mapping[str, Any] | None,
     names: Mapping[str, str],
+    given: Mapping[str, Any],
 ) -> tuple[type[BaseModel], dict[str, Input]]:
     """Options and inputs of a plugin, from the signature of its function.
 
@@ -48,8 +53,9 @@ def options_and_inputs(
     where : str
         What the function is called in errors.
     function : callable
-        A parameter whose annotation is the result type of a stage kind, or a list or dict of it, is an input; every other one
-        is an option. Its bounds and description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
+        A parameter whose annotation is the result type of a stage kind, or a list or dict of it, is an input; one that
+        is `mesh: TriangleMesh` takes the mesh of the surface, role "surface"; every other one is an option. Its bounds and
+        description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
     defaults_of : sequence of callable
         Functions that hold the defaults of options without a default here, under the same name; the first that has one counts.
     chosen : dict of str to pydantic's Field, or None
@@ -58,12 +64,14 @@ def options_and_inputs(
         their defaults. None: every parameter that is no input is an option, of the type it has.
     names : dict of str to str
         What an experiment calls a parameter, where the function calls it otherwise.
+    given : dict of str to object
+        Parameters that are neither: the plugin gives them these values.
 
     Returns
     -------
     options : type of BaseModel
     inputs : dict of str to Input
-        By the name of the parameter, its role.
+        By role: the name of the parameter as an experiment calls it.
 
     Raises
     ------
@@ -76,11 +84,13 @@ def options_and_inputs(
     described = _described(inspect.getdoc(function) or "")
     inputs, fields = dict[str, Input](), dict[str, Any]()
     parameters = inspect.signature(function).parameters
-    if missing := sorted({*(chosen or {}), *names} - {*parameters}):
+    if missing := sorted({*(chosen or {}), *names, *given} - {*parameters}):
         raise UserError(
             f"{where}: {function.__name__} has no parameter {missing[0]!r}; it has: {', '.join(parameters)}"
         )
     for name, parameter in parameters.items():
+        if name in given:
+            continue
         shown = names.get(name, name)
         if shown in (*inputs, *fields):
             raise UserError(f"{where}: two parameters are called {shown!r}")
@@ -91,8 +101,8 @@ def options_and_inputs(
             raise UserError(
                 f"{where}: options are parameters of the function, not the model {hint.__name__}: {NEW_FORM}"
             )
-        if (found := _input(hint)) is not None:
-            inputs[shown] = found
+        if (found := _input(name, hint)) is not None:
+            inputs[found.kind if found.part else shown] = found
             continue
         if chosen is not None and name not in chosen:
             if parameter.default is parameter.empty:
@@ -137,7 +147,9 @@ def _chosen_option(
     return chosen if annotated else Annotated[hint, chosen], default
 
 
-def _input(hint: Any) -> Input | None:
+def _input(name: str, hint: Any) -> Input | None:
+    if (whole := part_of(name, hint)) is not None:
+        return Input(whole, "one", name)
     origin, parts = get_origin(hint), get_args(hint)
     shape = "members" if origin in (dict, Mapping) and Member in parts else SHAPES.get(origin, "one")
     result = hint if shape == "one" else parts[-1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -22,11 +23,18 @@ class Kind:
 
 
 KINDS: dict[str, Kind] = {}
+# what functions of the library ask for in place of a whole result, by name and type of the parameter
+PARTS = {("mesh", "surfexp.mesh.triangle_mesh:TriangleMesh"): "surface"}
 
 
 def path_of(result: type) -> str:
     """Return "module:Class" of a type."""
     return f"{result.__module__}:{result.__qualname__}"
+
+
+def part_of(name: str, hint: Any) -> str | None:
+    """Name of the kind of whose result a parameter of this name and type is a part; None when it is none."""
+    return PARTS.get((name, path_of(hint))) if isinstance(hint, type) else None
 
 
 def stage_kind(name: str, result: type | str, stored: bool = True) -> None:

@@ -43,12 +43,14 @@ TWIN_METRICS = {
 Count = Annotated[int, Field(ge=5, le=500, description="modes after the constant")]
 
 
-@register("statistic", "modes_of_people", metrics=METRICS, defaults_of=modes_of_people)
-def modes_of_people_statistic(
-    surfaces: dict[Member, Surface], systems: dict[Member, EigenSystem], *, count: Count
-) -> Statistic:
-    """Modes of all pairs of people by order, correlation in space and functional map, with proved signs of the first."""
-    return modes_of_people(surfaces, systems, count, report_progress)
+register(
+    "statistic",
+    "modes_of_people",
+    metrics=METRICS,
+    summary="Modes of all pairs of people by order, correlation in space and functional map, with proved signs of the first.",
+    given={"report": report_progress},
+    options={"count": Field(ge=5, le=500, description="modes after the constant")},
+)(modes_of_people)
 
 
 @register("statistic", "modes_of_twins", metrics=TWIN_METRICS, defaults_of=modes_of_twins)

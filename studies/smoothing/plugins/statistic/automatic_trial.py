@@ -1,15 +1,9 @@
 """The automatic choice of a method, held against the truth."""
 
-from typing import Annotated
-
 from pydantic import Field
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.registry.registry import register
-from surfexp.mesh.surface import Surface
-from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.statistics.statistic import Statistic
-from surfexp.variational.image import Image
 from surfexp_studies.smoothing.automatic_trial import automatic_trial
 
 METRICS = {
@@ -19,14 +13,10 @@ METRICS = {
     "regret": Metric("error over that of the best candidate", better="lower"),
 }
 
-
-@register("statistic", "automatic_trial", metrics=METRICS, defaults_of=automatic_trial)
-def automatic_trial_statistic(
-    surface: Surface,
-    image: Image,
-    operator: SurfaceOperator,
-    *,
-    seed: Annotated[int, Field(ge=0, description="seed of the probe of Stein's estimate")],
-) -> Statistic:
-    """The first column of an image smoothed by what promises the least error, beside each candidate."""
-    return automatic_trial(surface.mesh, operator, image, seed)
+register(
+    "statistic",
+    "automatic_trial",
+    metrics=METRICS,
+    summary="The first column of an image smoothed by what promises the least error, beside each candidate.",
+    options={"seed": Field(ge=0, description="seed of the probe of Stein's estimate")},
+)(automatic_trial)
