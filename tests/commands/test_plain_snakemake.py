@@ -130,6 +130,7 @@ def test_a_finished_run_is_finished_by_every_command_of_snakemake(folder: Path) 
     assert NOTHING in snakemake("-n", "results/chain/metrics.csv")
 
 
+@pytest.mark.slow
 def test_another_experiment_and_surfexp_itself_leave_it_finished(folder: Path) -> None:
     """Their plans are other files, and so is the state of code that each stage is given."""
     assert jobs(snakemake("-n", "--config", "experiment=other")) == {"scalar": 1, "pairing": 1, "report": 1, "all": 1}
@@ -144,6 +145,7 @@ def test_another_experiment_and_surfexp_itself_leave_it_finished(folder: Path) -
     assert NOTHING in snakemake("-n")
 
 
+@pytest.mark.slow
 def test_a_result_that_is_lost_or_damaged_is_made_again_with_what_it_needs(folder: Path) -> None:
     before = {file: file.read_bytes() for file in folder.glob("results/store/*/*/*")}
     (surface,) = folder.glob("results/store/surface/*")
@@ -173,6 +175,7 @@ def test_the_executor_with_warm_processes_gives_the_same_bytes(folder: Path) -> 
     assert (folder / "results" / "chain" / "report.html").exists() and NOTHING in snakemake("-n")
 
 
+@pytest.mark.slow
 def test_the_rules_are_a_module_of_another_workflow(folder: Path) -> None:
     (folder / "Snakefile").write_text(MODULE.replace("RULES", plain_snakemake.SNAKEFILE))
     assert ("surfexp_report", "numbers") in edges(snakemake("--rulegraph"))

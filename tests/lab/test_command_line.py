@@ -147,6 +147,7 @@ def test_a_run_a_rerun_a_sweep_a_failure_and_its_mending(laboratory: Path) -> No
     )  # that of the older code
 
 
+@pytest.mark.slow
 def test_several_experiments_have_a_page_each_and_one_that_fails_stops_no_other(laboratory: Path) -> None:
     folder = laboratory / "conf" / "experiment"
     changes = {"second": ("shift: 1.0", "shift: 2.0"), "without_path": ("surface: toy_triangle", "surface: file")}

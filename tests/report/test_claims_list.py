@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,7 @@ NUMBERED = (
 )
 
 
+@cache
 def claims() -> list[tuple[str, dict[str, Any]]]:
     files = sorted((ROOT / "conf" / "experiment").glob("*.yaml"))
     return [(file.stem, claim) for file in files for claim in claims_of(file)]

@@ -109,6 +109,7 @@ def test_part_of_a_plate(printed: list[str]) -> None:
     assert (known, vertices) == (31 * 41, 61 * 41) and all(line.endswith("True") for line in printed[:2])
 
 
+@pytest.mark.slow
 def test_proved_signs(printed: list[str]) -> None:
     assert printed[0] == "distance 0.1311, no signs give less than 0.1311: True"
     assert int(printed[1].split()[2]) < 200

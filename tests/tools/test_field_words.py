@@ -90,14 +90,9 @@ def test_a_public_docstring_uses_the_words_of_the_field(name: str) -> None:
 def test_an_error_uses_the_words_of_the_field(folder: str) -> None:
     found = {}
     for file in (ROOT / folder).rglob("*.py"):
-        for node in ast.walk(ast.parse(file.read_bytes())):
-            parts = (
-                [part for part in ast.walk(node) if isinstance(part, ast.Constant)]
-                if isinstance(node, ast.Raise)
-                else []
-            )
-            text = "".join(part.value for part in parts if isinstance(part.value, str))
-            if wrong := refused(text, TERMS):
+        for node in (node for node in ast.walk(ast.parse(file.read_bytes())) if isinstance(node, ast.Raise)):
+            parts = [part.value for part in ast.walk(node) if isinstance(part, ast.Constant)]
+            if wrong := refused("".join(part for part in parts if isinstance(part, str)), TERMS):
                 found[f"{file.relative_to(ROOT)}:{node.lineno}"] = wrong
     assert not found
 

@@ -88,6 +88,7 @@ def first(path: str, text: bytes, new: bytes) -> Change:
     return Change(path, start, start + len(text), new, "planted")
 
 
+@pytest.mark.slow
 def test_callers_of_a_compiled_function_are_compiled_afresh_and_those_of_a_plain_one_not() -> None:
     compiled = first("surfexp/operators/fem.py", b"0.5 * twice_area", b"twice_area")
     stale = stale_functions(compiled)

@@ -148,6 +148,7 @@ def test_an_interior_point_solver_agrees() -> None:
     assert np.sqrt(problem.operator.mass @ (unknowns.value[: len(roots)] - ours.values) ** 2) <= 1.1 * ours.error_bound
 
 
+@pytest.mark.slow
 def test_it_lies_below_total_variation_and_tends_to_it_where_no_slope_is_parallel() -> None:
     """On a sphere no field is parallel: a long ratio leaves w = 0."""
     problem = noisy(ratio=2.0)

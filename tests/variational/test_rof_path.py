@@ -25,6 +25,7 @@ def path():
     return rof_path(OPERATOR, MAP, LEAST, MOST, tolerance=1e-3)
 
 
+@pytest.mark.slow
 def test_the_gap_holds_at_200_weights_between_those_solved(path) -> None:
     """No interpolated map has more energy above the minimum, by Newton's method to 1e-8, than it proves."""
     assert path.largest_gap <= 1e-3 and len(path.knots) <= 40

@@ -15,6 +15,7 @@ def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
     return capsys.readouterr().out.splitlines()
 
 
+@pytest.mark.slow
 def test_recognise_again(capsys: pytest.CaptureFixture[str]) -> None:
     first, second = printed("recognise_again", capsys)
     share, low = float(first.split()[0]), float(first.split()[6])

@@ -24,6 +24,7 @@ def test_missing_lengths_leave_fewer_tests_and_those_left_over_are_not_used() ->
         fresh_tests(draws, 44)
 
 
+@pytest.mark.slow
 def test_populations_without_a_common_subject() -> None:
     rng = np.random.default_rng(4)
     differences = rng.normal(0.0, 1.0, (1003, 4))
