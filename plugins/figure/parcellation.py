@@ -8,7 +8,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, compare
+from surfexp.figures.figure import Figure, compare, whole
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import register
@@ -46,7 +46,7 @@ def parcellation_figure(
     )
     caption = (
         f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
-        f"{f', {length:,.0f} {surface.unit} long' if length is not None else ''}.{proved}{compare(reference)}"
+        f"{f', {whole(length)} {surface.unit} long' if length is not None else ''}.{proved}{compare(reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
     return replace(surface_panel(panels, width=width, caption=caption), title=title)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, noun, sentence
+from surfexp.figures.figure import Figure, noun, sentence, whole
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import register
@@ -58,7 +58,7 @@ def regions_figure(
     ]
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
     caption = (
-        f"{sentence(image.name)} on {noun(surface.name)}, {len(mesh.vertices):,} vertices{noise}: "
+        f"{sentence(image.name)} on {noun(surface.name)}, {whole(len(mesh.vertices))} vertices{noise}: "
         f"{len(np.unique(labels))} regions; in red their boundaries."
     )
     return replace(surface_panel(rows, width=width, caption=caption), title=solver.solver.replace("_", " "))

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, compare, noun, sentence
+from surfexp.figures.figure import Figure, compare, noun, sentence, whole
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import register
@@ -61,7 +61,7 @@ def segmentation_figure(
     noise = f" with noise of standard deviation {image.noise:g}" if image.noise else ""
     where = compare(reference)
     caption = (
-        f"{sentence(image.name)} on {noun(surface.name)}, {len(mesh.vertices):,} vertices{noise}; in red the boundary, "
+        f"{sentence(image.name)} on {noun(surface.name)}, {whole(len(mesh.vertices))} vertices{noise}; in red the boundary, "
         f"{solver.metrics['perimeter']:.3g} long.{where}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver))

@@ -14,16 +14,22 @@ from surfexp.commands.processes import end_session
 from surfexp.lab.errors import UserError
 
 
-@click.command(**shown("ui", "", "--port 5001", cls=click.Command))
+@click.command(**shown("ui", "", "--port 5001", "3f2a91c0", cls=click.Command))
+@click.argument("run", required=False, default="")
 @click.option("--port", default=5000, help="port on this machine (loopback only)")
 @results_option
-def ui(port: int, results: Path) -> int:
+def ui(run: str, port: int, results: Path) -> int:
     """Start the MLflow dashboard on this machine.
 
-    Ctrl-C ends it.
+    RUN is the name of a run, or its first letters, as tables of a report have it. Ctrl-C ends it.
     """
     if not (results / "mlflow.db").exists():
         raise UserError(f"no runs are recorded in {results}; start with: surfexp run")
+    from surfexp.records.run_names import run_page
+
+    page = run_page(results / "mlflow.db", run) if run else ""
+    if page is None:
+        raise UserError(f"no run, or more than one, begins with {run!r}: its name is in the column run of a report")
     from mlflow.tracking import MlflowClient
 
     from surfexp.records.tracking import tracking_uri
@@ -31,7 +37,9 @@ def ui(port: int, results: Path) -> int:
     found = MlflowClient(tracking_uri(results)).search_experiments(order_by=["last_update_time DESC"])
     shown_first = next((item.experiment_id for item in found if item.name != "Default"), "0")
     view = "orderByKey=metrics.%60relative_gap%60&orderByAsc=true&searchFilter=tags.current%3D%22true%22"
-    address = f"http://127.0.0.1:{port}/?workflowType=machine_learning#/experiments/{shown_first}/runs?{view}"
+    address = (
+        f"http://127.0.0.1:{port}/?workflowType=machine_learning#/{page or f'experiments/{shown_first}/runs?{view}'}"
+    )
     print(f"dashboard: {address}   (Ctrl-C ends it)", flush=True)
     server = [sys.executable, "-P", "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port)]
     environment = {**os.environ, "MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}

@@ -38,6 +38,11 @@ def compare(reference: str) -> str:
     return f" Compare {reference} of the dissertation." if reference else ""
 
 
+def whole(number: float) -> str:
+    """A number without decimals as tables write it, with thin spaces between thousands."""
+    return f"{number:,.0f}".replace(",", "\u202f")
+
+
 def sentence(text: str) -> str:
     """A text with a capital at its beginning; a file's name (lh.thickness, white_left) is left as it is."""
     return text[:1].upper() + text[1:] if _is_prose(text.split(" ")[0]) else text

@@ -22,6 +22,8 @@ DATA = ("surface", "image")
 BEST_BEYOND = 50
 # what depends on the model and on where a solver stops: a best among rows of different models means nothing
 OF_ONE_PROBLEM = ("gap", "relative_gap", "lower_bound", "error_bound", "iterations", "evaluations", "updates")
+# where a certified row stopped below its tolerance, or what chance would give: a smaller one is no better
+NO_MERIT = ("gap", "lower_bound", "error_bound", "p_value")
 # the kinds whose rows are answers to one question where their data agree; a statistic may ask another in each row, unless
 # it measures a solver's result
 ANSWERS = ("solver", "distance", "distance_matrix", "embedding", "classifier")
@@ -109,24 +111,29 @@ class Comparison:
 
     @cached_property
     def best(self) -> dict[tuple[str, frozenset[str]], float]:
-        """The best value of each metric that has a good direction, by data, of rows that converged and differ in it."""
+        """The best value of each metric in which being better means something, by data, of rows that converged.
+
+        There is none where all rows show the same number.
+        """
         rows = [row for row in self.rows if self._may_be_best(row)]
         found = dict[tuple[str, frozenset[str]], float]()
         for name in self.metric_names:
             better, values = self.meaning(name).better, dict[frozenset[str], set[float]]()
-            if name in OF_ONE_PROBLEM and self._several_problems:
+            if name.endswith(NO_MERIT) or (name in OF_ONE_PROBLEM and self._several_problems):
                 continue
             for row in rows if better else ():
                 if not math.isnan(value := row.metrics.get(name, math.nan)):
                     values.setdefault(row.data, set()).add(value)
             choose = max if better == "higher" else min
-            found |= {(name, data): choose(some) for data, some in values.items() if len(some) > 1}
+            differ = {data: some for data, some in values.items() if len({*map(format_number, some)}) > 1}
+            found |= {(name, data): choose(some) for data, some in differ.items()}
         return found
 
     def is_best(self, row: Row, name: str) -> bool:
-        """Whether a row holds the best value of a metric on its data."""
+        """Whether a row holds the best value of a metric on its data, or one that is shown by the same digits."""
         best = self.best.get((name, row.data))
-        return best is not None and row.metrics.get(name) == best and self._may_be_best(row)
+        shown = best is not None and format_number(row.metrics.get(name)) == format_number(best)
+        return shown and self._may_be_best(row)
 
     @cached_property
     def _several_problems(self) -> bool:
@@ -221,7 +228,7 @@ def format_number(value: float | None) -> str:
     if value == int(value) and abs(value) < 1e7:
         return f"{int(value):,}".replace(",", "\u202f")
     if 1e-3 <= abs(value) < 1e6:
-        return f"{value:.4g}" if abs(value) < 1e4 else f"{value:,.0f}".replace(",", "\u202f")
+        return f"{value:.4g}" if abs(value) < 999.95 else f"{value:,.0f}".replace(",", "\u202f")
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{mantissa}e{int(exponent)}"
 

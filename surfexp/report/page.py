@@ -17,16 +17,18 @@ from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
 from surfexp.records.origin import read_origin
-from surfexp.records.run_addresses import run_addresses
+from surfexp.records.run_names import run_names
 from surfexp.records.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
 from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
 from surfexp.report.drawing import is_still
+from surfexp.report.length_units import name_lengths
 from surfexp.report.overview import write_overview, write_summary
 from surfexp.report.ranking.section import RankingShown, write_rankings
 from surfexp.report.render import render
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.search import search_of, write_search
+from surfexp.report.stills import addresses, as_data, shown_files
 from surfexp.report.turning.turning import Turning
 from surfexp.report.verdict import judge
 
@@ -59,15 +61,21 @@ def write_report(plan: Plan, results: Path) -> Path:
     groups = comparisons(rows)
     for group in groups:
         group.metrics = declared_by(plan, group.rows)
+        name_lengths(group, plan, results)
     figures = _write_figures(plan, results, folder / "figures")
     sections = [_section(group, figures, folder / "figures", k) for k, group in enumerate(groups)]
     turning = Turning(results)
     for item in (item for section in sections for item in section.figures[:FIGURES_SHOWN] if "key" in item):
         item |= turning.of(plan.nodes, item["key"])
     verdicts = judge(read_claims(plan.settings.claims), rows)
-    store.write_text(folder / "metrics.csv", to_csv(rows))
+    table = to_csv(rows)
+    store.write_text(folder / "metrics.csv", table)
     made = read_origin(folder)
     search = search_of(rows, plan.settings.objective, made.get("command", ""))
+    searched = write_search(search, folder / "figures") if search else ""
+    data = as_data(table.encode(), "text/csv;charset=utf-8")
+    names = [*_names_of_pictures(sections), *([searched] if searched else [])]
+    stills, size = addresses(folder / "figures", names, len(data) + sum(map(len, turning.payload.arrays.values())))
     page = render(
         "report.html.j2",
         settings=plan.settings,
@@ -80,10 +88,13 @@ def write_report(plan: Plan, results: Path) -> Path:
         requested=plan.requested,
         made=made,
         search=search,
-        searched=write_search(search, folder / "figures") if search else "",
+        searched=searched,
+        stills=stills,
+        apart=-(-size // 10**6) if shown_files(stills) else 0,
+        table=data,
         arrays=turning.payload.arrays,
         scripts=turning.scripts,
-        runs=run_addresses(results / "mlflow.db", plan.settings.experiment),
+        runs=run_names(results / "mlflow.db", plan.settings.experiment),
     )
     store.write_text(folder / "report.html", page)
     pictures = [item["file"] for section in sections for item in section.figures]
@@ -93,6 +104,12 @@ def write_report(plan: Plan, results: Path) -> Path:
     except Exception as error:  # whatever lies in other folders: this report is written
         print(f"surfexp: {results / 'index.html'} is not written ({type(error).__name__})", file=sys.stderr)
     return folder
+
+
+def _names_of_pictures(sections: list[Section]) -> list[str]:
+    """The files of all pictures that the page shows, each once."""
+    figures = [item["file"] for section in sections for item in section.figures[:FIGURES_SHOWN]]
+    return [*dict.fromkeys([*figures, *(ranking.file for section in sections for ranking in section.rankings)])]
 
 
 def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], folder: Path, number: int) -> Section:

@@ -12,6 +12,7 @@ import pytest
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.contract.metric import Metric, find_metric
+from surfexp.figures.figure import whole
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Leaf
 from surfexp.records.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
@@ -169,6 +170,23 @@ def test_a_metric_means_what_its_own_table_declares(tmp_path: Path) -> None:
     groups = {group.title: group for group in comparisons(rows_of(plan, tmp_path))}
     directions = {title: find_metric("gap", declared_by(plan, group.rows)) for title, group in groups.items()}
     assert [directions[name].better for name in ("solvers", "modes")] == ["lower", "higher"]  # type: ignore[union-attr]
+
+
+def test_where_a_row_stopped_and_p_values_have_no_best_and_equal_digits_share_it() -> None:
+    rows = rows_by_chance(4, 0)
+    for number, row in enumerate(rows):
+        row.data, row.metrics = frozenset("a"), {"relative_gap": 1e-5 * number, "p_value": 0.1 * number}
+        row.metrics |= {"rmse": (15.2701, 15.2702, 15.32, 16.0)[number], "psnr": 20.00001 - 1e-6 * number}
+    lower = {name: Metric("", "", "lower") for name in ("relative_gap", "p_value", "lower_bound")}
+    group = Comparison("", "", rows, [], METRICS | lower)
+    best = [[name for name in group.metric_names if group.is_best(row, name)] for row in rows]
+    assert best == [["rmse"], ["rmse"], [], []]
+
+
+def test_thousands_are_apart_in_every_number() -> None:
+    shown = [format_number(value) for value in (999.94, 1203.4, 8417.0, 8416.7, -45437.2, 10437, 999.96)]
+    assert shown == ["999.9", "1\u202f203", "8\u202f417", "8\u202f417", "-45\u202f437", "10\u202f437", "1\u202f000"]
+    assert whole(8416.7) == shown[3]
 
 
 def test_gaps_of_different_problems_have_no_best() -> None:

@@ -109,4 +109,4 @@ def test_a_search_asked_again_computes_nothing_and_is_one_table(
     said = [line for line in first.splitlines() if line.startswith(("search", "again"))]
     assert len(said) == 2 and all(line in again for line in said) and "4 trials of model.w" in said[0]
     page = (working_folder / "results" / "quickstart" / "report.html").read_text()
-    assert "4 trials of model.w" in page and "figures/search.svg" in page
+    assert "4 trials of model.w" in page and "data:image/svg+xml;base64," in page

@@ -20,7 +20,7 @@ from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
 from surfexp.records import run_content, run_database, tracking
-from surfexp.records.run_addresses import run_addresses
+from surfexp.records.run_names import run_names, run_page
 from surfexp.report.page import write_report
 
 OWN = {"current": "true", "failure": ""}
@@ -215,21 +215,24 @@ def test_a_row_leads_to_its_run_and_a_new_run_to_its_page(results: Path) -> None
     plan = finished(2, results)
     database, name = results / "mlflow.db", plan.settings.experiment
     found = recorded(plan, results)
-    addresses = run_addresses(database, name)
+    names = run_names(database, name)
     number = found["plan"].info.experiment_id
     for leaf in plan.leaves:
         run = found[leaf.key]
-        assert addresses[leaf.key] == f"http://127.0.0.1:5000/#/experiments/{number}/runs/{run.info.run_id}"
+        assert names[leaf.key] == run.info.run_id
+        assert run_page(database, run.info.run_id[:8]) == f"experiments/{number}/runs/{run.info.run_id}"
         page = f"(#/experiments/{number}/runs/{found['plan'].info.run_id}/artifacts/report.html)"
         assert page in run.data.tags["mlflow.note.content"] and leaf.key in run.data.tags["mlflow.note.content"]
     write_report(plan, results)
     text = (results / name / "report.html").read_text()
-    assert all(f'<a href="{addresses[leaf.key]}"' in text for leaf in plan.leaves)
-    assert run_addresses(database, "another") == {}
+    assert all(f'<code id="run-{(run := names[leaf.key][:8])}">{run}</code>' in text for leaf in plan.leaves)
+    assert "127.0.0.1" not in text  # nothing serves the dashboard to whoever reads the page
+    assert run_names(database, "another") == {} and run_page(database, "zzz") is run_page(database, "") is None
     database.write_bytes(b"no database")
-    assert run_addresses(database, name) == run_addresses(results / "none.db", name) == {}
+    assert run_names(database, name) == run_names(results / "none.db", name) == {}
+    assert run_page(database, "1a") is None
     write_report(plan, results)
-    assert "127.0.0.1" not in (results / name / "report.html").read_text()
+    assert 'id="run-' not in (results / name / "report.html").read_text()
 
 
 def test_names_tell_runs_apart_and_durations_are_those_of_the_computation(results: Path) -> None:

@@ -37,21 +37,23 @@ class TurningFigure {
   constructor(element_, linked) {
     Object.assign(this, { element: element_, linked, panels: [], cost: 0 });
     this.scene = JSON.parse(element_.querySelector("script.scene").textContent);
-    this.button = element("button", { type: "button", textContent: "Turn" });
+    const number = [...document.querySelectorAll("figure:has(> script.scene)")].indexOf(element_) + 1;
+    this.name = `figure ${number}: ${element_.querySelector("img")?.alt ?? "surface"}`;
+    this.button = element("button", { type: "button", textContent: "Turn", ariaLabel: `Turn ${this.name}` });
     this.note = element("span", { className: "note" });
     this.note.setAttribute("role", "status");
     this.views = element("span", { className: "views", hidden: true });
     const own = this.scene.surfaces.flatMap(({ sides }) => Object.keys(sides ?? {}));
     for (const name of ["reset", ...Object.values(KEYS)]) {
       if (name !== "reset" && !(name in this.scene.views) && !own.includes(name)) continue;
-      const button = element("button", { type: "button", textContent: name });
+      const button = element("button", { type: "button", textContent: name, ariaLabel: `${name} view of ${this.name}` });
       button.addEventListener("click", () => this.face(name));
       this.views.append(button);
     }
     this.tools = element("div", { className: "tools" }, this.button, this.views, this.note);
     this.place = element("div", { className: "panels" });
     this.place.dataset.count = this.scene.panels.length;
-    const still = element_.querySelector("a");
+    const still = element_.querySelector(":scope > a, :scope > img");
     if (still) still.after(this.place, this.tools);
     else element_.prepend(this.place, this.tools);
     this.button.hidden = !still;
@@ -92,6 +94,7 @@ class TurningFigure {
       this.linked.add(this);
       this.views.hidden = false;
       this.button.textContent = "Still";
+      this.button.ariaLabel = `Still ${this.name}`;
       this.note.textContent = "Drag or arrow keys turn, + and − zoom, shift and drag moves.";
     } catch (error) {
       this.still();
@@ -126,6 +129,7 @@ class TurningFigure {
     this.views.hidden = true;
     this.element.classList.remove("turns");
     this.button.textContent = "Turn";
+    this.button.ariaLabel = `Turn ${this.name}`;
     this.note.textContent = "";
   }
 
