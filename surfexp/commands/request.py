@@ -125,7 +125,8 @@ def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
 
 def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     """Print the tables of a plan that was run with these arguments, its verdicts, and where its pages are."""
-    from surfexp.commands.verdict_lines import print_verdicts
+    from surfexp.commands.last_screen import print_last_screen
+    from surfexp.commands.verdict_lines import print_verdicts, verdicts_of
     from surfexp.commands.views import print_tables, wide_console
     from surfexp.records.table import comparisons, rows_of
     from surfexp.report.convergence import unconverged
@@ -134,17 +135,23 @@ def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     results, console = Path(plan.settings.results), wide_console()
     rows = rows_of(plan, results.resolve())
     groups = comparisons(rows)
-    print_tables(groups, console, ROWS_PRINTED)
-    print_verdicts(plan, rows, console)
+    name, tail = plan.settings.experiment, []
     if search := search_of(rows, plan.settings.objective, shlex.join(["surfexp", "run", *arguments])):
-        console.print(f"search     {search.sentence}", soft_wrap=True)
-        console.print(f"again      {search.command}", soft_wrap=True)
-    page = results / plan.settings.experiment / "report.html"
-    console.print(f"report     {page if page.exists() else 'not written'}", soft_wrap=True)
+        tail += [f"search     {search.sentence}", f"again      {search.command}"]
+    page = results / name / "report.html"
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
-    console.print(f"dashboard  surfexp ui{folder}", soft_wrap=True)
+    tail.append(f"report     {page if page.exists() else 'not written'}")
+    dashboard = f"dashboard  surfexp ui{folder}"
     lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines
+    if console.is_terminal:
+        tail.append(f"all rows   {results / name / 'metrics.csv'}, surfexp table {name}{folder}")
+        print_last_screen(groups, verdicts_of(plan, rows), lines, [*tail, dashboard], console)
+        return
+    print_tables(groups, console, ROWS_PRINTED)
+    print_verdicts(plan, rows, console)
+    for text in [*tail, dashboard]:
+        console.print(text, soft_wrap=True, markup=False)
     warn(lines)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.markup import escape
 
+from surfexp.commands.views import lines_for
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
 from surfexp.records.table import Row
@@ -26,15 +27,25 @@ STYLES = {
 def print_verdicts(plan: Plan, rows: Sequence[Row], console: Console) -> None:
     """Print each claim with its verdict, the number found and the interval asked, worst last."""
     order = list(STYLES)
-    found = sorted(judge(read_claims(plan.settings.claims), rows), key=lambda item: order.index(item.verdict))
+    found = sorted(verdicts_of(plan, rows), key=lambda item: order.index(item.verdict))
     for item in found:
         style = STYLES[item.verdict]
-        console.print(f"[{style}]{item.verdict}[/{style}]  {escape(_statement(item))}", soft_wrap=True)
+        first, *rest = lines_for(f"{item.verdict}  {statement(item)}", console)
+        said = escape(first.removeprefix(item.verdict))
+        console.print(f"[{style}]{item.verdict}[/{style}]{said}", soft_wrap=True)
+        for line in rest:
+            console.print(escape(line), soft_wrap=True)
     if found:
         console.print()
 
 
-def _statement(item: Verdict) -> str:
+def verdicts_of(plan: Plan, rows: Sequence[Row]) -> list[Verdict]:
+    """The verdicts on the claims of an experiment, in their order."""
+    return judge(read_claims(plan.settings.claims), rows)
+
+
+def statement(item: Verdict) -> str:
+    """A claim, what was found and what was asked."""
     asked = f"{item.quantity} {item.number}, {_compared_with(item)}"
     return f"{item.claim.claim}: {item.obstacle or asked}"
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from surfexp.records.table import Comparison, Row, format_number, short_name
+from surfexp.records.table import Comparison, Row, format_number, number_notes, short_name
 from surfexp.report.repeats import Repeats, repeats_of, spread
 from surfexp.report.words import word
 
@@ -24,8 +25,19 @@ def wide_console() -> Console:
     return console if console.is_terminal else Console(highlight=False, width=WIDE)
 
 
+def wrapped(text: str, width: int, indent: int) -> list[str]:
+    """A text over lines, broken at spaces only, the further lines indented."""
+    lines = textwrap.wrap(text, width, subsequent_indent=" " * indent, break_long_words=False, break_on_hyphens=False)
+    return lines or [""]
+
+
+def lines_for(text: str, console: Console, indent: int = 2) -> list[str]:
+    """A text as a console shows it: wrapped in a terminal, one line in a file."""
+    return wrapped(text, console.width, indent) if console.is_terminal else [text]
+
+
 def print_tables(groups: Sequence[Comparison], console: Console, limit: int | None = None) -> None:
-    """One table a comparison; a row that did not converge is red and says so. Of more than `limit` rows an excerpt.
+    """One table a comparison with its notes; a row that did not converge is red and says so. Of more than `limit` rows an excerpt.
 
     Where the terminal is too narrow for a table without a cut number, each row is a block of lines.
     """
@@ -34,7 +46,11 @@ def print_tables(groups: Sequence[Comparison], console: Console, limit: int | No
         if repeats := repeats_of(group):
             _print(_repeats_table(repeats), console)
         rows = group.rows if limit is None else group.excerpt(limit)
-        _print(_table(group, rows), console)
+        notes = number_notes(rows)
+        _print(_table(group, rows, notes), console)
+        for note, number in notes.items():
+            for line in lines_for(f"[{number}] {note}", console, 4):
+                console.print(escape(line), soft_wrap=True)
         if len(rows) < len(group.rows):
             said = "the first ones and the best; metrics.csv beside the report and surfexp table have all"
             console.print(f"{len(rows)} of {len(group.rows)} rows: {said}", soft_wrap=True)
@@ -61,7 +77,7 @@ def _repeats_table(repeats: Repeats) -> Table:
     return table
 
 
-def _table(group: Comparison, rows: Sequence[Row]) -> Table:
+def _table(group: Comparison, rows: Sequence[Row], notes: dict[str, int]) -> Table:
     table = Table(header_style="bold")
     for name in group.varying:
         table.add_column(escape(short_name(name)), overflow="fold")
@@ -73,6 +89,8 @@ def _table(group: Comparison, rows: Sequence[Row]) -> Table:
     for row in rows:
         values = [escape(word(row.parameters.get(name, "–"))) for name in group.varying]
         numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
+        if marks := [str(notes[note]) for note in notes if note in row.notes]:
+            values = [f"{values[0]} \\[{','.join(marks)}]", *values[1:]] if values else values
         state = "failed" if row.failure else "not converged" if row.limited else ""
         table.add_row(*values, *numbers, *([state] if limited else []), style="red" if state else None)
     return table
