@@ -41,9 +41,12 @@ EXAMPLES = {
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.option("-k", "count", default=50, help="number of eigenpairs")
 @click.option("--tolerance", default=1e-8, help="largest relative residual")
+@click.option(
+    "--threads", type=int, help="threads for more than 200 pairs; all cores by default, the bytes are the same"
+)
 @surface_options
 @result_option()
-def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -> int:
+def modes(path: str, count: int, tolerance: float, threads: int | None, target: Path, **given: Any) -> int:
     """Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."""
     from surfexp.tasks.spectra import eigenpairs
     from surfexp.tasks.written_files import check_target
@@ -52,7 +55,7 @@ def modes(path: str, count: int, tolerance: float, target: Path, **given: Any) -
     ready(target, files, check_target, count=count, hemisphere=surface.hemisphere)
     started = time.perf_counter()
     with progress_line("modes") as progress:
-        system = eigenpairs(surface, count, tolerance=tolerance, progress=progress)
+        system = eigenpairs(surface, count, tolerance=tolerance, progress=progress, threads=threads)
     facts = {
         "complete": system.complete,
         "residual": float(system.residuals.max()),

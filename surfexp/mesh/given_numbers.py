@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from surfexp.contract.threads import all_cores
+
 # from here on not every whole number is a float64
 LARGEST_WHOLE = 2.0**53
 # characters of what was given, in a message
@@ -50,6 +52,25 @@ def whole_number(given: Any, what: str, least: int, most: int | None = None) -> 
     if not least <= number <= most:
         raise ValueError(f"{what} = {_shown(number)}, {bounds} is needed")
     return number
+
+
+def given_threads(given: Any) -> int:
+    """Return a number of threads: as given, or all cores that this process may use.
+
+    Parameters
+    ----------
+    given : int or None
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    ValueError
+        If it is no whole number from 1 on.
+    """
+    return all_cores() if given is None else whole_number(given, "threads", 1)
 
 
 def one_of(given: Any, what: str, known: Iterable[str]) -> str:

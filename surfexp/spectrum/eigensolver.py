@@ -15,7 +15,8 @@ from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.lobpcg import lobpcg
 from surfexp.spectrum.pencil_checks import certified, check_pencil, check_request
-from surfexp.spectrum.slicing import Progress, slicing
+from surfexp.spectrum.single_slice import Progress
+from surfexp.spectrum.slicing import slicing
 
 METHODS = ("auto", "slicing", "arpack", "lobpcg", "dense")
 DENSE_SIZE = 400
@@ -29,6 +30,7 @@ def eigenpairs(
     tolerance: float = 1e-8,
     seed: int = 0,
     progress: Progress | None = None,
+    threads: int = 1,
 ) -> EigenSystem:
     """Find the k lowest pairs of A x = lambda B x (3.17).
 
@@ -47,6 +49,8 @@ def eigenpairs(
     seed : int
     progress : callable, optional
         Receives the number of pairs found and the fraction that is still missing.
+    threads : int
+        Of `slicing`, for more than 200 pairs; the result has the same bytes for any number of them.
 
     Returns
     -------
@@ -77,7 +81,7 @@ def eigenpairs(
     if method == "lobpcg":
         return lobpcg(stiffness, mass, k, tolerance, seed)
     count, labels = component_labels(stiffness, mass)
-    solve = partial(_connected, method=method, tolerance=tolerance, seed=seed, progress=progress)
+    solve = partial(_connected, method=method, tolerance=tolerance, seed=seed, progress=progress, threads=threads)
     if count == 1:
         system = solve(stiffness, mass, k)
     else:
@@ -87,7 +91,14 @@ def eigenpairs(
 
 
 def _connected(
-    stiffness: csr_array, mass: csr_array, k: int, method: str, tolerance: float, seed: int, progress: Progress | None
+    stiffness: csr_array,
+    mass: csr_array,
+    k: int,
+    method: str,
+    tolerance: float,
+    seed: int,
+    progress: Progress | None,
+    threads: int,
 ) -> EigenSystem:
     """Solve a pencil that is connected; "auto" turns to dense algebra where slicing proves nothing."""
     n = stiffness.shape[0]
@@ -96,7 +107,7 @@ def _connected(
     if method == "arpack":
         return arpack(stiffness, mass, k, tolerance, seed)
     try:
-        return certified(slicing(stiffness, mass, k, tolerance, seed, progress), k, tolerance)
+        return certified(slicing(stiffness, mass, k, tolerance, seed, progress, threads), k, tolerance)
     except EigensolverError:
         if method == "slicing" or n > LARGEST_DENSE_SIZE:
             raise

@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.threads import in_threads
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
 
@@ -141,18 +142,24 @@ class Measurement:
 
 
 def measure(
-    stiffness: csr_array, mass: csr_array, vectors: Floats, count: int | None = None, spacing: float = 0.0
+    stiffness: csr_array,
+    mass: csr_array,
+    vectors: Floats,
+    count: int | None = None,
+    spacing: float = 0.0,
+    threads: int = 1,
 ) -> Measurement:
-    """Measure B-normalised vectors, or the first `count` of them, some columns at a time.
+    """Measure B-normalised vectors, or the first `count` of them, some columns at a time in each thread.
 
     Without a spacing it is that of the Rayleigh quotients.
     """
     count = vectors.shape[1] if count is None else count
     values, errors, overlaps = np.empty((3, count))
-    block, mass_block, error = (np.zeros((len(vectors), LANES)) for _ in range(3))
-    masses = np.empty((len(vectors), min(count, COLUMNS_AT_ONCE)), order="F")
-    for start in range(0, count, COLUMNS_AT_ONCE):
+
+    def measure_some(start: int) -> None:
         stop = min(start + COLUMNS_AT_ONCE, count)
+        block, mass_block, error = (np.zeros((len(vectors), LANES)) for _ in range(3))
+        masses = np.empty((len(vectors), stop - start), order="F")
         for first in range(start, stop, LANES):
             some = slice(first, min(first + LANES, stop))
             width = some.stop - first
@@ -166,9 +173,12 @@ def measure(
             sizes = residual_norms(error, mass_block, quotients)
             errors[some] = sizes[0][:width] / sizes[1][:width]
             masses[:, first - start : first - start + width] = mass_block[:, :width]
-        products = masses[:, : stop - start].T @ vectors[:, start:]
+        products = masses.T @ vectors[:, start:]
         products[np.arange(stop - start), np.arange(stop - start)] -= 1.0
         overlaps[start:stop] = np.abs(products).max(axis=1)
+
+    for _ in in_threads(measure_some, range(0, count, COLUMNS_AT_ONCE), threads):
+        pass
     return Measurement(values, errors, overlaps, spacing or mean_spacing(values))
 
 

@@ -16,7 +16,7 @@ ROTATION_LOSS = 10.0
 
 
 def hermitian_pairs(
-    stiffness: sparray, mass: sparray, k: int, tolerance: float = 1e-8
+    stiffness: sparray, mass: sparray, k: int, tolerance: float = 1e-8, threads: int = 1
 ) -> tuple[Floats, NDArray[np.complex128]]:
     """Find the k lowest pairs of a complex Hermitian pencil, proved complete by the inertia of its real form.
 
@@ -31,6 +31,8 @@ def hermitian_pairs(
     k : int
     tolerance : float
         Largest relative residual of the real form; the complex pairs may have ten times this.
+    threads : int
+        As in `eigenpairs`.
 
     Returns
     -------
@@ -48,7 +50,7 @@ def hermitian_pairs(
     if not 1 <= k <= n:
         raise EigensolverError(f"k = {k} eigenpairs of {n} degrees of freedom: take 1 <= k <= {n}")
     stiffness, mass = csr_array(stiffness), csr_array(mass)
-    system = eigenpairs(_real_form(stiffness), _real_form(mass), 2 * k, tolerance=tolerance)
+    system = eigenpairs(_real_form(stiffness), _real_form(mass), 2 * k, tolerance=tolerance, threads=threads)
     complex_vectors = system.vectors[:n] + 1j * system.vectors[n:]
     sizes, mixing = np.linalg.eigh(complex_vectors.conj().T @ (mass @ complex_vectors))
     basis = complex_vectors @ (mixing[:, k:] / np.sqrt(sizes[k:]))

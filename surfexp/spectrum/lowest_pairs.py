@@ -11,7 +11,7 @@ from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensolver_error import SliverError
 from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.single_slice import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 
 
@@ -23,6 +23,7 @@ def lowest_pairs(
     boundary: Boundary = "neumann",
     tolerance: float = 1e-8,
     progress: Progress | None = None,
+    threads: int = 1,
 ) -> tuple[SurfaceOperator, EigenSystem]:
     """Find the lowest pairs with linear elements on the triangles of a surface, or on its intrinsic Delaunay triangles.
 
@@ -31,7 +32,7 @@ def lowest_pairs(
     Parameters
     ----------
     surface : Surface
-    count, mass, boundary, tolerance, progress
+    count, mass, boundary, tolerance, progress, threads
         As in `surface_spectrum`.
 
     Returns
@@ -45,16 +46,23 @@ def lowest_pairs(
     ValueError
         If neither gives certified pairs, or the request is unfit.
     """
+
+    def pairs(operator: SurfaceOperator) -> EigenSystem:
+        return surface_spectrum(
+            *(surface, operator, count),
+            mass=mass,
+            boundary=boundary,
+            tolerance=tolerance,
+            progress=progress,
+            threads=threads,
+        )
+
     operator = fem(surface.mesh)
     try:
-        return operator, surface_spectrum(
-            surface, operator, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
-        )
+        return operator, pairs(operator)
     except SliverError as stopped:
         operator = without_slivers(surface, stopped)
-        system = surface_spectrum(
-            surface, operator, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress
-        )
+        system = pairs(operator)
     return operator, replace(system, notes=operator.notes + system.notes)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 from scipy.sparse import csr_array, sparray
 
@@ -59,6 +61,12 @@ class ShiftedPencil:
     def size(self) -> int:
         """Number of rows."""
         return len(self.order)
+
+    def with_own_factors(self) -> ShiftedPencil:
+        """Return the same matrices and analysis with counts and factors of their own, for another thread."""
+        other = copy(self)
+        other._factors, other.counts, other.doubts = None, dict(self.counts), dict(self.doubts)
+        return other
 
     def multiply_mass(self, block: Floats, result: Floats | None = None) -> Floats:
         """Return B X, C-ordered; in `result` where that is given and the block has eight columns."""

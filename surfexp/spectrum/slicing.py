@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse import sparray
@@ -12,21 +10,16 @@ from threadpoolctl import threadpool_limits
 from surfexp.contract.arrays import Floats
 from surfexp.linalg.block_lanczos import BLOCK
 from surfexp.linalg.ldlt import LDLT
-from surfexp.spectrum.counting_function import guess_eigenvalue
+from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, Measurement, mean_spacing, measure, measured
+from surfexp.spectrum.pencil_checks import certified
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
-from surfexp.spectrum.spectrum_slice import EDGE_GAP, SliceRequest, SpectrumSlice, open_gaps, solve_slice
+from surfexp.spectrum.side_by_side import ALONE, slices_side_by_side
+from surfexp.spectrum.single_slice import Progress, solve_at_good_shift
+from surfexp.spectrum.spectrum_slice import EDGE_GAP, SpectrumSlice, open_gaps
 
 SLICE = 350
-# few pairs are found soonest from their middle, many from above it
-FIRST_SHIFT, INNER_SHIFT, FEW = 0.6, 0.5, 60
-SHIFT_ATTEMPTS = 12
-SOLVE_ACCURACY = 2e-10
 POLISHES = 3
-# beyond this loss of orthogonality Ritz values are no longer those of the pencil to working accuracy
-LARGEST_DRIFT, SHIFT_STEP, SHIFT_MOVES = 1e-6, 0.37, 4
-
-Progress = Callable[[int, float], None]
 
 
 def slicing(
@@ -36,12 +29,16 @@ def slicing(
     tolerance: float = 1e-8,
     seed: int = 0,
     progress: Progress | None = None,
+    threads: int = 1,
 ) -> EigenSystem:
     """Find the k lowest eigenpairs by block Lanczos at interior shifts (Grimes, Lewis and Simon 1994).
 
     The first shift lies at about 0.6 lambda_k (or of the last value of the first slice; at half of it for few pairs), so
     that the wanted values are the extreme ones of the inverted operator on both sides. A slice ends in a gap of the
     spectrum, where the inertia of A - s B counts what lies below.
+
+    More than 200 pairs are found in slices side by side, up to `threads` at a time. Where these leave something unproved,
+    as at an edge inside a cluster, slices follow one after another, each from the gap in which the last has ended.
 
     Parameters
     ----------
@@ -53,6 +50,8 @@ def slicing(
     seed : int
     progress : callable, optional
         Receives the number of pairs found and the fraction that is still missing.
+    threads : int
+        The result has the same bytes for any number of them.
 
     Returns
     -------
@@ -66,7 +65,13 @@ def slicing(
     # products of blocks of eight columns are too small for two threads, which wait for each other for longer
     with threadpool_limits(1, "blas"):
         pencil = ShiftedPencil(stiffness, mass)
-        return _assemble(pencil, k, tolerance, _slices(pencil, k, tolerance, seed, progress))
+        if k > ALONE:
+            try:
+                parts = slices_side_by_side(pencil, k, tolerance, seed, threads, progress)
+                return certified(_assemble(pencil, k, tolerance, parts, threads), k, tolerance)
+            except EigensolverError:
+                pass
+        return _assemble(pencil, k, tolerance, _slices(pencil, k, tolerance, seed, progress), threads)
 
 
 def _slices(
@@ -79,7 +84,7 @@ def _slices(
         remaining = k - found
         count = int(np.ceil(remaining / np.ceil(remaining / min(SLICE, pencil.size // 5))))
         freedom = 0 if count == remaining else count // 4
-        part = _solve_at_good_shift(pencil, found, count, freedom, low, tolerance, seed)
+        part = solve_at_good_shift(pencil, found, count, freedom, low, tolerance, seed)
         slices.append(part)
         found, low = found + len(part.values), part.edge
         if progress is not None:
@@ -89,48 +94,12 @@ def _slices(
     return slices
 
 
-def _solve_at_good_shift(
-    pencil: ShiftedPencil, found: int, count: int, freedom: int, low: float, tolerance: float, seed: int
-) -> SpectrumSlice:
-    """Solve a slice; where orthogonality was lost, as beside an eigenvalue of high multiplicity, move the shift."""
-    shift, factors = _choose_shift(pencil, found, count, low)
-    for _ in range(SHIFT_MOVES):
-        below = pencil.counts[shift] - found
-        request = SliceRequest(
-            low=low,
-            start=found,
-            below=below,
-            above=max(count - below, 1),
-            freedom=freedom,
-            tolerance=tolerance,
-            spacing=shift / max(pencil.counts[shift], 1),
-        )
-        part = solve_slice(pencil, shift, factors, request, seed)
-        if part.drift < LARGEST_DRIFT:
-            break
-        shift, factors = pencil.factor(shift + SHIFT_STEP * request.spacing, SOLVE_ACCURACY)
-    return part
-
-
-def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> tuple[float, LDLT]:
-    """Factorise at a shift that has 35 % to 75 % of the wanted eigenvalues below it."""
-    area = float(pencil.mass.sum())
-    fraction = FIRST_SHIFT if low == -np.inf and count > FEW else INNER_SHIFT
-    for _ in range(SHIFT_ATTEMPTS):
-        guess = guess_eigenvalue(found + fraction * count, area, pencil.counts)
-        wanted = max(guess, low + 1e-3 * abs(low)) if found else guess
-        shift, factors = pencil.factor(wanted, SOLVE_ACCURACY)
-        below = pencil.counts[shift] - found
-        if 0.35 * count <= below <= 0.75 * count:
-            break
-    return shift, factors
-
-
 def _assemble(
     pencil: ShiftedPencil,
     k: int,
     tolerance: float,
     slices: list[SpectrumSlice],
+    threads: int,
 ) -> EigenSystem:
     values = np.concatenate([part.values for part in slices])
     vectors = np.concatenate([part.vectors for part in slices], axis=1) if len(slices) > 1 else slices[0].vectors
@@ -138,7 +107,7 @@ def _assemble(
     edges = [part.edge for part in slices if part.edge < np.inf]
     spacing = max(edges[-1], 0.0) / max(pencil.counts[edges[-1]], 1) if edges else 0.0
     # before a cluster is cut: its parts alone would not span what inverse iteration keeps
-    measurement, polishes = polish(pencil, vectors, tolerance, spacing)
+    measurement, polishes = polish(pencil, vectors, tolerance, spacing, threads)
     notes = _notes(measurement.values, k, spacing or measurement.spacing, slices)
     if total > k:
         lowest = np.argsort(measurement.values, kind="stable")[:k]
@@ -173,13 +142,15 @@ def _notes(values: Floats, k: int, spacing: float, slices: list[SpectrumSlice]) 
     return tuple(notes)
 
 
-def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: float = 0.0) -> tuple[Measurement, int]:
+def polish(
+    pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: float = 0.0, threads: int = 1
+) -> tuple[Measurement, int]:
     """Improve, in place, the lowest pairs while some miss the tolerance; return the measurement and how often.
 
     They are the farthest from the shift and, relative to their own size, the least accurate: one block inverse iteration
     just below 0 and a Rayleigh-Ritz step mend them.
     """
-    measurement = measure(pencil.stiffness, pencil.mass, vectors, spacing=spacing)
+    measurement = measure(pencil.stiffness, pencil.mass, vectors, spacing=spacing, threads=threads)
     factors = None
     for done in range(POLISHES):
         bad = np.flatnonzero(measurement.residuals > tolerance)
@@ -197,7 +168,7 @@ def polish(pencil: ShiftedPencil, vectors: Floats, tolerance: float, spacing: fl
             # dependent vectors, which no rotation repairs: the residuals that stay behind refuse them
             return measurement, done
         vectors[:, :count] = improved @ rotation
-        improved_part = measure(pencil.stiffness, pencil.mass, vectors, count, measurement.spacing)
+        improved_part = measure(pencil.stiffness, pencil.mass, vectors, count, measurement.spacing, threads)
         measurement = improved_part.followed_by(measurement)
     return measurement, POLISHES
 

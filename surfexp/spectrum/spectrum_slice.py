@@ -38,6 +38,8 @@ class SliceRequest:
         Relative residual of a pair.
     spacing : float
         Mean distance of eigenvalues, the scale of the tolerance near 0.
+    edge : float
+        Upper edge, factorised already, below which `below` and `above` are all; infinite where one is to be found.
     """
 
     low: float
@@ -47,6 +49,7 @@ class SliceRequest:
     freedom: int
     tolerance: float
     spacing: float
+    edge: float = np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,14 +65,15 @@ class SpectrumSlice:
 
 
 def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: SliceRequest, seed: int) -> SpectrumSlice:
-    """Find every eigenpair between the lower edge and an upper edge in a gap above the shift.
+    """Find every eigenpair between the lower edge and the given upper edge, or one in a gap above the shift.
 
     Block Lanczos runs until the pairs below the shift are as many as the inertia says and enough above have converged.
-    The upper edge is put into a gap, the pencil factorised there, and its count compared. Where pairs are missing (copies
-    beyond the block size of an eigenvalue of high multiplicity), Lanczos starts again, orthogonally to those found.
+    An upper edge that is not given is put into a gap, the pencil factorised there, and its count compared. Where pairs are
+    missing (copies beyond the block size of an eigenvalue of high multiplicity), Lanczos starts again, orthogonally to those
+    found.
     """
     values, vectors = np.empty(0), np.empty((pencil.size, 0), order="F")
-    edge, expected, basis_size, drift = np.inf, request.below + request.above, 0, 0.0
+    edge, expected, basis_size, drift = request.edge, request.below + request.above, 0, 0.0
     for attempt in range(RESTARTS):
         if attempt:
             factors = pencil.factor(shift)[1]
@@ -100,7 +104,7 @@ def solve_slice(pencil: ShiftedPencil, shift: float, factors: LDLT, request: Sli
                 values, vectors = values[:split], vectors[:, :split]
         if (edge < np.inf and len(values) >= expected) or not len(new_values):
             break
-    complete = len(values) == expected and edge < np.inf and edge - values[-1] > pencil.doubts[edge]
+    complete = 0 < len(values) == expected and edge < np.inf and edge - values[-1] > pencil.doubts[edge]
     return SpectrumSlice(values, vectors, edge, complete, basis_size, drift)
 
 
@@ -141,7 +145,8 @@ def _iterate(
     Nothing more comes when pairs are missing where none is on its way: all that Lanczos sees there has converged.
     """
     missing = expected - len(known)
-    next_look = int((1.55 if request.low == -np.inf else 1.8) * missing) + 5 * BLOCK
+    share = 1.55 if request.low == -np.inf else 1.8 if request.edge == np.inf else 2.3
+    next_look = int(share * missing) + 5 * BLOCK
     before = -1
     while True:
         lanczos.extend()

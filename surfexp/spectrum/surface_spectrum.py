@@ -22,7 +22,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_graph import NodalGraph, element_faces, nodal_graph
-from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.single_slice import Progress
 
 LARGEST_BAD_ANGLE = 1.0
 
@@ -98,6 +98,7 @@ def surface_spectrum(
     seed: int = 0,
     progress: Progress | None = None,
     patches: bool = False,
+    threads: int = 1,
 ) -> EigenSystem:
     """Find the first pairs of a surface, as functions at all nodes: 0 on the rim under Dirichlet's condition.
 
@@ -105,7 +106,7 @@ def surface_spectrum(
     ----------
     surface, operator, order, curved, mass, boundary, patches
         As in `elements_of`.
-    count, method, tolerance, seed, progress
+    count, method, tolerance, seed, progress, threads
         As in `eigenpairs`.
 
     Returns
@@ -115,7 +116,7 @@ def surface_spectrum(
         first_value and last_value.
     """
     elements = elements_of(surface, operator, order, curved, mass, boundary, patches)
-    system = eigenpairs(elements.stiffness, elements.mass, count, method, tolerance, seed, progress)
+    system = eigenpairs(elements.stiffness, elements.mass, count, method, tolerance, seed, progress, threads)
     scale = float(system.values[-1])
     metrics = {
         **elements.metrics,

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array, issparse
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_numbers import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.spectrum.eigensolver import eigenpairs as matrix_eigenpairs
@@ -18,7 +18,7 @@ from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.hermitian import hermitian_pairs
 from surfexp.spectrum.lowest_pairs import lowest_pairs
-from surfexp.spectrum.slicing import Progress
+from surfexp.spectrum.single_slice import Progress
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
 
 # largest residual that any request may have, and that of pairs which are right to rounding, over the norm of A
@@ -33,6 +33,7 @@ def eigenpairs(
     mass: Mass = "consistent",
     boundary: Boundary = "neumann",
     progress: Progress | None = None,
+    threads: int | None = None,
 ) -> EigenSystem:
     """Find the lowest eigenpairs of the Laplace-Beltrami operator, with the proof that none is missing.
 
@@ -49,6 +50,8 @@ def eigenpairs(
     boundary : "neumann" or "dirichlet"
     progress : callable, optional
         Receives the number of pairs found and the share that is missing.
+    threads : int, optional
+        For more than 200 pairs; all cores if not given. The result has the same bytes for any number of them.
 
     Returns
     -------
@@ -76,10 +79,13 @@ def eigenpairs(
     tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
     one_of(mass, "mass", get_args(Mass))
     one_of(boundary, "boundary", get_args(Boundary))
+    threads = given_threads(threads)
     owner = as_surface(surface)
     part = part_for(owner)
     cut = Surface(part.mesh, owner.name, owner.unit)
-    _, system = lowest_pairs(cut, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress)
+    _, system = lowest_pairs(
+        cut, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress, threads=threads
+    )
     vectors = system.vectors if part.is_whole else part.extend(system.vectors)
     return replace(system, vectors=vectors, notes=part.notes + system.notes)
 
@@ -99,6 +105,8 @@ def eigsh(
     OPinv: Any = None,
     mode: str = "normal",
     rng: Any = None,
+    *,
+    threads: int | None = None,
 ) -> Floats | tuple[Floats, Floats | NDArray[np.complex128]]:
     """Find the k lowest eigenpairs of A x = lambda M x, called as `scipy.sparse.linalg.eigsh` is, complete by inertia.
 
@@ -129,6 +137,8 @@ def eigsh(
     mode : {"normal"}
     rng : numpy.random.Generator, optional
         Accepted and not needed.
+    threads : int, optional
+        For more than 200 pairs; all cores if not given. The result has the same bytes for any number of them.
 
     Returns
     -------
@@ -151,14 +161,14 @@ def eigsh(
     """
     _check_request(A, sigma, which, mode)
     n = A.shape[0]
-    k, tol = whole_number(k, "k", 1, n), real_number(tol, "tol")
+    k, tol, threads = whole_number(k, "k", 1, n), real_number(tol, "tol"), given_threads(threads)
     shape = A.shape if M is None else _sparse(M, "M").shape
     if not A.shape == shape == (n, n):
         raise ValueError(f"A has shape {A.shape}, M {shape}: square matrices of one size are needed")
     mass = csr_array((np.ones(n), (np.arange(n),) * 2), shape=A.shape) if M is None else _sparse(M, "M")
     sizes = _largest_entry(A, "A"), _largest_entry(mass, "M")
     pencil = csr_array(A) / sizes[0], csr_array(mass) / sizes[1]
-    values, vectors = _pencil_pairs(*pencil, k, tol)
+    values, vectors = _pencil_pairs(*pencil, k, tol, threads)
     # one factor after the other: their quotient may be beyond the largest number where the values are not
     values, vectors = values * sizes[0] / sizes[1], vectors / np.sqrt(sizes[1])
     if not np.isfinite(values).all():
@@ -169,19 +179,19 @@ def eigsh(
 
 
 def _pencil_pairs(
-    a: csr_array, m: csr_array, k: int, tol: float
+    a: csr_array, m: csr_array, k: int, tol: float, threads: int
 ) -> tuple[Floats, NDArray[np.float64] | NDArray[np.complex128]]:
     """Solve to the tolerance; where none is given and rounding forbids 1e-8, to what rounding allows.
 
     Values that are small beside the largest ones have few digits: no method knows them better than to rounding of A.
     """
     try:
-        return _solved(a, m, k, tol or 1e-8)
+        return _solved(a, m, k, tol or 1e-8, threads)
     except EigensolverError as error:
         problem = error
     if not tol:
         try:
-            values, vectors = _solved(a, m, k, LOOSEST)
+            values, vectors = _solved(a, m, k, LOOSEST, threads)
         except EigensolverError as error:
             problem = error
         else:
@@ -194,11 +204,11 @@ def _pencil_pairs(
 
 
 def _solved(
-    a: csr_array, m: csr_array, k: int, tolerance: float
+    a: csr_array, m: csr_array, k: int, tolerance: float, threads: int
 ) -> tuple[Floats, NDArray[np.float64] | NDArray[np.complex128]]:
     if any(np.iscomplexobj(matrix) for matrix in (a, m)):
-        return hermitian_pairs(a, m, k, tolerance)
-    system = matrix_eigenpairs(a, m, k, tolerance=tolerance)
+        return hermitian_pairs(a, m, k, tolerance, threads)
+    system = matrix_eigenpairs(a, m, k, tolerance=tolerance, threads=threads)
     return system.values, np.ascontiguousarray(system.vectors)
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TypeVar, get_args
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_numbers import one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements
 from surfexp.operators.fem import fem
@@ -39,6 +39,8 @@ class Spectrum:
         Largest relative residual.
     mass : "consistent" or "lumped"
     boundary : "neumann" or "dirichlet"
+    threads : int, optional
+        Of `first`, for more than 200 pairs; all cores if not given. The result has the same bytes for any number of them.
 
     Raises
     ------
@@ -60,10 +62,12 @@ class Spectrum:
         tolerance: float = 1e-8,
         mass: Mass = "consistent",
         boundary: Boundary = "neumann",
+        threads: int | None = None,
     ) -> None:
         self.tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
         one_of(mass, "mass", get_args(Mass))
         one_of(boundary, "boundary", get_args(Boundary))
+        self.threads = given_threads(threads)
         self.surface = as_surface(surface)
         self.mass = mass
         self.boundary = boundary
@@ -117,6 +121,7 @@ class Spectrum:
                     mass=self.mass,
                     boundary=self.boundary,
                     tolerance=self.tolerance,
+                    threads=self.threads,
                 )
             )
             notes = self.part.notes + self._operator.notes + system.notes

@@ -10,7 +10,7 @@ import pytest
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
-from surfexp.spectrum import slicing
+from surfexp.spectrum import single_slice, slicing
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_range import _proved, pairs_between
@@ -24,7 +24,7 @@ def pencil() -> ShiftedPencil:
 
 @pytest.mark.parametrize("unproved", [0, 1])
 def test_one_slice_that_is_not_proved_leaves_the_whole_unproved(unproved: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    solved = slicing.solve_slice
+    solved = single_slice.solve_slice
     count = 0
 
     def doubted(*given, **more):
@@ -33,7 +33,8 @@ def test_one_slice_that_is_not_proved_leaves_the_whole_unproved(unproved: int, m
         count += 1
         return replace(found, complete=found.complete and count - 1 != unproved)
 
-    monkeypatch.setattr(slicing, "solve_slice", doubted)
+    monkeypatch.setattr(slicing, "ALONE", 1000)
+    monkeypatch.setattr(single_slice, "solve_slice", doubted)
     found = slicing.slicing(stiffness(FINE), mass_matrix(FINE), 400)
     assert count > unproved and not found.complete
 
