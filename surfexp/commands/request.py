@@ -67,12 +67,17 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
     from omegaconf.errors import OmegaConfBaseException
 
     from surfexp.lab.composition.launch import launch
+    from surfexp.lab.store.kinds import KINDS
     from surfexp.report.combination import check_combinations
-    from surfexp.report.declared import check_names
+    from surfexp.report.declared import check_names, leave_out_columns
 
     plans: list[Plan] = []
+    named = {word.lstrip("+").partition("=")[0] for word in arguments}
 
     def check_and_act(plan: Plan) -> None:
+        replaced = [] if "columns" in named else sorted(named & set(KINDS))
+        if left_out := leave_out_columns(plan, replaced):
+            print(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", file=sys.stderr)
         check_names(plan)
         check_combinations(plan)
         # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment

@@ -88,7 +88,7 @@ def _table(group: Comparison, rows: Sequence[Row], notes: dict[str, int]) -> Tab
         table.add_column("state", style="red", no_wrap=True)
     for row in rows:
         values = [escape(word(row.parameters.get(name, "–"))) for name in group.varying]
-        numbers = [format_number(row.metrics.get(name)) for name in group.metric_names]
+        numbers = [format_number(row.number(name)) for name in group.metric_names]
         if marks := [str(notes[note]) for note in notes if note in row.notes]:
             values = [f"{values[0]} \\[{','.join(marks)}]", *values[1:]] if values else values
         state = "failed" if row.failure else "not converged" if row.limited else ""

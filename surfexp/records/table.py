@@ -16,6 +16,8 @@ from surfexp.io.csv_cells import cells
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Leaf, Plan
 
+# what tables call the processor time of a stage
+SECONDS = "seconds"
 # the kinds whose results are given: rows on other data have no common best
 DATA = ("surface", "image")
 # rows with a best value that an excerpt has beyond the first ones
@@ -45,6 +47,10 @@ class Row:
     failure: str = ""
     data: frozenset[str] = frozenset()
     measured: bool = False
+
+    def number(self, name: str) -> float | None:
+        """A metric of the row, or its seconds; None where it has none."""
+        return self.seconds if name == SECONDS else self.metrics.get(name)
 
     @property
     def answers(self) -> bool:
@@ -101,12 +107,21 @@ class Comparison:
 
     @cached_property
     def metric_names(self) -> list[str]:
-        """Metrics shown: those asked for that exist, or all; `converged` is said by the row itself."""
+        """Metrics shown: those asked for that exist, seconds among them, or all; `converged` is said by the row itself."""
         names = dict.fromkeys(name for row in self.rows for name in row.metrics if name != "converged")
-        return [name for name in self.columns if name in names] if self.columns else list(names)
+        if not self.columns:
+            return list(names)
+        measured = any(row.seconds is not None for row in self.rows)
+        return [name for name in self.columns if name in names or (name == SECONDS and measured)]
 
     def meaning(self, name: str) -> Metric:
-        """The declaration of a metric; an empty one where there is none."""
+        """The declaration of a metric; an empty one where there is none.
+
+        Seconds have a good direction only in benchmark mode, where stages run one at a time.
+        """
+        if name == SECONDS:
+            timed = all(row.leaf.settings.get("timing") for row in self.rows)
+            return Metric("processor seconds of the stage, without compilation", "s", "lower" if timed else "")
         return find_metric(name, self.metrics) or Metric("")
 
     @cached_property
@@ -122,7 +137,7 @@ class Comparison:
             if name.endswith(NO_MERIT) or (name in OF_ONE_PROBLEM and self._several_problems):
                 continue
             for row in rows if better else ():
-                if not math.isnan(value := row.metrics.get(name, math.nan)):
+                if (value := row.number(name)) is not None and not math.isnan(value):
                     values.setdefault(row.data, set()).add(value)
             choose = max if better == "higher" else min
             differ = {data: some for data, some in values.items() if len({*map(format_number, some)}) > 1}
@@ -132,7 +147,7 @@ class Comparison:
     def is_best(self, row: Row, name: str) -> bool:
         """Whether a row holds the best value of a metric on its data, or one that is shown by the same digits."""
         best = self.best.get((name, row.data))
-        shown = best is not None and format_number(row.metrics.get(name)) == format_number(best)
+        shown = best is not None and format_number(row.number(name)) == format_number(best)
         return shown and self._may_be_best(row)
 
     @cached_property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -18,7 +18,7 @@ from surfexp.lab.store.kinds import KINDS
 from surfexp.records.table import Row
 from surfexp.report.verdict import equal, selected
 
-SECONDS = {"seconds": Metric("processor time of the stage", "s", "lower")}
+SECONDS = {"seconds": Metric("processor seconds of the stage, without compilation", "s", "lower")}
 
 
 def declared(nodes: Mapping[str, Node], key: str) -> dict[str, Metric]:
@@ -67,6 +67,40 @@ def check_names(plan: Plan) -> None:
             _check_metric("objective", leaf.settings["objective"], metrics[leaf.key])
     for node in plan.nodes.values():
         _check_options(plan, node)
+
+
+def leave_out_columns(plan: Plan, replaced: Collection[str]) -> list[str]:
+    """Leave out the columns that only another plugin of the replaced kinds declares; return their names.
+
+    Parameters
+    ----------
+    plan : Plan
+        Its leaves' settings are changed.
+    replaced : collection of str
+        Kinds for which a request names another plugin than the experiment does.
+    """
+    metrics = [declared(plan.nodes, leaf.key) | SECONDS for leaf in plan.leaves]
+    here = {name: metric for known in metrics for name, metric in known.items()}
+    asked = dict.fromkeys(name for leaf in plan.leaves for name in leaf.settings["columns"])
+    missing = [name for name in asked if find_metric(name, here) is None]
+    elsewhere = _of_kinds(replaced) if missing else {}
+    left_out = [name for name in missing if find_metric(name, elsewhere) is not None]
+    changed: dict[int, dict[str, Any]] = {}  # leaves share their settings
+    for leaf in plan.leaves if left_out else ():
+        kept = [name for name in leaf.settings["columns"] if name not in left_out]
+        leaf.settings = changed.setdefault(id(leaf.settings), leaf.settings | {"columns": kept})
+    return left_out
+
+
+def _of_kinds(kinds: Collection[str]) -> dict[str, Metric]:
+    """What any plugin of some kinds declares; a plugin that cannot be loaded is left out."""
+    found: dict[str, Metric] = {}
+    for kind in kinds:
+        found |= getattr(KINDS[kind].result, "METRICS", {})
+        for name in names_of(kind):
+            with suppress(UserError, ImportError):
+                found |= plugin(kind, name).metrics
+    return found
 
 
 def _check_metric(where: str, name: str, metrics: Mapping[str, Metric]) -> None:

@@ -130,7 +130,7 @@ def _heading(group: Comparison, name: str) -> str:
 def _cells(group: Comparison, row: Row, state: bool) -> list[str]:
     cells = [escape(word(row.parameters.get(name, "–"))) for name in group.varying]
     for name in group.metric_names:
-        text = number(row.metrics.get(name))
+        text = number(row.number(name))
         cells.append(f"\\boldmath{text}" if group.is_best(row, name) else text)
     return cells + (["failed" if row.failure else "not converged" if row.limited else ""] if state else [])
 

@@ -73,7 +73,8 @@ def repeats_of(group: Comparison) -> Repeats | None:
 def _repeated(rows: Sequence[Row], columns: Sequence[str], names: Sequence[str]) -> RepeatedRow:
     solved = [row for row in rows if not row.failure and not row.limited]
     values = {
-        name: [row.metrics[name] for row in solved if not math.isnan(row.metrics.get(name, math.nan))] for name in names
+        name: [value for row in solved if (value := row.number(name)) is not None and not math.isnan(value)]
+        for name in names
     }
     metrics = {name: (fmean(some), stdev(some) if len(some) > 1 else math.nan) for name, some in values.items() if some}
     parameters = {name: rows[0].parameters[name] for name in columns if name in rows[0].parameters}

@@ -23,7 +23,7 @@ def numbers_beside(one: Row, other: Row) -> dict[str, Numbers]:
     """Return both values of each metric and of the seconds, second less first, and second over first if a number."""
     found: dict[str, Numbers] = {}
     for name in dict.fromkeys([*one.metrics, *other.metrics, "seconds"]):
-        first, second = (row.seconds if name == "seconds" else row.metrics.get(name) for row in (one, other))
+        first, second = (row.number(name) for row in (one, other))
         if first is None or second is None:
             found[name] = (first, second, None, None)
         else:

@@ -128,7 +128,7 @@ def _values(claim: Claim, rows: Sequence[Row]) -> list[float]:
 
 def value_of(row: Row, metric: str) -> float | None:
     """A finite metric of a row, or its seconds; None where there is none."""
-    value = row.seconds if metric == "seconds" else row.metrics.get(metric)
+    value = row.number(metric)
     return float(value) if value is not None and abs(value) < float("inf") else None
 
 

@@ -15,7 +15,7 @@ from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry.loading import load_all
 from surfexp.records.table import rows_of
-from surfexp.report.declared import check_names, declared
+from surfexp.report.declared import check_names, declared, leave_out_columns
 
 load_all(Path("/nonexistent"))
 ROOT = Path(__file__).resolve().parents[2]
@@ -124,3 +124,21 @@ def test_misspelt_columns_objectives_and_options_are_refused() -> None:
 @pytest.mark.parametrize("name", sorted(file.stem for file in (ROOT / "conf" / "experiment").glob("*.yaml")))
 def test_every_experiment_names_what_exists(name: str, working_folder: Path) -> None:
     launch([f"experiment={name}"], check_names)
+
+
+def test_columns_of_a_plugin_that_a_request_replaced_are_left_out() -> None:
+    columns = ["relative_gap", "labelling_gap", "rmse"]
+    plan = plan_of(columns=columns)
+    shared = plan.leaves[0].settings is plan.leaves[1].settings
+    assert leave_out_columns(plan, ["model"]) == ["labelling_gap"]
+    assert [leaf.settings["columns"] for leaf in plan.leaves] == [["relative_gap", "rmse"]] * len(plan.leaves)
+    assert (plan.leaves[0].settings is plan.leaves[1].settings) == shared
+    check_names(plan)
+
+
+def test_columns_that_no_plugin_has_stay_and_are_refused() -> None:
+    for replaced, columns in ((["model"], ["labeling_gap"]), ([], ["labelling_gap"]), (["surface"], ["labelling_gap"])):
+        plan = plan_of(columns=columns)
+        assert leave_out_columns(plan, replaced) == [] and plan.leaves[0].settings["columns"] == columns
+        with pytest.raises(UserError, match="unknown metric in columns"):
+            check_names(plan)

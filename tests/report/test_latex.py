@@ -76,3 +76,10 @@ def test_the_table_compiles_with_booktabs_alone(tmp_path: Path) -> None:
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-2000:]
     assert "Overfull" not in done.stdout or (tmp_path / "table.pdf").exists()
+
+
+def test_seconds_that_were_asked_for_are_a_column() -> None:
+    leaf = Leaf("key", "configuration", {"target": "solver"})
+    rows = [Row(leaf, {"solver.name": name}, {"gap": 1.0}, seconds) for name, seconds in (("a", 0.25), ("b", None))]
+    text = latex_table(Comparison("Clocks", "", rows, ["seconds", "gap"]), "t", "surfexp run")
+    assert r"solver & seconds (s) & gap \\" in text and r"a & $0.25$ & $1$ \\" in text and r"b & -- & $1$ \\" in text

@@ -201,3 +201,13 @@ def test_gaps_of_different_problems_have_no_best() -> None:
     assert "iterations" in {name for name, _ in Comparison("", "", rows, [], metrics).best}
     rows[0].metrics |= {"relative_gap": 5.0, "iterations": -1.0}
     assert not Comparison("", "", rows, [], metrics).is_best(rows[0], "iterations")
+
+
+def test_seconds_that_were_asked_for_are_one_column_in_their_place(tmp_path: Path) -> None:
+    for columns in (["seconds", "relative_gap"], ["relative_gap"]):
+        plan = plan_of(sweep(3) | {"columns": columns}, tmp_path)
+        fill(plan, tmp_path)
+        html = (write_report(plan, tmp_path) / "report.html").read_text()
+        head = re.findall(r'<th class="number" data-name="([^"]*)"', html.partition("</thead>")[0])
+        assert head == (["seconds", "relative gap"] if len(columns) == 2 else ["relative gap", "seconds"])
+        assert html.count('<td class="number" data-name="seconds"') == 3

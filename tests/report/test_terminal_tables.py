@@ -65,3 +65,30 @@ def test_names_with_brackets_are_shown_as_they_are() -> None:
     for width in (30, 200):
         text = printed(Comparison("", "", rows, []), width)
         assert "[/b]" in text and "[mm]" in text
+
+
+def timed(timing: bool) -> Comparison:
+    leaf = Leaf("key", "configuration", {"target": "solver", "timing": timing})
+    rows = [
+        Row(leaf, {"solver.name": name}, {"gap": 1.0, "rmse": 2.0}, seconds)
+        for name, seconds in (("newton", 0.25), ("primal_dual", 4.5), ("level_set", None))
+    ]
+    return Comparison("Clocks", "", rows, ["rmse", "seconds", "gap"])
+
+
+def test_seconds_stand_where_they_were_asked_for() -> None:
+    head, *rows = [
+        [cell.strip() for cell in line.strip("┃│").replace("┃", "│").split("│")]
+        for line in printed(timed(False), 100).splitlines()
+        if line.startswith(("┃", "│"))
+    ]
+    assert head == ["solver", "rmse", "seconds", "gap"]
+    assert [row[2] for row in rows] == ["0.25", "4.5", "–"]
+
+
+def test_seconds_have_a_best_only_in_benchmark_mode() -> None:
+    for timing, best in ((False, []), (True, [True, False, False])):
+        group = timed(timing)
+        assert group.meaning("seconds").unit == "s"
+        assert [group.is_best(row, "seconds") for row in group.rows if timing] == best
+        assert timing or not any(group.is_best(row, "seconds") for row in group.rows)

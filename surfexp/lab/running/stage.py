@@ -25,6 +25,7 @@ from surfexp.lab.plan.outcome import event_path  # noqa: E402
 from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
 from surfexp.lab.running import compiled_code  # noqa: E402
+from surfexp.lab.running.clock import clocked  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
 from surfexp.lab.store.kinds import KINDS  # noqa: E402
 
@@ -58,7 +59,9 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
         while not calls or (plan.settings.timing and len(calls) < CALLS and sum(calls[1:]) < ENOUGH):
             result = make(plan.nodes, key, results)
             calls.append(_progress["seconds"])
-        _progress["seconds"] = median(calls[1:] or calls)  # the first compiles, and one clock of a short call is chance
+        _progress["seconds"] = median(
+            calls[1:] or calls
+        )  # the first fills caches, and one clock of a short call is chance
         store.save(results, node.kind, key, result)
     except Exception as error:
         failure = f"{node.kind}/{node.plugin}: {' '.join(str(error).split()) or type(error).__name__}"
@@ -100,9 +103,9 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
 
     options, inputs = node.options, {role: some(role, keys) for role, keys in node.inputs.items()}
     _check_files(node)
-    started = time.process_time()
-    result = method(options, **inputs)
-    _progress["seconds"] = time.process_time() - started
+    with clocked() as clock:
+        result = method(options, **inputs)
+    _progress["seconds"] = clock.seconds
     _check_files(node)
     check_result(result, KINDS[node.kind].result)
     return result

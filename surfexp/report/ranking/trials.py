@@ -14,7 +14,7 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.records.table import OF_ONE_PROBLEM, Comparison, Row, format_number, short_name
+from surfexp.records.table import OF_ONE_PROBLEM, SECONDS, Comparison, Row, format_number, short_name
 from surfexp.report.words import word
 
 # of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %
@@ -82,10 +82,10 @@ def trials_of(group: Comparison) -> list[Trials]:
     no_merit = {*OF_ONE_PROBLEM, *(["energy"] if any("model." in name for name in of_method) else [])}
     if _only_stop_elsewhere(of_method, rows):
         no_merit.update(group.metric_names)
-    by_clock = ["seconds"] if all(_timed(row) for row in places.values()) else []
+    by_clock = [SECONDS] if all(_timed(row) for row in places.values()) else []
     found = []
-    for metric in [*group.metric_names, *by_clock]:
-        meaning = group.meaning(metric) if metric != "seconds" else Metric("", "s", "lower")
+    for metric in [*(name for name in group.metric_names if name != SECONDS), *by_clock]:
+        meaning = group.meaning(metric) if metric != SECONDS else Metric("", "s", "lower")
         values = np.array([[_value(places[method, problem], metric) for method in kept] for problem in shared])
         if meaning.better and metric not in no_merit and len(set(values[~np.isnan(values)].tolist())) > 1:
             found.append(Trials(metric, meaning.better, meaning.unit, tuple(kept), values, left_out))
@@ -159,5 +159,5 @@ def _timed(row: Row) -> bool:
 def _value(row: Row, metric: str) -> float:
     if row.failure or row.limited:
         return math.nan
-    value = row.seconds if metric == "seconds" else row.metrics.get(metric, math.nan)
+    value = row.number(metric)
     return math.nan if value is None else float(value)
