@@ -50,8 +50,8 @@ def read_gifti_arrays(path: Path) -> list[NDArray[Any]]:
     return [np.asarray(array.data) for array in _load(path).darrays]
 
 
-def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any], str]:
-    """Points, triangles, and "left" or "right" where the file says so.
+def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Points and triangles.
 
     Raises
     ------
@@ -62,8 +62,7 @@ def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any], str]:
     points, triangles = (image.get_arrays_from_intent(intent) for intent in (POINTS, TRIANGLES))
     if not points or not triangles:
         raise ValueError("GIFTI file holds no surface; if it is a map, give it as an image")
-    said = str(points[0].metadata.get(STRUCTURE, image.meta.get(STRUCTURE, "")))
-    return np.asarray(points[0].data), np.asarray(triangles[0].data), {v: k for k, v in CORTEX.items()}.get(said, "")
+    return np.asarray(points[0].data), np.asarray(triangles[0].data)
 
 
 def read_gifti_rest(path: Path) -> tuple[dict[str, Floats], SpatialFrame]:

@@ -92,7 +92,7 @@ def _read(path: Path) -> Decoded:
         return Decoded(*ARRAYS[suffix](path))
     if is_gifti(path):
         check_declared_sizes(path)
-        points, triangles, _ = read_gifti_surface(path)
+        points, triangles = read_gifti_surface(path)
         maps, frame = read_gifti_rest(path)
         return Decoded(points, triangles, maps, frame=frame)
     if suffix in MESH_SUFFIXES:

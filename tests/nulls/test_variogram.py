@@ -144,3 +144,7 @@ def test_the_error_of_a_variogram_is_a_root_mean_square_over_lags() -> None:
     values, null = np.array([0.0, 2.0, 2.0, 2.0, 2.0, 2.0]), np.array([0.0, 2.0, 2.0, 2.0, 2.0, 4.0])[:, None]
     # half the squares are 2 everywhere, and 8 at the last lag of the null
     np.testing.assert_allclose(variogram_error(pairs, values, null), np.sqrt(36.0 / 5.0) / 2.0)
+    # over the mean of 2, 2, 2, 2 and 32, which is not their median
+    np.testing.assert_allclose(
+        variogram_error(pairs, np.append(values[:5], 8.0), values[:, None]), 30.0 / 8.0 / np.sqrt(5.0)
+    )
