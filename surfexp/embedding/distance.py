@@ -8,12 +8,13 @@ from typing import ClassVar
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.drawable import Drawable
 from surfexp.contract.metric import Metric
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.summary import Summary
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Distance(Summarized):
+class Distance(Drawable):
     """The distance between two embedded surfaces.
 
     Parameters

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.drawable import Drawable
 from surfexp.contract.metric import Metric
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.summary import Summary
 
 if TYPE_CHECKING:
     import networkx
@@ -20,7 +21,7 @@ KINDS = ("contour", "cap", "junction")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Skeleton(Summarized):
+class Skeleton(Drawable):
     """A graph in space.
 
     Parameters

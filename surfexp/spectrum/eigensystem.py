@@ -9,8 +9,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.drawable import Drawable
 from surfexp.contract.metric import Metric
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.summary import Summary
 from surfexp.contract.threads import in_threads
 from surfexp.linalg.block_products import gram, multiply_lanes, residual_norms
 from surfexp.linalg.lanes import LANES
@@ -20,7 +21,7 @@ COLUMNS_AT_ONCE = 64
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class EigenSystem(Summarized):
+class EigenSystem(Drawable):
     """The k lowest pairs of A x = lambda B x.
 
     Parameters

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DenoisedMap(Summarized):
+class DenoisedMap(Drawable):
     """A map without its noise.
 
     Parameters

@@ -8,7 +8,8 @@ from typing import get_args
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 from surfexp.embedding.block_alignment import block_distance
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, Blocks, eigenvalue_blocks
@@ -104,7 +105,7 @@ def _mirror_images(first: SpectralEmbedding, second: SpectralEmbedding, found: D
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ModeAlignment(Summarized):
+class ModeAlignment(Drawable):
     """The combination of the target's modes that corresponds to each mode of the source.
 
     Parameters

@@ -8,7 +8,8 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import one_of, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, surface_part
@@ -36,7 +37,7 @@ ISLAND = 0.05
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class NullMaps(Summarized):
+class NullMaps(Drawable):
     """Surrogate maps, which keep some properties of a map and are random otherwise.
 
     Parameters

@@ -93,9 +93,11 @@ def plot(
     ----------
     surface : Surface, path, or (vertices, faces); or a list of them
         Several stand side by side, at one scale: both hemispheres in four pictures.
-    values : str, (n,) array, `LabelMap`, or a result with `values`, optional
+    values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend. A list has one for each of
-        several surfaces, or of one surface a row for each; so has a dict, with their names.
+        several surfaces, or of one surface a row for each; so has a dict, with their names. Eigenpairs are rows of
+        eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed. A distance on
+        [source, target] is shown by the colours that its correspondence carries over.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
         By default lateral and medial for a hemisphere, otherwise one oblique view.
     colormap : str, optional

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
@@ -30,7 +31,7 @@ NAMES = {0: "unknown", 1: "darker", 2: "brighter"}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Segmentation(Summarized):
+class Segmentation(Drawable):
     """Two regions of a surface, and what is proved of them.
 
     Parameters

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -25,6 +25,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import as_map, as_surface
+from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.soundness import usable_vertices
 
 # FreeSurfer's maps by the end of their names: what they are called, and the power of the length in their unit
@@ -72,18 +73,24 @@ def shown_surfaces(
     chosen = [_checked_view(view) for view in given]
     surfaces = [as_surface(one) for one in (surface if is_several(surface) else [surface])]
     rows: Rows = []
-    for name, maps in _rows_of_maps(values, len(surfaces)).items():
+    given_rows = rows_of_maps(values, surfaces)
+    for made in given_rows:
         row = []
-        for owner, one in zip(surfaces, maps, strict=True):
-            called = label or name or (one if isinstance(one, str) else "")
+        for owner, one in zip(surfaces, made.maps, strict=True):
+            called = label or made.bar or made.name or (one if isinstance(one, str) else "")
             base = _coloured(owner, one)
             if base.is_scalar:
-                base = replace(base, scale=_scale(base, owner, called, unit, colormap, limits))
-            lines = _lines(owner, base, levels, borders, skeleton)
+                base = replace(
+                    base, scale=_scale(base, owner, called, unit, colormap or made.colormap, limits or made.limits)
+                )
+            lines = _lines(owner, base, levels or made.levels, borders, skeleton or made.skeleton)
             row += [
                 replace(base, view=_direction(view, owner), contours=lines, title=_title(view, owner, surfaces))
                 for view in chosen or _default_views(owner)
             ]
+        if len(given_rows) > 1 and made.name:
+            alone = len(row) == 1
+            row[0] = replace(row[0], title=made.name if alone else f"{made.name}: {row[0].title}")
         rows.append(row)
     if len(rows) == 1 and len(rows[0]) == 1:
         rows = [[replace(rows[0][0], title="")]]
@@ -100,22 +107,6 @@ def is_several(given: Any) -> bool:
     if not isinstance(given, list | tuple) or not given:
         return False
     return len(given) != 2 or isinstance(given[0], str | Surface) or hasattr(given[0], "faces")
-
-
-def _rows_of_maps(values: Any, count: int) -> dict[str, list[Any]]:
-    """Return the maps of each row by its name: one map for all surfaces, one for each, or rows by name."""
-    if isinstance(values, Mapping):
-        return {str(name): _of_each(one, count) for name, one in values.items()}
-    if isinstance(values, list | tuple) and count == 1 and values and not isinstance(values[0], int | float):
-        return {one if isinstance(one, str) else f"map {number}": [one] for number, one in enumerate(values, 1)}
-    return {"": _of_each(values, count)}
-
-
-def _of_each(values: Any, count: int) -> list[Any]:
-    several = isinstance(values, list | tuple) and count > 1
-    if several and len(values) != count:
-        raise ValueError(f"{len(values)} maps for {count} surfaces: give one for each, or one name for all")
-    return list(values) if several else [values] * count
 
 
 def _coloured(owner: Surface, given: Any) -> SurfaceView:

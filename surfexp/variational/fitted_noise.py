@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.noise_statistics import NoiseStatistics
@@ -28,7 +29,7 @@ ONE_MAP = "Smooth noise cannot be told from the map by one measurement for certa
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FittedNoise(Summarized):
+class FittedNoise(Drawable):
     """The noise of a map.
 
     Parameters

@@ -1,0 +1,100 @@
+"""What a picture of a result shows: rows of maps with their colours and lines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from surfexp.contract.arrays import Floats
+from surfexp.contract.drawable import Drawable
+from surfexp.embedding.distance import Distance
+from surfexp.mesh.surface import Surface
+from surfexp.skeleton.skeleton import Skeleton
+from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.distances import ModeAlignment
+from surfexp.tasks.map_row import MapRow
+from surfexp.tasks.null_maps import NullMaps
+from surfexp.variational.fitted_noise import FittedNoise
+
+# eigenfunctions and null maps that a picture shows
+MODES, NULLS = 6, 4
+# of eigenfunctions in units of their root mean square; of a map and what was taken from it
+MODE_LIMITS, DIVERGING, PERCENTILES = (-2.0, 2.0), "RdBu_r", (1.0, 99.0)
+MODE_BAR = "eigenfunction, units of its root mean square"
+
+
+def rows_of_result(result: Drawable, surfaces: Sequence[Surface]) -> list[MapRow]:
+    """Return the rows of a picture of a result.
+
+    Raises
+    ------
+    ValueError
+        If it belongs to another number of surfaces.
+    """
+    if isinstance(result, Distance):
+        return [_correspondence(result, surfaces)]
+    if len(surfaces) != 1:
+        raise ValueError(f"a {type(result).__name__} belongs to 1 surface, {len(surfaces)} are given: give its own")
+    return _of_result(result, surfaces[0])
+
+
+def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
+    if isinstance(result, Skeleton):
+        return [MapRow("", [None], skeleton=result)]
+    if isinstance(result, FittedNoise):
+        return [MapRow("level of the noise", [result.levels])]
+    if isinstance(result, NullMaps):
+        return [MapRow(f"null map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
+    if isinstance(result, DenoisedMap):
+        return _before_and_after(result, surface)
+    if isinstance(result, ModeAlignment):
+        return [_mode(f"aligned mode {k}", one) for k, one in enumerate(result.vectors.T[:MODES], 1)]
+    if not isinstance(result, EigenSystem):
+        return [MapRow("", [result])]
+    n = len(surface.mesh.vertices)
+    first = int((result.values < 1e-9 * result.values[-1]).sum()) if len(result.values) > 1 else 0
+    shown = range(first, min(len(result.values), first + MODES)) or range(1)
+    names = (f"mode {k + (result.boundary == 'dirichlet')}, λ = {result.values[k]:.4g}" for k in shown)
+    return [_mode(name, result.vectors[:n, k]) for name, k in zip(names, shown, strict=True)]
+
+
+def _mode(name: str, values: Floats) -> MapRow:
+    """An eigenfunction in units of its root mean square, with its nodal lines."""
+    scale = float(np.sqrt(np.nanmean(values**2))) or 1.0
+    return MapRow(name, [values / scale], MODE_LIMITS, DIVERGING, (0.0,), bar=MODE_BAR)
+
+
+def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
+    """The map before, where the surface carries it, after, and what was taken away; the first two in the same colours."""
+    before = surface.scalars.get(result.name)
+    if before is None or before.shape != result.values.shape or before.ndim > 1:
+        return [MapRow(f"{result.name}, {result.method}", [result.values])]
+    known = np.isfinite(result.values) & np.isfinite(before)
+    ends = np.percentile(before[known], PERCENTILES) if known.any() else (0.0, 1.0)
+    limits = (float(ends[0]), float(ends[1])) if ends[0] < ends[1] else None
+    removed = np.where(known, before - result.values, np.nan)
+    most = float(np.nanpercentile(np.abs(removed), PERCENTILES[1])) if known.any() else 0.0
+    apart = (-most, most) if most > 0.0 else None
+    return [
+        MapRow(f"{result.name} before", [np.where(known, before, np.nan)], limits, bar=result.name),
+        MapRow(f"after {result.method}", [result.values], limits, bar=result.name),
+        MapRow("removed", [removed], apart, DIVERGING),
+    ]
+
+
+def _correspondence(found: Distance, surfaces: Sequence[Surface]) -> MapRow:
+    """Both surfaces in the same colours: those of the places of the source, carried to the target by the map."""
+    sizes = [len(one.mesh.vertices) for one in surfaces]
+    wanted = [len(found.source_points), len(found.correspondence)]
+    if sizes != wanted:
+        raise ValueError(
+            f"surfaces have {sizes} vertices, the distance was found between {wanted}: give [source, target]"
+        )
+    places = surfaces[0].mesh.vertices
+    low, high = np.nanmin(places, axis=0), np.nanmax(places, axis=0)
+    colors = 0.15 + 0.8 * (places - low) / np.where(high > low, high - low, 1.0)
+    rows = found.correspondence
+    carried = np.where((rows >= 0)[:, None], colors[np.maximum(rows, 0)], np.nan)
+    return MapRow("", [colors, carried])

@@ -1,0 +1,87 @@
+"""Each result of the face is drawn on its surface: what a picture shows is what the result holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.tasks.map_rows import rows_of_maps
+from surfexp.tasks.shown import shown_surfaces
+
+BODY = sx.shape("ellipsoid", levels=3)
+OTHER = sx.shape("ellipsoid", levels=2)
+SIZES = {"width": 300}
+
+
+def noisy() -> sx.Surface:
+    from dataclasses import replace
+
+    height = BODY.mesh.vertices[:, 2] + np.random.default_rng(0).normal(0.0, 0.05, len(BODY.mesh.vertices))
+    return replace(BODY, scalars={"height": height})
+
+
+def test_eigenfunctions_are_rows_in_their_root_mean_square_with_nodal_lines() -> None:
+    system = sx.eigenpairs(BODY, 5)
+    rows = shown_surfaces(BODY, system)
+    assert len(rows) == 4 and [row[0].title.split(",")[0] for row in rows] == [f"mode {k}" for k in (1, 2, 3, 4)]
+    for k, (shown,) in enumerate(rows, 1):
+        assert shown.values is not None and shown.contours and shown.scale.limits == (-2.0, 2.0)
+        np.testing.assert_allclose(np.sqrt(np.mean(shown.values**2)), 1.0, atol=1e-12)
+        np.testing.assert_allclose(np.corrcoef(shown.values, system.vectors[:, k])[0, 1], 1.0, atol=1e-12)
+    assert len({row[0].scale.label for row in rows}) == 1  # one bar for all
+
+
+def test_a_map_is_shown_before_and_after_in_the_same_colours_with_what_was_removed() -> None:
+    surface = noisy()
+    clean = sx.denoise(surface, "height", method="rof")
+    before, after, removed = (row[0] for row in shown_surfaces(surface, clean))
+    assert before.scale.limits == after.scale.limits and removed.scale.limits != before.scale.limits
+    np.testing.assert_allclose(before.values - after.values, removed.values, atol=1e-14)
+    np.testing.assert_array_equal(before.values, surface.scalars["height"])
+    assert len(shown_surfaces(BODY, clean)) == 1  # the surface does not carry the map
+
+
+def test_a_correspondence_carries_the_colours_of_the_source() -> None:
+    found = sx.distance(BODY, OTHER, n=4)
+    (row,) = shown_surfaces([BODY, OTHER], found)
+    assert row[0].values is not None and row[1].values is not None
+    np.testing.assert_array_equal(row[1].values, row[0].values[found.correspondence])
+    assert len(np.unique(row[0].values, axis=0)) > 100
+    with pytest.raises(ValueError, match=r"give \[source, target\]"):
+        found.plot([OTHER, BODY])
+    with pytest.raises(ValueError, match=r"give \[source, target\]"):
+        found.plot(BODY)
+
+
+def test_a_skeleton_is_drawn_with_its_nodes() -> None:
+    skeleton = sx.reeb_graph(BODY, BODY.mesh.vertices[:, 0])
+    ((shown,),) = shown_surfaces(BODY, skeleton)
+    assert shown.values is None and len(shown.contours) >= 2
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda one: sx.eigenpairs(one, 3),
+        lambda one: sx.denoise(one, "height", method="rof"),
+        lambda one: sx.segment(one, "height"),
+        lambda one: sx.noise(one, "height"),
+        lambda one: sx.null_maps(one, "height", 2, seed=0),
+        lambda one: sx.reeb_graph(one, "height"),
+        lambda one: sx.align(one, one, 2),
+    ],
+)
+def test_every_result_has_a_plot_and_a_view(make: Any) -> None:
+    surface = noisy()
+    result = make(surface)
+    pixels = result.plot(surface, **SIZES).figure.pixels
+    assert pixels.shape[1] == 300 and len(np.unique(pixels.reshape(-1, 3), axis=0)) > 50
+    assert "<canvas" in (page := sx.view(surface, result).html()) or "scene" in page
+
+
+def test_a_result_on_two_surfaces_is_refused() -> None:
+    with pytest.raises(ValueError, match="belongs to 1 surface, 2 are given"):
+        rows_of_maps(sx.eigenpairs(BODY, 3), [BODY, OTHER])
