@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.skeletons import geodesic as geodesic
     from surfexp.tasks.skeletons import mean_curvature as mean_curvature
     from surfexp.tasks.skeletons import reeb_graph as reeb_graph
+    from surfexp.tasks.solids import Solid as Solid
     from surfexp.tasks.spectra import eigenpairs as eigenpairs
     from surfexp.tasks.spectra import eigsh as eigsh
     from surfexp.tasks.spectrum_of_surface import Spectrum as Spectrum

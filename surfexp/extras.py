@@ -31,6 +31,7 @@ EXTRAS: dict[str, tuple[str, str]] = {
     "skimage": ("scikit-image", "anatomy"),
     "open3d": ("open3d-cpu", "open3d"),
     "robust_laplacian": ("robust_laplacian", "robust"),
+    "meshio": ("meshio", "solids"),
     "clarabel": ("clarabel", "conic"),
     "cvxpy": ("cvxpy", "conic"),
     "lapy": ("lapy", "peers"),

@@ -4,6 +4,7 @@ FACE = {
     "NodalCounts": "surfexp.tasks.signature_transformers",
     "ShapeDNA": "surfexp.tasks.signature_transformers",
     "SpectralDistance": "surfexp.tasks.distance_transformer",
+    "Solid": "surfexp.tasks.solids",
     "Spectrum": "surfexp.tasks.spectrum_of_surface",
     "Surface": "surfexp.mesh.surface",
     "align": "surfexp.tasks.distances",

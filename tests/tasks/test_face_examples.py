@@ -7,6 +7,7 @@ import re
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pandas
 import pytest
 
@@ -37,7 +38,8 @@ def test_every_example_asks_a_question_of_the_face_alone(path: Path) -> None:
 
 
 def test_certified_spectrum(printed: list[str]) -> None:
-    assert printed[0].startswith("300 eigenvalues below 340.69") and printed[0].endswith("True")
+    assert re.match(r"1\d\d eigenvalues below 1\d\d\.", printed[0]) and printed[0].endswith("True")
+    assert printed[1].startswith("300 eigenvalues below 340.69") and printed[1].endswith("True")
 
 
 def test_choose_a_filter(printed: list[str]) -> None:
@@ -141,3 +143,11 @@ def test_window_of_the_spectrum(printed: list[str]) -> None:
     found, counted, least, largest, residual = numbers(printed)
     assert found == counted > 0 and 20 <= least <= largest <= 30 and residual <= 1e-8
     assert printed[0].endswith("True")
+
+
+def test_spectrum_of_a_solid(printed: list[str]) -> None:
+    rows = np.array([numbers([line]) for line in printed[:7]])
+    assert (rows[:, 0] <= rows[:, 2]).all() and (rows[:, 2] < rows[:, 1]).all()
+    assert 3.9 < numbers(printed[7:8])[0] < 4.1
+    small, large = printed[8].split(",")
+    assert numbers([small]) == numbers([large])
