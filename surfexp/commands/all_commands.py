@@ -9,7 +9,9 @@ import click
 from click.shell_completion import CompletionItem
 
 from surfexp import __version__
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, unknown
+from surfexp.lab.memory_limit import LEAST_FOR_NUMERICS, LEAST_FOR_RUNS, require_memory
 
 
 class Entry(NamedTuple):
@@ -99,6 +101,11 @@ class Commands(click.Group):
         """See click; a name that there is not is answered with the nearest one, a former one with its successor."""
         if not ctx.resilient_parsing and args[0] not in COMMANDS:
             raise UserError(SUCCESSORS[args[0]]) if args[0] in SUCCESSORS else unknown("command", args[0], COMMANDS)
+        if not ctx.resilient_parsing and args[1:] != ["--help"]:
+            if args[0] in SECTIONS["Surfaces and maps"]:
+                require_memory(LEAST_FOR_NUMERICS)
+            elif args[0] == "run":
+                require_memory(LEAST_FOR_RUNS)
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -132,4 +139,4 @@ class Commands(click.Group):
 def surfexp(ctx: click.Context, debug: bool) -> None:
     """Denoise, segment and compare maps and shapes on triangle meshes, and run experiments that compare methods."""
     if ctx.invoked_subcommand is None:
-        click.echo(ctx.get_help())
+        echo(ctx.get_help())

@@ -11,12 +11,12 @@ import click
 from surfexp.commands import choices
 from surfexp.commands.cited_places import Place, asked_place, experiments_at, stated_at
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, check_known, unknown
 from surfexp.reproduction.statements import CHAPTERS
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
+    from surfexp.commands.console import Console
     from surfexp.lab.registry.catalogue import Catalogue
 
 START = "Where to start"
@@ -99,7 +99,7 @@ def _documents() -> dict[str, Any]:
 
 
 def _console() -> Console:
-    from rich.console import Console
+    from surfexp.commands.console import Console
 
     return Console(highlight=False, markup=False)
 
@@ -110,7 +110,7 @@ def _known() -> Catalogue:
 
     known = catalogue(Path.cwd())
     for message in known.broken.values():
-        click.echo(f"warning: {message}", err=True)
+        echo(f"warning: {message}", err=True)
     return known
 
 

@@ -10,6 +10,7 @@ import click
 from surfexp import __version__
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError
 
 
@@ -24,7 +25,7 @@ def cite(experiments: tuple[str, ...], results: Path) -> None:
     from surfexp.report.citation import bibliography
 
     used = {plugin: None for experiment in experiments for plugin in plugins_of(experiment, results)}
-    click.echo(bibliography(used, __version__), nl=False)
+    echo(bibliography(used, __version__), nl=False)
 
 
 def plugins_of(experiment: str, results: Path) -> list[str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError
 
 # what runs make below a results folder, which may hold other files as well
@@ -33,14 +34,14 @@ def clean(everything: bool, yes: bool, results: Path) -> None:
     found = _everything(results) if everything else _unplanned(results)
     doomed = [path for path in found if _is_below(path, results)]
     if left := [path for path in found if path not in doomed]:
-        click.echo(f"left alone: {len(left)} entries that lie elsewhere, behind links, as {left[0]}", err=True)
+        echo(f"left alone: {len(left)} entries that lie elsewhere, behind links, as {left[0]}", err=True)
     if not doomed:
-        click.echo("nothing to remove: every stored result belongs to the latest plan of its experiment")
+        echo("nothing to remove: every stored result belongs to the latest plan of its experiment")
         return
     size = sum(file.lstat().st_size for path in doomed for file in ([path] if path.is_file() else path.rglob("*")))
-    click.echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}")
+    echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}")
     if not yes and (not sys.stdin.isatty() or not click.confirm("remove them?")):
-        click.echo("nothing removed; --yes removes without asking")
+        echo("nothing removed; --yes removes without asking")
         return
     for path in doomed:
         path.unlink() if path.is_file() else shutil.rmtree(path)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from surfexp.commands.click_command import shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def collect(
     known = items_of_files(source, list(patterns) or PATTERNS, group or CLASS_OF_NAME, surface)
     items, refused = _readable(known, surface)
     if source.is_file() and (unused := unused_columns(source)):
-        click.echo(f"columns that say nothing here: {', '.join(unused)}")
+        echo(f"columns that say nothing here: {', '.join(unused)}")
     counts = Counter(str(item.get("class", "no class")) for item in items)
     _report(f"{len(items)} of {len(known)} files are items", counts, refused)
     if len(items) < 2:
@@ -78,14 +79,14 @@ def collect(
     listed = yaml.safe_dump({dataset: items}, sort_keys=False, allow_unicode=True, width=1000)
     with replacing(target) as temporary:
         temporary.write_text(left_out + listed, encoding="utf-8")
-    click.echo(f"written: {target}; use it with datasets={target.stem}")
+    echo(f"written: {target}; use it with datasets={target.stem}")
 
 
 def _readable(items: Sequence[Item], plugin: str) -> tuple[list[Item], dict[Path, str]]:
     """Read each surface as a run will; return the items that are good, and the other files with one line why."""
-    from rich.console import Console
     from rich.progress import track
 
+    from surfexp.commands.console import Console
     from surfexp.lab.registry import registry
     from surfexp.lab.registry.catalogue import open_catalogue
 
@@ -108,6 +109,6 @@ def _readable(items: Sequence[Item], plugin: str) -> tuple[list[Item], dict[Path
 
 def _report(heading: str, counts: Counter[str], refused: dict[Path, str]) -> None:
     classes = ", ".join(f"{name} {count}" for name, count in counts.items())
-    print(f"{heading}: {classes or 'none'}")
+    echo(f"{heading}: {classes or 'none'}")
     for file, reason in refused.items():
-        print(f"left out: {file.name}: {reason}")
+        echo(f"left out: {file.name}: {reason}")

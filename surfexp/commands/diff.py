@@ -23,9 +23,9 @@ def diff(first: str, second: str, results: Path) -> int:
     RUN is the key of a row (the column leaf of metrics.csv and the tag leaf in the dashboard; 8 digits are enough), or
     the id of an MLflow run.
     """
-    from rich.console import Console
     from rich.table import Table
 
+    from surfexp.commands.console import Console
     from surfexp.records.table import format_number
     from surfexp.report.row_difference import differing_options, numbers_beside
     from surfexp.report.words import word

@@ -14,6 +14,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.extras import EXTRAS
 
 SYSTEM = {"open3d": " and the system package libusb-1.0-0"}
@@ -26,25 +27,23 @@ def doctor(results: Path) -> int:
 
     The exit code is 1 if something needed is missing.
     """
-    print(
-        f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors"
-    )
+    echo(f"python {platform.python_version()} on {platform.system()} {platform.machine()}, {os.cpu_count()} processors")
     missing = 0
     for package in sorted(core_packages()):
         try:
-            print(f"  ok       {package} {version(package)}")
+            echo(f"  ok       {package} {version(package)}")
         except PackageNotFoundError:
             missing += 1
-            print(f"  MISSING  {package}: pip install {package}")
+            echo(f"  MISSING  {package}: pip install {package}")
     for extra in dict.fromkeys(extra for _, extra in EXTRAS.values()):
         absent = [package for module, (package, of) in EXTRAS.items() if of == extra and not _imports(module)]
         remedy = f"pip install 'surfexp[{extra}]'{SYSTEM.get(extra, '')}"
-        print(f"  absent   {extra}: {', '.join(absent)}; {remedy}" if absent else f"  ok       {extra} (extra)")
+        echo(f"  absent   {extra}: {', '.join(absent)}; {remedy}" if absent else f"  ok       {extra} (extra)")
     folder = results if results.exists() else Path.cwd()
     free = shutil.disk_usage(folder).free / 1e9
-    print(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {results}")
+    echo(f"  {'ok      ' if free > 1.0 else 'LOW     '} {free:.1f} GB free for {results}")
     writable = os.access(folder, os.W_OK)
-    print(
+    echo(
         f"  {'ok      ' if writable else 'READ-ONLY'} {folder.resolve()} {'' if writable else ': choose results=FOLDER'}"
     )
     return 1 if missing or not writable else 0

@@ -32,7 +32,8 @@ def lacking(error: BaseException) -> str:
     """Say what the machine has too little of, room for a file or memory; nothing where it is not to blame."""
     if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         said = next(iter(str(error).splitlines()), "")
-        return f"too little memory{f' ({said})' if said else ''}: take a smaller mesh, or a machine with more"
+        way_out = "raise the limit" if "ulimit" in said else "take a smaller mesh, or a machine with more"
+        return f"too little memory{f' ({said})' if said else ''}: {way_out}"
     if isinstance(error, OSError) and error.errno in FULL:
         what = error.filename or "what is printed"
         return f"{what} cannot be written ({error.strerror}): free some space, then the same command again"

@@ -14,6 +14,7 @@ from pathlib import Path
 from surfexp.commands import slurm_jobs
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
+from surfexp.commands.terminal import echo
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import StageFailure, UserError, unknown
 from surfexp.lab.plan.outcome import event_path, read_event
@@ -64,7 +65,7 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
 
 def _warn(lines: Iterable[str]) -> None:
     for line in dict.fromkeys(filter(None, lines)):
-        print(f"surfexp: {line}", file=sys.stderr)
+        echo(f"surfexp: {line}", err=True)
 
 
 def unfinished(plan: Plan, results: Path) -> dict[str, str]:
@@ -88,7 +89,7 @@ def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
             event_path(results, kind, key).with_suffix(suffix).unlink(missing_ok=True)
     lines = [line for line in lines if line]
     for line in lines[:LINES_OF_DAMAGE]:
-        print(f"surfexp: {line}; it is removed and computed again", file=sys.stderr)
+        echo(f"surfexp: {line}; it is removed and computed again", err=True)
     if len(lines) > LINES_OF_DAMAGE:
         print(f"surfexp: and {len(lines) - LINES_OF_DAMAGE} results more", file=sys.stderr)
 
@@ -165,7 +166,7 @@ def hold_results(results: Path, wait: bool = False) -> None:
         if not wait:
             os.close(descriptor)
             raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
-        print(f"{results} is in use by another run; waiting for it to end", file=sys.stderr)
+        echo(f"{results} is in use by another run; waiting for it to end", err=True)
         fcntl.flock(descriptor, fcntl.LOCK_EX)
     except OSError as error:  # of a file system without locks
         _warn([f"{results} cannot be locked ({error.strerror}): let one run at a time work there"])

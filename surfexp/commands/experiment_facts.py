@@ -7,9 +7,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
 
+from surfexp.commands.console import Console
 from surfexp.lab.experiment.experiment_files import methods_named, read_experiment
 from surfexp.lab.registry.catalogue import Catalogue
 from surfexp.report.words import duration

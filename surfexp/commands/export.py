@@ -8,6 +8,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 
 LINES_LEFT_OUT = 10
 
@@ -53,9 +54,9 @@ def export(
     .shape.gii, labels .label.gii; eigenpairs, distances and solutions .npz; matrices SciPy's .npz; skeletons .vtk and
     .graphml; plots .svg too; all else .csv. Beside each FILE stands its certificate FILE.json; index.csv lists all files.
     """
-    from rich.console import Console
     from rich.progress import track
 
+    from surfexp.commands.console import Console
     from surfexp.commands.exporting.folder import ExportFolder
     from surfexp.commands.exporting.selection import chosen_stages, find
     from surfexp.commands.exporting.stages import Export
@@ -74,12 +75,12 @@ def export(
         left_out = list(filter(None, steps))
         more = [f"and {len(left_out) - LINES_LEFT_OUT} more"] if len(left_out) > LINES_LEFT_OUT else []
         for line in [*left_out[:LINES_LEFT_OUT], *more]:
-            click.echo(f"surfexp: left out: {line}", err=True)
+            echo(f"surfexp: left out: {line}", err=True)
         if not export.rows:
             return 1
         destination.publish(export.rows)
     for row in export.rows:
-        click.echo(folder / row["file"])
+        echo(folder / row["file"])
     stages = len({row["key"] for row in export.rows})
-    click.echo(f"{stages} of {len(nodes)} results in {len(export.rows)} files: {folder / 'index.csv'}", err=True)
+    echo(f"{stages} of {len(nodes)} results in {len(export.rows)} files: {folder / 'index.csv'}", err=True)
     return 0

@@ -11,6 +11,7 @@ import click
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import NOT_CERTIFIED
+from surfexp.commands.terminal import echo
 
 SPOKEN_EVERY = 30.0
 
@@ -46,9 +47,9 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     started = time.monotonic()
     table = task(list(sources), count, repair=not strict, tolerance=tolerance, progress=_Clock())
     if sys.stderr.isatty():
-        click.echo("\r\x1b[K", nl=False, err=True)
+        echo("\r\x1b[K", nl=False, err=True)
     for note in table.notes:
-        click.echo(note, err=True)
+        echo(note, err=True)
     if not table.columns:
         raise ValueError(f"none of {len(table.refused)} surfaces can be read: nothing is written")
     table.save(target)
@@ -65,7 +66,7 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     inputs = {file: digest for file, digest in files.items() if file in used}
     proof = write_certificate(target, "fingerprint", options, inputs, facts, table.notes)
     said = f"{len(table.columns)} structures, {len(table.refused)} left out, residual {facts['residual']:.1e}"
-    click.echo(f"{target}: {said} (certificate: {proof.name})")
+    echo(f"{target}: {said} (certificate: {proof.name})")
     return 0 if facts["complete"] else NOT_CERTIFIED
 
 
@@ -81,7 +82,7 @@ class _Clock:
         rest = f", {elapsed / done * (total - done):.0f} s left" if done else ""
         line = f"{done}/{total} {name}: {elapsed:.0f} s{rest}"
         if sys.stderr.isatty():
-            click.echo(f"\r{line} \x1b[K", nl=False, err=True)
+            echo(f"\r{line} \x1b[K", nl=False, err=True)
         elif now - self.spoken > SPOKEN_EVERY:
             self.spoken = now
-            click.echo(line, err=True)
+            echo(line, err=True)

@@ -10,6 +10,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, unknown
 
 CONFIGURATION = "# words of surfexp run, one a line, such as solver: newton or model.smoothness: 0.3\n"
@@ -38,13 +39,13 @@ def init(experiment: str) -> None:
         raise UserError(f"{snakefile.resolve()} exists and is another one: rename it, or take our rules as a module")
     for file, text in texts.items():
         if file.exists():
-            print(f"kept:    {file}")
+            echo(f"kept:    {file}")
             continue
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
-        print(f"written: {file}")
-    print("try it:  snakemake -n")
-    print("         snakemake -c2")
+        echo(f"written: {file}")
+    echo("try it:  snakemake -n")
+    echo("         snakemake -c2")
 
 
 def _template(name: str) -> str:

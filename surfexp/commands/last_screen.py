@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rich.console import Console
+from surfexp.commands.console import Console
 from rich.text import Text
 
 from surfexp.commands.verdict_lines import STYLES, statement

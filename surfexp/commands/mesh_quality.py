@@ -10,6 +10,7 @@ import click
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import ready
+from surfexp.commands.terminal import echo
 
 DEFECTIVE = 2
 EXPERIMENTS = (".yaml", ".yml")
@@ -30,21 +31,21 @@ def check(files: tuple[str, ...]) -> int:
         if Path(file).suffix in EXPERIMENTS:
             from surfexp.commands.experiment_check import check_experiment
 
-            click.echo(check_experiment(Path(file)))
+            echo(check_experiment(Path(file)))
             continue
         if Path(file).is_dir():
             sound = False
-            click.echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*.ply")
+            echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*.ply")
             continue
         try:
             found = read_mesh_file(file)
         except ValueError as error:
             sound = False
-            click.echo(str(error))
+            echo(str(error))
             continue
         report = validate(found.vertices, found.faces)
         sound &= report.ok
-        click.echo(
+        echo(
             "\n  ".join(
                 [f"{file}: {len(found.vertices)} vertices, {len(found.faces)} faces", *found.notes, *report.lines()]
             )
@@ -78,7 +79,7 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
     proof = write_certificate(
         target, "repair", {"largest_component": largest_component, "renumber": renumber}, files, facts, changes
     )
-    click.echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
-    click.echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
+    echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
     for note in lost:
-        click.echo(note)
+        echo(note)

@@ -12,6 +12,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, unknown
 
 INPUTS = {"surface": (), "image": ("surface",), "operator": ("surface",), "model": (), "figure": ("surface", "solver")}
@@ -53,11 +54,11 @@ def new(kind: str, name: str) -> None:
     for file, text in zip((plugin, test), _texts(kind, name, plugin), strict=True):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text)
-        print(f"written: {file}")
+        echo(f"written: {file}")
     if kind == "solver":
-        print("try it:  surfexp new experiment trial")
-        print(f"         surfexp run experiment=trial operator=fem solver={name},newton")
-    print(f"test it: python -m pytest {test}")
+        echo("try it:  surfexp new experiment trial")
+        echo(f"         surfexp run experiment=trial operator=fem solver={name},newton")
+    echo(f"test it: python -m pytest {test}")
 
 
 def _new_experiment(name: str) -> None:
@@ -74,8 +75,8 @@ def _new_experiment(name: str) -> None:
     file.write_text(
         _filled("experiment", {"name": name, "title": name.replace("_", " ").capitalize()}), encoding="utf-8"
     )
-    print(f"written: {file}")
-    print(f"try it:  surfexp run experiment={name}")
+    echo(f"written: {file}")
+    echo(f"try it:  surfexp run experiment={name}")
 
 
 def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:

@@ -10,6 +10,7 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import finish, map_of, opened, ready, result_option, surface_options
+from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to level.shape.gii")
 
@@ -37,7 +38,7 @@ def noise(path: str, map_name: str, second_name: str | None, target: Path | None
     found = task(surface, values, second)
     seconds = time.perf_counter() - started
     if target is None:
-        click.echo(str(found))
+        echo(str(found))
         return 0
     facts = found.facts | {"seconds": seconds}
     return finish(target, {"noise": found.levels}, surface, "noise", {}, files, facts, found.notes)

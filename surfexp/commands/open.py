@@ -9,6 +9,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, unknown
 
 
@@ -29,5 +30,5 @@ def open_page(experiment: str | None, results: Path) -> None:
         page = pages[experiment]
     else:
         raise unknown(f"page in {results}", experiment, pages)
-    click.echo(page)
+    echo(page)
     webbrowser.open(page.resolve().as_uri())

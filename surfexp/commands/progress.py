@@ -10,12 +10,13 @@ from contextlib import suppress
 from pathlib import Path
 from statistics import fmean
 
-from rich.console import Console, Group
+from rich.console import Group
 from rich.live import Live
 from rich.padding import Padding
 from rich.progress_bar import ProgressBar
 from rich.text import Text
 
+from surfexp.commands.console import Console
 from surfexp.commands.stage_words import stage_words
 from surfexp.lab.plan.outcome import event_path, read_event
 from surfexp.lab.plan.plan import Node

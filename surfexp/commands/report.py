@@ -8,6 +8,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 
 
 @click.command(**shown("report", "quickstart", "rof_cup --claims > claims.md", cls=click.Command))
@@ -48,11 +49,11 @@ def report(
         earlier, head = (read_pages(path) if path else "" for path in (beside, preface))
         document = reproduction(plans, results.resolve(), earlier, head)
         if pages is None:
-            click.echo(document)
+            echo(document)
         else:
             write_pages(pages_of(document), pages)
         return
     from surfexp.report.page import write_report
 
     for plan in plans.values():
-        click.echo(write_report(plan, results.resolve()) / "report.html")
+        echo(write_report(plan, results.resolve()) / "report.html")

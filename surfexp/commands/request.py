@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.table import Table
 
 from surfexp.commands.arguments import check_arguments
+from surfexp.commands.console import Console
 from surfexp.commands.error_line import lacking
 from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.commands.several_experiments import apart, each
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import StageFailure, UserError
 from surfexp.lab.experiment.experiment_files import check_files, located
 from surfexp.lab.plan.remembered_plans import place, remember, remembered
@@ -105,7 +105,7 @@ def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     command = shlex.join(["surfexp", "run", *arguments])
     found = search_of(rows_of(plan, Path(plan.settings.results)), plan.settings.objective, command)
     if found is not None:
-        print(found.sentence, flush=True)
+        echo(found.sentence)
 
 
 def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
@@ -164,7 +164,7 @@ def warn(lines: list[str]) -> None:
     """Name rows that did not converge in the terminal."""
     more = [f"and {len(lines) - LINES_OF_WARNING} more"] if len(lines) > LINES_OF_WARNING else []
     for line in [*lines[:LINES_OF_WARNING], *more]:
-        print(f"surfexp: warning: {line}", file=sys.stderr)
+        echo(f"surfexp: warning: {line}", err=True)
 
 
 def _show(plan: Plan) -> None:

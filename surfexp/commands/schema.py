@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import shown
+from surfexp.commands.terminal import echo
 
 
 @click.command(**shown("schema", "", "--to conf/experiment.json", cls=click.Command))
@@ -24,9 +25,9 @@ def schema(target: Path | None) -> None:
     load_all(Path.cwd())
     text = json.dumps(schema_of(registry.PLUGINS), indent=1)
     if target is None:
-        print(text)
+        echo(text)
         return
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(text + "\n", encoding="utf-8")
-    print(f"written: {target}; an editor finds it by a first line in the experiment's file:")
-    print(f"# yaml-language-server: $schema={target.resolve().as_uri()}")
+    echo(f"written: {target}; an editor finds it by a first line in the experiment's file:")
+    echo(f"# yaml-language-server: $schema={target.resolve().as_uri()}")

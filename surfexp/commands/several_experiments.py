@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Sequence
 
 from surfexp.commands.error_line import tell
+from surfexp.commands.terminal import echo
 from surfexp.extras import MissingExtra
 from surfexp.lab.errors import StageFailure, UserError
 
@@ -38,5 +38,5 @@ def each(run: Callable[[list[str]], int], requests: list[list[str]]) -> int:
     failed = [arguments for arguments, code in zip(requests, codes, strict=True) if code in (1, 2)]
     if failed:
         names = ", ".join(text.partition("=")[2] for arguments in failed for text in arguments if "experiment=" in text)
-        print(f"surfexp: {len(failed)} of {len(requests)} experiments did not end: {names}", file=sys.stderr)
+        echo(f"surfexp: {len(failed)} of {len(requests)} experiments did not end: {names}", err=True)
     return next((code for code in WORST_FIRST if code in codes), 0)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from surfexp.commands.certificate import Inputs, write_certificate
+from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
     from surfexp.contract.arrays import Floats
@@ -88,7 +89,7 @@ def opened(
     files = Inputs(path, *named.values(), *masks)
     surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
     for note in surface.notes:
-        click.echo(f"{path}: {note}", err=True)
+        echo(f"{path}: {note}", err=True)
     return surface, files
 
 
@@ -180,11 +181,11 @@ def progress_line(label: str) -> Iterator[Callable[[int, float], None]]:
         now = time.monotonic()
         if shown and now - last[0] > 0.2:
             last[0] = now
-            click.echo(f"\r{label}: {step:,}, {rest:.1e} left, {now - started:.0f} s \x1b[K", nl=False, err=True)
+            echo(f"\r{label}: {step:,}, {rest:.1e} left, {now - started:.0f} s \x1b[K", nl=False, err=True)
 
     yield report
     if shown and last[0]:
-        click.echo("\r\x1b[K", nl=False, err=True)
+        echo("\r\x1b[K", nl=False, err=True)
 
 
 def finish(
@@ -210,9 +211,9 @@ def finish(
     said = tuple(dict.fromkeys((*(surface.notes if surface is not None else ()), *notes)))
     certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:
-        click.echo(note, err=True)
+        echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
-    click.echo(f"{target}: {shown} (certificate: {certificate.name})")
+    echo(f"{target}: {shown} (certificate: {certificate.name})")
     return NOT_CERTIFIED if facts.get("converged") is False or facts.get("complete") is False else 0
 
 

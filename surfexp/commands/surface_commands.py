@@ -21,6 +21,7 @@ from surfexp.commands.surface_arguments import (
     shown_map,
     surface_options,
 )
+from surfexp.commands.terminal import echo
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
@@ -101,7 +102,10 @@ def curvature(path: str, target: Path, **given: Any) -> None:
 
     surface, files = opened(path, **given)
     ready(target, files, check_target, hemisphere=surface.hemisphere)
-    finish(target, {"mean curvature": mean_curvature(surface)}, surface, "mean curvature", {}, files, {})
+    started = time.perf_counter()
+    values = mean_curvature(surface)
+    facts = {"seconds": time.perf_counter() - started}
+    finish(target, {"mean curvature": values}, surface, "mean curvature", {}, files, facts)
 
 
 @click.command(**shown("skeleton", *EXAMPLES["skeleton"]))
@@ -130,7 +134,7 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     write_certificate(
         target, "reeb graph", {"levels": count, "map": map_name or "first eigenfunction"}, files, facts, graph.notes
     )
-    click.echo(f"{target}: {len(graph.positions)} nodes, {len(graph.arcs)} arcs, {graph.metrics['b1']:.0f} loops")
+    echo(f"{target}: {len(graph.positions)} nodes, {len(graph.arcs)} arcs, {graph.metrics['b1']:.0f} loops")
 
 
 @click.command(**shown("distance", *EXAMPLES["distance"]))
@@ -157,7 +161,7 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
         found = task(first, second, count, limit=limit, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
-    click.echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
+    echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
     if target is not None:
         facts = {
             "value": found.value,
@@ -215,9 +219,9 @@ def convert(path: str, target: Path, **given: Any) -> None:
     surface, files = opened(path, **given)
     ready(target, files, check_surface_target, hemisphere=surface.hemisphere)
     notes = written(target, surface)
-    click.echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
+    echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
     for note in notes:
-        click.echo(note)
+        echo(note)
 
 
 @click.command(**shown("plot", *EXAMPLES["plot"]))
@@ -246,4 +250,4 @@ def plot(
     values = shown_map(surface, map_name, files, given["hemisphere"])
     ready(target, files, check_picture_target)
     task(surface, values, width=width, **looks).save(target)
-    click.echo(str(target))
+    echo(str(target))

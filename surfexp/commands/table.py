@@ -9,6 +9,7 @@ import click
 
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
     from surfexp.lab.plan.plan import Plan
@@ -42,7 +43,7 @@ def _print(plan: Plan, results: Path, form: str) -> None:
 
     rows = rows_of(plan, results)
     if form == "csv":
-        click.echo(to_csv(rows), nl=False)
+        echo(to_csv(rows), nl=False)
         return
     groups = comparisons(rows)
     if form == "text":
@@ -57,4 +58,4 @@ def _print(plan: Plan, results: Path, form: str) -> None:
     made_by = read_origin(results / experiment).get("command", f"surfexp run experiment={experiment}")
     for count, group in enumerate(groups, 1):
         group.metrics = declared_by(plan, group.rows)
-        click.echo(latex_table(group, f"{experiment}-{count}", made_by))
+        echo(latex_table(group, f"{experiment}-{count}", made_by))

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError
 
 EXAMPLES = ("conf/experiment/mine.yaml", "conf/experiment/*.yaml conf/axes/*.yaml --dry-run")
@@ -34,19 +35,19 @@ def upgrade(files: tuple[Path, ...], dry_run: bool) -> None:
         text = file.read_text(encoding="utf-8")
         new, target = upgraded(text, of_datasets), _place(file)
         if new == text and target == file:
-            click.echo(f"{file}: up to date")
+            echo(f"{file}: up to date")
             continue
         if target != file and target.exists():
             raise UserError(f"{file} belongs into {target}, which exists; remove one of them")
         if dry_run:
-            click.echo(f"{file}: would be rewritten" + (f" as {target}" if target != file else ""))
+            echo(f"{file}: would be rewritten" + (f" as {target}" if target != file else ""))
             continue
         target.parent.mkdir(exist_ok=True)
         with replacing(target) as written:
             written.write_text(new, encoding="utf-8")
         if target != file:
             file.unlink()
-        click.echo(f"{file}: rewritten" + (f" as {target}" if target != file else ""))
+        echo(f"{file}: rewritten" + (f" as {target}" if target != file else ""))
 
 
 def _place(file: Path) -> Path:

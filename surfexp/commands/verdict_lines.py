@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from rich.console import Console
 from rich.markup import escape
 
+from surfexp.commands.console import Console
 from surfexp.commands.views import lines_for
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from surfexp.commands.click_command import results_option, shown
+from surfexp.commands.terminal import echo
 from surfexp.lab.errors import StageFailure, UserError
 
 
@@ -23,7 +24,7 @@ def verify(results: Path) -> None:
         raise UserError(f"{results} holds no stored results")
     folders = sorted(file.parent for file in (results / "store").glob("*/*/record.json"))
     found = faults(results, [(folder.parent.name, folder.name) for folder in folders], anew=True)
-    click.echo(f"{len(folders) - len(found)} of {len(folders)} stored results are as they were written")
+    echo(f"{len(folders) - len(found)} of {len(folders)} stored results are as they were written")
     if found:
         raise StageFailure(
             "\n".join(f"{fault}; the next run that needs it computes it again" for fault in found.values())

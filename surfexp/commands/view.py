@@ -17,6 +17,7 @@ from surfexp.commands.surface_arguments import (
     shown_map,
     surface_options,
 )
+from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white", "lh.white lh.thickness --to thickness.html")
 
@@ -50,6 +51,6 @@ def view(
     seen = task(surface, values, title=title, **looks)
     chosen = target or Path(tempfile.mkdtemp(prefix="surfexp-")) / f"{Path(path).name}.html"
     seen.save(chosen)
-    click.echo(str(chosen))
+    echo(str(chosen))
     if target is None:
         click.launch(chosen.as_uri())

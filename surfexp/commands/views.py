@@ -5,10 +5,10 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 
-from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from surfexp.commands.console import Console
 from surfexp.records.table import Comparison, Row, format_number, number_notes, short_name
 from surfexp.report.repeats import Repeats, repeats_of, spread
 from surfexp.report.words import word

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.lab.errors import UserError
+from surfexp.lab.memory_limit import LEAST_FOR_NUMERICS, require_memory
 
 # for one file, on a busy machine; an import of torch takes ten
 SECONDS = 120.0
@@ -46,6 +47,7 @@ def contained_description(working_folder: Path) -> dict[str, Any]:
 
 def _ask(working_folder: Path, faults: dict[str, str]) -> tuple[dict[str, Any] | None, str, str]:
     """Return the description, or the file that was being loaded and what became of the process."""
+    require_memory(LEAST_FOR_NUMERICS)
     command = [sys.executable, "-P", "-m", "surfexp.lab.registry.contained", str(working_folder), json.dumps(faults)]
     process = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, start_new_session=True

@@ -1,0 +1,28 @@
+"""What commands say on a terminal: names and words of others steer nothing."""
+
+from __future__ import annotations
+
+import re
+
+import click
+
+# control codes, and those that turn the direction of writing; "\r" at the start and "erase to the end" are our own
+STEERING = re.compile(
+    r"\x1b\[K|(?<=.)\r(?!\n)|[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]"
+)
+
+
+def plain_text(text: str) -> str:
+    """Return a text whose control codes are written out.
+
+    Examples
+    --------
+    >>> plain_text("lh\\x1b[2J.white")
+    'lh\\\\x1b[2J.white'
+    """
+    return STEERING.sub(lambda found: found[0] if found[0] == "\x1b[K" else ascii(found[0])[1:-1], text)
+
+
+def echo(message: object = "", nl: bool = True, err: bool = False) -> None:
+    """Print a message, of which names and words of others may be a part."""
+    click.echo(plain_text(str(message)), nl=nl, err=err)
