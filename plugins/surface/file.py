@@ -10,6 +10,7 @@ from pydantic import AfterValidator, Field, ValidationInfo
 from surfexp.io.map_files import read_scalars
 from surfexp.io.tosca import shape_files
 from surfexp.lab.registry.registry import register
+from surfexp.mesh.length_scale import LARGE, SMALL, length_scale
 from surfexp.mesh.masked_surface import cut_to_mask
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.files import read
@@ -43,6 +44,8 @@ def file_surface(
     names = f":{','.join(mask_names)}" if mask_names else ""
     mask_source = None if mask is None else f"{mask}{names}"
     surface = read(path, maps=maps, labels=labels, mask=mask_source, unit=unit)
+    if length_scale(surface.mesh.vertices) != 1.0:
+        raise ValueError(f"{path} has a largest coordinate outside of {SMALL:g} to {LARGE:g}: change the unit")
     inside = surface.mask
     if finite is not None:
         is_finite = np.isfinite(read_scalars(finite))

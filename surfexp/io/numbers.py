@@ -30,7 +30,7 @@ def checked_geometry(vertices: NDArray[Any], faces: NDArray[Any]) -> tuple[Float
     far = float(np.nanmax(np.abs(points), initial=0.0))
     if far > LARGEST_COORDINATE:
         raise ValueError(
-            f"a coordinate is {far:g}, the largest with a finite area is {LARGEST_COORDINATE:g}: change the unit"
+            f"a coordinate is {far:g}, the largest with a finite volume is {LARGEST_COORDINATE:g}: change the unit"
         )
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
         bad = corners.max() if corners.min() >= 0 else corners.min()

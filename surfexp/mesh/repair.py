@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from surfexp.contract.arrays import Integers
 from surfexp.mesh.equal_rows import first_equal_row
 from surfexp.mesh.face_repair import drop_bad_faces, drop_faces_at_crowded_edges, flip_zero_area_faces
+from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.orientation import (
     corner_fans,
     flipped_faces,
@@ -65,7 +66,7 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
     fatal = [str(defect) for defect in report.defects if defect.severity == "refuse"]
     if fatal:
         raise ValueError(f"mesh has {'; '.join(fatal)}; no repair is possible: give a mesh without")
-    mesh = TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces))
+    mesh, scale = scaled(TriangleMesh(np.asarray(vertices, dtype=float), np.asarray(faces)))
     origin = np.arange(len(mesh.vertices))
     changes: list[str] = []
     unknown = ~np.isfinite(mesh.vertices[mesh.faces]).all(axis=(1, 2))
@@ -83,7 +84,7 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
         dropped = mesh.component_count - 1
         mesh, origin = _keep_largest_component(mesh, origin)
         changes.append(f"dropped, all but the one of largest area: {dropped} components")
-    return Repaired(mesh, tuple(changes), origin)
+    return Repaired(mesh if scale == 1.0 else TriangleMesh(scale * mesh.vertices, mesh.faces), tuple(changes), origin)
 
 
 def _one_round(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tuple[TriangleMesh, Integers]:

@@ -51,7 +51,7 @@ class Surface(Summarized):
 
     Parameters
     ----------
-    mesh : TriangleMesh
+    mesh : TriangleMesh, or (vertices, faces)
     name : str
         What a caption calls it; nothing else hangs on it.
     unit : str
@@ -84,7 +84,7 @@ class Surface(Summarized):
     Raises
     ------
     ValueError
-        If a map, labels, a mask or a truth is not one number a vertex, or vertices lie off the shape.
+        If the mesh is none, a map, labels, a mask or a truth is not one number a vertex, or vertices lie off the shape.
 
     Examples
     --------
@@ -122,6 +122,10 @@ class Surface(Summarized):
     }
 
     def __post_init__(self) -> None:
+        if isinstance(self.mesh, tuple | list) and len(self.mesh) == 2:
+            object.__setattr__(self, "mesh", TriangleMesh(*self.mesh))
+        if not isinstance(self.mesh, TriangleMesh):
+            raise ValueError(f"mesh is a {type(self.mesh).__name__}, a TriangleMesh or (vertices, faces) is needed")
         n = len(self.mesh.vertices)
         if self.hemisphere != "":
             one_of(self.hemisphere, "hemisphere", HEMISPHERES)

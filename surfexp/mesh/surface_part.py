@@ -32,12 +32,15 @@ class SurfacePart:
         Number of vertices of the whole.
     notes : tuple of str
         What the mask cut off, one sentence each.
+    length : float
+        Of the whole, that is 1 on `mesh`: a power of two, and 1 unless its coordinates are of extraordinary size.
     """
 
     mesh: TriangleMesh
     vertices: Integers
     whole_count: int
     notes: tuple[str, ...] = ()
+    length: float = 1.0
 
     @cached_property
     def is_whole(self) -> bool:

@@ -66,7 +66,7 @@ class TriangleMesh:
     @cached_property
     def areas(self) -> Floats:
         """(m,) face areas."""
-        return 0.5 * np.linalg.norm(self.face_cross_products, axis=1)
+        return 0.5 * _norms(self.face_cross_products)
 
     @cached_property
     def area(self) -> float:
@@ -85,7 +85,7 @@ class TriangleMesh:
         normals = np.zeros_like(self.vertices)
         for k in range(3):
             np.add.at(normals, self.faces[:, k], self.face_cross_products)
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        lengths = _norms(normals)[:, None]
         return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
 
     @cached_property
@@ -172,3 +172,11 @@ class TriangleMesh:
         products = sides[:, [1, 2, 0]] * sides[:, [2, 0, 1]]
         cosine = (sides[:, [1, 2, 0]] ** 2 + sides[:, [2, 0, 1]] ** 2 - sides**2) / np.maximum(2.0 * products, 1e-300)
         return float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)).min()))
+
+
+def _norms(vectors: Floats) -> Floats:
+    """(m,) lengths, also where their squares overflow or vanish."""
+    largest = float(np.abs(vectors).max(initial=0.0))
+    if largest == 0.0 or 1e-140 < largest < 1e140 or not np.isfinite(largest):
+        return np.asarray(np.linalg.norm(vectors, axis=1))
+    return np.asarray(largest * np.linalg.norm(vectors / largest, axis=1))

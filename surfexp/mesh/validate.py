@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfexp.mesh.equal_rows import later_copies
+from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.orientation import (
     corner_fans,
     fans_per_vertex,
@@ -21,8 +22,8 @@ from surfexp.mesh.thin_faces import sharp_faces, zero_area_faces
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Severity = Literal["refuse", "repairable", "note"]
-# areas are products of two lengths: beyond these they overflow or vanish in double precision
-LARGEST_COORDINATE, SMALLEST_EXTENT = 1e75, 1e-75
+# volumes are products of three lengths: beyond these they overflow or vanish in double precision
+LARGEST_COORDINATE, SMALLEST_EXTENT = 1e102, 1e-102
 SLIVER_DEGREES = 5.0
 # kinds of defects that a refusal names: it is one line
 SHOWN_KINDS = 3
@@ -109,7 +110,7 @@ def validate(vertices: ArrayLike, faces: ArrayLike) -> Report:
     """
     points, corners = np.asarray(vertices), np.asarray(faces)
     refused = tuple(_array_defects(points, corners))
-    return Report(refused) if refused else Report(tuple(_mesh_defects(TriangleMesh(points, corners))))
+    return Report(refused) if refused else Report(tuple(_mesh_defects(scaled(TriangleMesh(points, corners))[0])))
 
 
 def require_valid(
@@ -139,7 +140,7 @@ def require_valid(
         If there is a defect.
     """
     # of this very mesh, so that its edges are found once
-    defects = tuple(_array_defects(mesh.vertices, mesh.faces)) or tuple(_mesh_defects(mesh))
+    defects = tuple(_array_defects(mesh.vertices, mesh.faces)) or tuple(_mesh_defects(scaled(mesh)[0]))
     fatal = [defect for defect in defects if defect.severity == "refuse"]
     if fatal:
         raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible: give a mesh without")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -83,6 +83,23 @@ class Skeleton(Drawable):
     def is_chain(self) -> bool:
         """Whether the graph is a single path: connected, without loop or branch."""
         return self.metrics["components"] == 1 and self.metrics["b1"] == 0 and int(self.degrees.max(initial=0)) <= 2
+
+    def in_length(self, length: float) -> Skeleton:
+        """Return the same skeleton in another unit of length.
+
+        Parameters
+        ----------
+        length : float
+            How many of the other unit are one of the present unit.
+
+        Returns
+        -------
+        Skeleton
+        """
+        if length == 1.0:
+            return self
+        lines = {name: length * getattr(self, name) for name in ("positions", "lengths", "contour_points")}
+        return replace(self, **lines)
 
     def graph(self) -> networkx.Graph:
         """Return the graph in networkx's form.

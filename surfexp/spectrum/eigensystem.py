@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -82,6 +82,31 @@ class EigenSystem(Drawable):
         "clusters": Metric("groups of nearly equal eigenvalues"),
         "area": Metric("area", "unit of length squared"),
     }
+
+    def in_length(self, length: float) -> EigenSystem:
+        """Return the same pairs in another unit of length.
+
+        Parameters
+        ----------
+        length : float
+            How many of the other unit are one of the present unit.
+
+        Returns
+        -------
+        EigenSystem
+        """
+        if length == 1.0:
+            return self
+        powers = {"edge_length": 1, "area": 2, "first_value": -2, "last_value": -2}
+        return replace(
+            self,
+            values=self.values / length**2,
+            vectors=self.vectors / length,
+            inertia=tuple((shift / length**2, below) for shift, below in self.inertia),
+            spacing=self.spacing / length**2,
+            area=self.area * length**2,
+            metrics={name: number * length ** powers.get(name, 0) for name, number in self.metrics.items()},
+        )
 
     def _summary(self) -> Summary:
         facts = {

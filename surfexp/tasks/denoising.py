@@ -30,7 +30,7 @@ from surfexp.variational.surface_flows import heat_flow
 
 NEWTON_BELOW = 1e-6
 # their squares are times
-NARROWEST, WIDEST = 1e-100, 1e100
+NARROWEST, WIDEST = 1e-110, 1e110
 # time times the largest eigenvalue; a polynomial of some thousand terms
 LONGEST_POLYNOMIAL = 1e6
 SMALL_STEPS = 100
@@ -104,7 +104,10 @@ def denoise(
     image = noisy_image(surface, values, noise)
     part, operator = image.part, image.operator
     if method == "auto":
-        return replace(automatically_denoised(part, operator, image.values, image.given_noise), name=image.name)
+        found = automatically_denoised(part, operator, image.values, image.given_noise)
+        if found.certificate["chosen"] == "heat":
+            found.certificate["parameter"] *= part.length
+        return replace(found, name=image.name)
     sigma, said = image.noise()
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
@@ -183,11 +186,11 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
     rough = as_map(owner, values)
     part = part_for(owner, rough)
     operator = fem(part.mesh)
-    time = width**2 / (16.0 * np.log(2.0))
+    time = (width / part.length) ** 2 / (16.0 * np.log(2.0))
     inside = np.asarray(part.restrict(rough), dtype=np.float64)
     refuse_absurd_values(inside, part.vertices)
     own = own_unit(inside)
-    certificate: dict[str, Any] = {"width": width, "time": time}
+    certificate: dict[str, Any] = {"width": width, "time": time * part.length**2}
     if time * largest_eigenvalue_bound(operator) <= LONGEST_POLYNOMIAL:
         kernel = heat_polynomial(operator, own.normalised(inside), time)
         smoothed, certificate["degree"], certificate["error"] = kernel

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -151,7 +151,8 @@ def fingerprint(
     """
     count = whole_number(count, "count", 1)
     tolerance = real_number(tolerance, "tolerance", above=0.0, below=1.0)
-    found = structures([sources] if isinstance(sources, str | Path) else sources)
+    given = [sources] if isinstance(sources, str) or not isinstance(sources, Iterable) else list(sources)
+    found = structures(given)
     table = Fingerprints({}, {}, {})
     volume_of = lru_cache(maxsize=1)(read_label_volume)
     for done, (name, source) in enumerate(found.items()):
@@ -172,10 +173,11 @@ def _closed(structure: LabelledStructure, volume_of: Callable[[Path], LabelVolum
 def _measure(table: Fingerprints, name: str, surface: Surface, count: int, tolerance: float) -> None:
     part = part_for(surface)
     operator, system = lowest_pairs(Surface(part.mesh, name), count, tolerance=tolerance)
-    volume = enclosed_volume(part.mesh) if part.mesh.is_closed else np.nan
+    system = system.in_length(part.length)
+    volume = enclosed_volume(part.mesh) * part.length**3 if part.mesh.is_closed else np.nan
     # rounding leaves the zero mode a little off
     values = np.where(np.abs(system.values) < 1e-9 * system.spacing, 0.0, system.values)
-    table.columns[name] = np.concatenate([[part.mesh.area, volume], values])
+    table.columns[name] = np.concatenate([[part.mesh.area * part.length**2, volume], values])
     table.residuals[name] = float(system.residuals.max())
     table.complete[name] = system.complete
     if notes := (*surface.notes, *operator.notes):
@@ -191,7 +193,7 @@ def structures(sources: Sequence[PathLike]) -> dict[str, Source]:
         If a source is not there, there is no surface at all, or two have one name.
     """
     found: dict[str, Source] = {}
-    for given in map(Path, sources):
+    for given in map(_path, sources):
         for name, source in _structures_of(given).items():
             if name in found and found[name] != source:
                 raise ValueError(f"{found[name]} and {source} are both called {name!r}: give the folder above them")
@@ -202,6 +204,15 @@ def structures(sources: Sequence[PathLike]) -> dict[str, Source]:
             f"no surface in {given_names}: neither surf/lh.white and the like, nor {SEGMENTATION}, nor {', '.join(MESH_PATTERNS)}"
         )
     return found
+
+
+def _path(given: Any) -> Path:
+    if not isinstance(given, str | Path):
+        kind = type(given).__name__
+        raise ValueError(
+            f"sources hold a {kind}, paths are needed; of surfaces in memory take sx.ShapeDNA or sx.eigenpairs"
+        )
+    return Path(given)
 
 
 def _structures_of(source: Path) -> dict[str, Source]:

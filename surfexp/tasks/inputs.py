@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, real_array
+from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -153,7 +154,8 @@ def require_connected(part: SurfacePart, what: str) -> None:
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
 
-    Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken.
+    Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken. Its mesh has
+    coordinates of ordinary size: a length on it times `length` is one of the surface.
 
     Raises
     ------
@@ -172,7 +174,8 @@ def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
             raise ValueError(
                 f"map is NaN at {unknown} of the {len(part.vertices)} vertices inside the mask: narrow the mask"
             )
-    return replace(part, notes=(*_taken(surface, part, finite, usable), *part.notes))
+    mesh, length = scaled(part.mesh)
+    return replace(part, mesh=mesh, length=length, notes=(*_taken(surface, part, finite, usable), *part.notes))
 
 
 def _taken(

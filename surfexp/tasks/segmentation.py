@@ -11,6 +11,7 @@ from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import real_number
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
@@ -163,7 +164,8 @@ def segment(
 
 def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:
     """The mean curvature of a part, clipped at the median of its size, and the note that says so."""
-    curvature = np.asarray(part.restrict(mean_curvature(surface.mesh)), dtype=np.float64)
+    mesh, length = scaled(surface.mesh)
+    curvature = np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
     bound = float(np.percentile(np.abs(curvature), CLIPPED_AT))
     note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size."
     return np.clip(curvature, -bound, bound), (note,)
@@ -180,11 +182,11 @@ def _labelled(solution: Solution, part: SurfacePart, own: OwnUnit, notes: tuple[
         labels,
         c1=float(own.restored(np.array(found["c1"]))),
         c2=float(own.restored(np.array(found["c2"]))),
-        energy=found["labelling_energy"],
-        lower_bound=solution.lower_bound,
+        energy=found["labelling_energy"] * part.length,
+        lower_bound=solution.lower_bound * part.length,
         gap=solution.relative_gap,
         labelling_gap=found["labelling_gap"],
         converged=solution.converged,
-        perimeter=found["perimeter"],
+        perimeter=found["perimeter"] * part.length,
         notes=notes + tuple(solution.notes),
     )

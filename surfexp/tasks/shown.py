@@ -21,8 +21,10 @@ from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.length_scale import length_scale
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import as_map, as_surface
 from surfexp.tasks.map_rows import rows_of_maps
@@ -72,6 +74,10 @@ def shown_surfaces(
     given = [views] if isinstance(views, str) else views or ()
     chosen = [_checked_view(view) for view in given]
     surfaces = [as_surface(one) for one in (surface if is_several(surface) else [surface])]
+    scale = max(length_scale(one.mesh.vertices) for one in surfaces)
+    if scale != 1.0:
+        surfaces = [replace(one, mesh=TriangleMesh(one.mesh.vertices / scale, one.mesh.faces)) for one in surfaces]
+        skeleton = None if skeleton is None else skeleton.in_length(1.0 / scale)
     rows: Rows = []
     given_rows = rows_of_maps(values, surfaces)
     for made in given_rows:

@@ -53,7 +53,7 @@ class ShapeDNA(SurfaceTransformer):
 
     def _row(self, given: SurfaceLike) -> Floats:
         part, _, system = _spectrum(given, int(self.n))
-        volume = enclosed_volume(part.mesh) if part.mesh.is_closed else None
+        volume = enclosed_volume(part.mesh) * part.length**3 if part.mesh.is_closed else None
         return shape_dna(system.values, self.normalisation, system.area, volume, self.reweighted)[: int(self.n)]
 
 
@@ -94,4 +94,5 @@ def _spectrum(given: SurfaceLike, count: int) -> tuple[SurfacePart, SurfaceOpera
     part = part_for(owner)
     whole_number(count, "n", 1, len(part.vertices) - part.mesh.component_count)
     cut = Surface(part.mesh, owner.name, owner.unit)
-    return part, *lowest_pairs(cut, count + part.mesh.component_count)
+    operator, system = lowest_pairs(cut, count + part.mesh.component_count)
+    return part, operator, system.in_length(part.length)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, mask_array
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
+from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
 from surfexp.skeleton.geodesic_distance import geodesic_bounds, geodesic_distance
@@ -76,7 +77,7 @@ def reeb_graph(
     inside = np.asarray(part.restrict(heights), dtype=np.float64)
     chosen = choose_levels(part.mesh, inside, count, levels)
     skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
-    return replace(skeleton, notes=part.notes + skeleton.notes)
+    return replace(skeleton.in_length(part.length), notes=part.notes + skeleton.notes)
 
 
 @overload
@@ -144,9 +145,9 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) 
             f"source {outside} lies outside the mask of {len(part.vertices)} vertices: give one inside, or widen the mask"
         )
     if not bounds:
-        return part.extend(geodesic_distance(part.mesh, number[wanted]))
+        return part.extend(part.length * geodesic_distance(part.mesh, number[wanted]))
     upper, lower = geodesic_bounds(part.mesh, number[wanted])
-    return part.extend(upper), part.extend(lower)
+    return part.extend(part.length * upper), part.extend(part.length * lower)
 
 
 def _source_vertices(given: ArrayLike, count: int) -> Integers:
@@ -190,10 +191,10 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     owner = as_surface(surface)
     part = part_for(owner)
     # the positions outside are known, so the curvature of the whole is the better one inside
-    if usable_vertices(owner.mesh).all() and not zero_area_faces(owner.mesh).any():
-        values = mesh_mean_curvature(owner.mesh)
+    if usable_vertices(owner.mesh).all() and not zero_area_faces((whole := scaled(owner.mesh))[0]).any():
+        values = mesh_mean_curvature(whole[0]) / whole[1]
         return values if part.is_whole else part.extend(values[part.vertices])
-    return part.extend(mesh_mean_curvature(part.mesh))
+    return part.extend(mesh_mean_curvature(part.mesh) / part.length)
 
 
 def first_eigenfunction(system: EigenSystem) -> Floats:

@@ -86,6 +86,7 @@ def eigenpairs(
     _, system = lowest_pairs(
         cut, count, mass=mass, boundary=boundary, tolerance=tolerance, progress=progress, threads=threads
     )
+    system = system.in_length(part.length)
     vectors = system.vectors if part.is_whole else part.extend(system.vectors)
     return replace(system, vectors=vectors, notes=part.notes + system.notes)
 

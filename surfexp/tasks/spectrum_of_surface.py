@@ -74,6 +74,7 @@ class Spectrum:
         self.part = part_for(self.surface)
         self._operator = fem(self.part.mesh)
         self._cut = Surface(self.part.mesh, self.surface.name, self.surface.unit)
+        self._square = self.part.length**2
         self._found: EigenSystem | None = None
 
     @cached_property
@@ -124,6 +125,7 @@ class Spectrum:
                     threads=self.threads,
                 )
             )
+            system = system.in_length(self.part.length)
             notes = self.part.notes + self._operator.notes + system.notes
             self._found = replace(system, vectors=self.part.extend(system.vectors), notes=notes)
         return _first(self._found, count)
@@ -147,11 +149,12 @@ class Spectrum:
         ValueError
             If the bounds are in the wrong order, hold over a quarter of the spectrum, or the proof fails.
         """
-        low, high = real_number(low, "low"), real_number(high, "high")
+        low, high = (real_number(low, "low") * self._square, real_number(high, "high") * self._square)
         system = self._certain(lambda: pairs_between(self._pencil, low, high, self.tolerance))
         vectors = self.part.extend(self._elements.extend(system.vectors))
         notes = self.part.notes + self._operator.notes + system.notes
-        return replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
+        found = replace(system, vectors=vectors, notes=notes, area=self._elements.area, boundary=self.boundary)
+        return found.in_length(self.part.length)
 
     def count_below(self, value: float) -> int:
         """Return how many eigenvalues lie below a number, by one factorisation.
@@ -170,7 +173,7 @@ class Spectrum:
         ValueError
             If rounding leaves the count in doubt.
         """
-        value = real_number(value, "value")
+        value = real_number(value, "value") * self._square
         return self._certain(lambda: self._pencil.counts[self._pencil.factor(value)[0]])
 
     def values(self, count: int) -> Floats:

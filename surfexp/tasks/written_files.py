@@ -23,14 +23,14 @@ from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import arrays_of, as_map, is_mesh
+from surfexp.tasks.inputs import SurfaceLike, arrays_of, as_map, is_mesh
 
 LABEL_SUFFIXES = (".label.gii", ".annot")
 # formats that hold a surface beside its maps; an archive holds either
 SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
 
 
-def write(path: Path | str, what: Any, surface: Surface | None = None) -> None:
+def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> None:
     """Write a surface, a map, labels, or a result; the suffix decides the format.
 
     What the format cannot hold (maps, mask, labels, hemisphere, the space of the vertices) is named in a warning.
@@ -41,7 +41,7 @@ def write(path: Path | str, what: Any, surface: Surface | None = None) -> None:
     what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, or a result
         A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
         ... and in .npz `values`, `vectors`, `residuals`. A result is a denoised map, a segmentation, ...
-    surface : Surface, optional
+    surface : Surface or mesh, optional
         Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
         repaired, maps alone are written on the vertices of its file.
 
@@ -61,7 +61,7 @@ def write(path: Path | str, what: Any, surface: Surface | None = None) -> None:
         warnings.warn(note, stacklevel=2)
 
 
-def written(path: Path | str, what: Any, surface: Surface | None = None) -> tuple[str, ...]:
+def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> tuple[str, ...]:
     """Write as `write` does, and return what the format cannot hold, one sentence each.
 
     Raises
@@ -70,6 +70,12 @@ def written(path: Path | str, what: Any, surface: Surface | None = None) -> tupl
         As `write`.
     """
     target = Path(path)
+    if surface is not None:
+        if not is_mesh(surface):
+            raise ValueError(f"surface is a {type(surface).__name__}: give write(path, map, surface), the surface last")
+        if is_mesh(what) and what is not surface:
+            raise ValueError("two surfaces are given: give write(path, surface), or write(path, map, surface)")
+        surface = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
     if is_mesh(what):
         owner = what if isinstance(what, Surface) else Surface(TriangleMesh(*arrays_of(what)))
         if not len(owner.mesh.faces):

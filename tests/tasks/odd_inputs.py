@@ -109,11 +109,13 @@ VERTICES = [
     of("vertices", "two columns", V[:, :2], says=r"vertices.*\(162, 2\)"),
     of("vertices", "one number", 3.0, says="vertices"),
     of("vertices", "too few", V[:100], says="vertex 161|out of range"),
-    of("vertices", "times 1e100", V * 1e100, says="change the unit"),
-    of("vertices", "times 1e-100", V * 1e-100, says="change the unit"),
+    of("vertices", "times 1e110", V * 1e110, says="change the unit"),
+    of("vertices", "times 1e-110", V * 1e-110, says="change the unit"),
     of("vertices", "all equal", np.ones_like(V), says="."),
-    Odd("vertices: times 1e40", "vertices", Given(vertices=V * 1e40, unit=1e40), Given(), unit=1e40),
-    Odd("vertices: times 1e-40", "vertices", Given(vertices=V * 1e-40, unit=1e-40), Given(), unit=1e-40),
+    *(
+        Odd(f"vertices: times {unit:g}", "vertices", Given(vertices=V * unit, unit=unit), Given(), unit=unit)
+        for unit in (1e-100, 1e-74, 1e-40, 1e40, 1e74, 1e100)
+    ),
     Odd("vertices: plus 1e6", "vertices", Given(vertices=V + 1e6), Given(), offset=1e6),
     of("vertices", "one NaN", changed(V, 5, np.nan), says="finite", also_refused=True),
     of("vertices", "one infinite", changed(V, (5, 0), np.inf), says="finite|infinite", also_refused=True),

@@ -51,8 +51,8 @@ def test_a_mask_as_an_array_means_what_it_means_as_a_file(tmp_path: Path) -> Non
         (BALL.vertices + 1j, BALL.faces, "vertices is an array of type complex128"),
         (BALL.vertices, BALL.faces > 2, "booleans"),
         (BALL.vertices, [[0, 1, 2], [3]], "no array of numbers"),
-        (BALL.vertices * 1e100, BALL.faces, "change the unit"),
-        (BALL.vertices * 1e-100, BALL.faces, "change the unit"),
+        (BALL.vertices * 1e110, BALL.faces, "change the unit"),
+        (BALL.vertices * 1e-110, BALL.faces, "change the unit"),
         (np.zeros((0, 3)), np.zeros((0, 3)), "missing faces"),
     ],
 )
@@ -153,3 +153,33 @@ def test_a_code_for_nothing_measured_is_named(code: float) -> None:
 def test_a_constant_map_has_no_noise() -> None:
     with pytest.raises(ValueError, match="constant"):
         sx.denoise(Surface(BALL), np.ones(len(HEIGHT)))
+
+
+def test_a_surface_by_hand_takes_arrays_as_functions_do() -> None:
+    made = Surface((BALL.vertices, BALL.faces), scalars={"height": HEIGHT})
+    assert np.array_equal(made.mesh.vertices, BALL.vertices) and np.array_equal(made.mesh.faces, BALL.faces)
+    with pytest.raises(ValueError, match=r"^mesh is a ndarray, a TriangleMesh or \(vertices, faces\) is needed$"):
+        Surface(BALL.vertices, BALL.faces)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("target", ["a.ply", "a.vtk", "a.npz", "a.csv"])
+def test_no_argument_of_write_is_passed_over(working_folder: Path, target: str) -> None:
+    with pytest.raises(ValueError, match=r"^surface is a dict: give write"):
+        sx.write(target, Surface(BALL), {"height": HEIGHT})  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"^surface is a ndarray: give write"):
+        sx.write(target, BALL, HEIGHT)
+    with pytest.raises(ValueError, match=r"^two surfaces are given"):
+        sx.write(target, Surface(BALL), Surface(BALL))
+    assert not Path(target).exists()
+
+
+def test_a_map_is_written_beside_a_mesh_of_any_kind(working_folder: Path) -> None:
+    for number, mesh in enumerate([BALL, (BALL.vertices, BALL.faces), Surface(BALL)]):
+        sx.write(f"{number}.ply", {"height": HEIGHT}, mesh)
+        assert np.array_equal(sx.read(f"{number}.ply").scalars["height"], HEIGHT)
+
+
+@pytest.mark.parametrize("given", [Surface(BALL), [Surface(BALL)], [BALL]])
+def test_fingerprints_are_of_files(given: object) -> None:
+    with pytest.raises(ValueError, match=r"^sources hold a \w+, paths are needed; of surfaces in memory take sx\.\w+"):
+        sx.fingerprint(given)  # type: ignore[arg-type]
