@@ -194,8 +194,20 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
         folder = write_report(plan, results)
         with _told("the report is not kept in MLflow"):
             if recording:
-                recording.attach(folder)
+                recording.attach(folder, _dashboard(plan, results))
                 store.write_text(done, state)
+
+
+def _dashboard(plan: Plan, results: Path) -> dict[str, str]:
+    """Tags that let the dashboard open an experiment by its tables, and not as one of language models."""
+    from surfexp.records.table import comparisons, rows_of
+    from surfexp.report.dashboard_view import TAG, dashboard_view
+    from surfexp.report.declared import declared_by
+
+    groups = comparisons(rows_of(plan, results))
+    for group in groups:
+        group.metrics = declared_by(plan, group.rows)
+    return {TAG: dashboard_view(groups, plan.settings.objective), "mlflow.experimentKind": "custom_model_development"}
 
 
 def is_finished(path: Path, plan: Plan) -> bool:

@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from surfexp.commands.console import Console
 from rich.text import Text
 
+from surfexp.commands.console import Console
 from surfexp.commands.verdict_lines import STYLES, statement
 from surfexp.commands.views import wrapped
 from surfexp.records.table import Comparison, Row, format_number, short_name

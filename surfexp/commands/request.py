@@ -77,7 +77,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
     def check_and_act(plan: Plan) -> None:
         replaced = [] if "columns" in named else sorted(named & set(KINDS))
         if left_out := leave_out_columns(plan, replaced):
-            print(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", file=sys.stderr)
+            echo(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", err=True)
         check_names(plan)
         check_combinations(plan)
         # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment

@@ -47,13 +47,16 @@ def forget_origin(folder: Path) -> None:
 
 
 def commit() -> str:
-    """The commit of the checkout that is worked in, or "not a checkout"."""
-    with suppress(OSError):
-        asked = subprocess.run(
-            ["git", "rev-parse", "HEAD"],  # noqa: S607, the user's own git
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        return asked.stdout.strip() or "not a checkout"
-    return "not a checkout"
+    """The commit of the checkout that this package is used from; else its version, as "release 1.2.3"."""
+    checkout = Path(__file__).resolve().parents[2]
+    if (checkout / ".git").exists():
+        with suppress(OSError):
+            asked = subprocess.run(  # noqa: S603, a path and no shell
+                ["git", "-C", str(checkout), "rev-parse", "HEAD"],  # noqa: S607, the user's own git
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            if found := asked.stdout.strip():
+                return found
+    return f"release {version('surfexp')}"

@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from mlflow.entities import Metric, Param
+from mlflow.entities import Dataset, DatasetInput, Metric, Param
 
 from surfexp.records.run_content import LONGEST_PARAMETER, LONGEST_TAG, KnownRun, RunContent
 
@@ -34,17 +34,22 @@ def known_runs(client: Any, experiment: str, tags: Iterable[str]) -> list[KnownR
             return runs
 
 
-def write_runs(client: Any, experiment: Any, contents: Iterable[tuple[str | None, RunContent]]) -> None:
-    """Write runs, each with the identity of the run that it takes the place of, which is deleted (None for a new one)."""
+def write_runs(client: Any, experiment: Any, contents: Iterable[tuple[str | None, RunContent]]) -> list[str]:
+    """Write runs, each with the identity of the run that it takes the place of, which is deleted (None for a new one).
+
+    Returns their identities.
+    """
+    written = []
     for identity, content in contents:
         kept: dict[str, str] = {}
         if identity is not None:  # parameters of a run can never be changed; a person's note on it stays
             kept = client.get_run(identity).data.tags
             client.delete_run(identity)
-        _write(client, experiment.experiment_id, content, kept)
+        written.append(_write(client, experiment.experiment_id, content, kept))
+    return written
 
 
-def _write(client: Any, experiment: str, content: RunContent, kept: Mapping[str, str]) -> None:
+def _write(client: Any, experiment: str, content: RunContent, kept: Mapping[str, str]) -> str:
     start = int(time.time() * 1000)
     tags = {key: value[:LONGEST_TAG] for key, value in {**kept, **content.tags}.items()}
     run = client.create_run(experiment, start_time=start, tags=tags, run_name=content.name).info.run_id
@@ -54,10 +59,18 @@ def _write(client: Any, experiment: str, content: RunContent, kept: Mapping[str,
         client.log_batch(run, params=parameters[first : first + PARAMETERS_AT_ONCE])
     for first in range(0, len(metrics), METRICS_AT_ONCE):
         client.log_batch(run, metrics=metrics[first : first + METRICS_AT_ONCE])
+    if content.datasets:
+        data = [Dataset(one.name, one.digest, "local", one.source, profile=one.profile) for one in content.datasets]
+        client.log_inputs(run, [DatasetInput(one) for one in data])
     client.set_terminated(run, content.status, end_time=start + round(1000.0 * content.seconds))
+    return str(run)
 
 
 def set_tag(client: Any, identities: Sequence[str], key: str, value: str) -> None:
     """Give a tag of several runs another value."""
     for identity in identities:
         client.set_tag(identity, key, value)
+
+
+def relocate(client: Any, experiment: Any, location: str) -> None:
+    """Nothing: artifacts of a folder that was moved stay where they were, for a client cannot tell them their new place."""

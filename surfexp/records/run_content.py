@@ -9,6 +9,16 @@ LONGEST_PARAMETER, LONGEST_TAG = 6000, 8000  # MLflow's own limits
 
 
 @dataclass(frozen=True)
+class RunDataset:
+    """A surface or an image that a run starts from: its name, its key in the store, where it lies, its size in words."""
+
+    name: str
+    digest: str
+    source: str
+    profile: str
+
+
+@dataclass(frozen=True)
 class RunContent:
     """All that a run shows. `series` are metrics as (name, step, value); the last step of each is its value.
 
@@ -21,6 +31,7 @@ class RunContent:
     parameters: Mapping[str, str]
     series: Sequence[tuple[str, int, float]]
     tags: Mapping[str, str]
+    datasets: Sequence[RunDataset] = ()
 
 
 @dataclass(frozen=True)

@@ -13,10 +13,19 @@ from itertools import islice
 from typing import Any
 
 from mlflow.entities import LifecycleStage, SourceType
-from mlflow.store.tracking.dbmodels.models import SqlLatestMetric, SqlMetric, SqlParam, SqlRun, SqlTag
+from mlflow.store.tracking.dbmodels.models import (
+    SqlDataset,
+    SqlExperiment,
+    SqlInput,
+    SqlLatestMetric,
+    SqlMetric,
+    SqlParam,
+    SqlRun,
+    SqlTag,
+)
 from mlflow.utils.mlflow_tags import MLFLOW_RUN_NAME
 from mlflow.utils.uri import append_to_uri_path
-from sqlalchemy import bindparam, delete, insert, select, update
+from sqlalchemy import bindparam, delete, func, insert, select, update
 
 from surfexp.records.run_content import LONGEST_PARAMETER, LONGEST_TAG, KnownRun, RunContent
 
@@ -44,12 +53,13 @@ def known_runs(store: Any, experiment: str, tags: Iterable[str]) -> list[KnownRu
     return list(runs.values())
 
 
-def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None, RunContent]]) -> None:
+def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None, RunContent]]) -> list[str]:
     """Write runs, each with the identity of the run that it takes the place of (None for a new one), some at a time.
 
     Of a run that is replaced, parameters, metrics and the tags that are given are written anew; other tags stay.
+    Returns the identities of the runs.
     """
-    waiting = iter(contents)
+    waiting, written = iter(contents), list[str]()
     while part := list(islice(waiting, RUNS_AT_ONCE)):
         new = [(uuid.uuid4().hex, content) for identity, content in part if identity is None]
         old = [(identity, content) for identity, content in part if identity is not None]
@@ -66,6 +76,19 @@ def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None,
             for table, rows in _rows(store, [*new, *old]).items():
                 if rows:
                     session.execute(insert(table), rows)
+            _write_datasets(session, int(experiment.experiment_id), [*new, *old])
+        fresh = iter(identity for identity, _ in new)
+        written += [identity or next(fresh) for identity, _ in part]
+    return written
+
+
+def relocate(store: Any, experiment: Any, location: str) -> None:
+    """Tell the runs of an experiment that their artifacts lie elsewhere: the results folder was moved."""
+    before, number = experiment.artifact_location, int(experiment.experiment_id)
+    moved = func.replace(SqlRun.artifact_uri, before, location)
+    with store.ManagedSessionMaker(read_only=False) as session:
+        for table, value in ((SqlExperiment, {"artifact_location": location}), (SqlRun, {"artifact_uri": moved})):
+            session.execute(update(table).where(table.experiment_id == number).values(value))
 
 
 def set_tag(store: Any, identities: Sequence[str], key: str, value: str) -> None:
@@ -102,8 +125,47 @@ def _forget(session: Any, runs: Sequence[tuple[str, RunContent]]) -> None:
     identities = [run for run, _ in runs]
     for table in (SqlParam, SqlMetric, SqlLatestMetric):
         session.execute(delete(table).where(table.run_uuid.in_(identities)))
+    session.execute(delete(SqlInput).where(SqlInput.destination_type == "RUN", SqlInput.destination_id.in_(identities)))
     keys = {MLFLOW_RUN_NAME, *(key for _, content in runs for key in content.tags)}
     session.execute(delete(SqlTag).where(SqlTag.run_uuid.in_(identities), SqlTag.key.in_(keys)))
+
+
+def _write_datasets(session: Any, experiment: int, runs: Sequence[tuple[str, RunContent]]) -> None:
+    """Data of runs, each once in an experiment, and what run takes which, as `SqlAlchemyStore.log_inputs` writes them."""
+    wanted = {(one.name, one.digest): one for _, content in runs for one in content.datasets}
+    if not wanted:
+        return
+    query = select(SqlDataset.name, SqlDataset.digest, SqlDataset.dataset_uuid)
+    query = query.where(SqlDataset.experiment_id == experiment)
+    known = {(name, digest): identity for name, digest, identity in session.execute(query)}
+    new = {key: uuid.uuid4().hex for key in wanted if key not in known}
+    rows = [
+        {
+            "dataset_uuid": new[key],
+            "experiment_id": experiment,
+            "name": one.name,
+            "digest": one.digest,
+            "dataset_source_type": "local",
+            "dataset_source": one.source,
+            "dataset_profile": one.profile,
+        }
+        for key, one in wanted.items()
+        if key in new
+    ]
+    if rows:
+        session.execute(insert(SqlDataset), rows)
+    taken = {
+        (known | new)[one.name, one.digest] + run: {
+            "input_uuid": uuid.uuid4().hex,
+            "source_type": "DATASET",
+            "source_id": (known | new)[one.name, one.digest],
+            "destination_type": "RUN",
+            "destination_id": run,
+        }
+        for run, content in runs
+        for one in content.datasets
+    }
+    session.execute(insert(SqlInput), list(taken.values()))
 
 
 def _rows(store: Any, runs: Sequence[tuple[str, RunContent]]) -> dict[Any, list[dict[str, Any]]]:

@@ -22,13 +22,13 @@ def run_names(database: Path, experiment: str) -> dict[str, str]:
     return {str(leaf): str(run) for leaf, run in _asked(database, _RUNS, experiment)}
 
 
-def run_page(database: Path, run: str) -> str | None:
-    """Return the part of the dashboard's address that shows a run, from the first letters of its name.
+def run_place(database: Path, run: str) -> tuple[str, str] | None:
+    """Return the number of the experiment of a run, and the run's whole name, from its first letters.
 
     None where no run, or more than one, begins with them.
     """
     found = _asked(database, _PLACES, run) if run.isalnum() else []
-    return f"experiments/{int(found[0][1])}/runs/{found[0][0]}" if len(found) == 1 else None
+    return (str(int(found[0][1])), str(found[0][0])) if len(found) == 1 else None
 
 
 def _asked(database: Path, question: str, value: str) -> list[tuple[str, str]]:

@@ -6,23 +6,29 @@ import json
 import logging
 import os
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfexp.lab.digests import digest
+from surfexp.lab.errors import UserError
 from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
 from surfexp.lab.plan.plan import Leaf, Plan
+from surfexp.lab.registry.registry import plugin
 from surfexp.lab.store import store
 from surfexp.records.origin import commit
-from surfexp.records.table import Row, comparisons, short_name
+from surfexp.records.table import DATA, Row, comparisons, short_name
 
 if TYPE_CHECKING:
-    from surfexp.records.run_content import KnownRun, RunContent
+    from surfexp.records.run_content import KnownRun, RunContent, RunDataset
 
 DATABASE = "mlflow.db"
 NOTE = "mlflow.note.content"
+# what a run shows: another number writes the runs of earlier versions again
+CONTENT = 2
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
 
@@ -33,9 +39,15 @@ def tracking_uri(results: Path) -> str:
 
 @dataclass(frozen=True)
 class Recording:
-    """What a plan's runs are recorded below; `said` is what was wrong with the database, a line each."""
+    """What a plan's runs are recorded below; `said` is what was wrong with the database, a line each.
+
+    `runs` are the identities of the runs by the keys of their leaves.
+    """
 
     client: Any
+    experiment: Any
+    plan: Plan
+    runs: Mapping[str, str]
     parent: str
     parent_tags: Mapping[str, str]
     own_tags: Mapping[str, str]
@@ -43,16 +55,34 @@ class Recording:
     failed: bool
     said: tuple[str, ...]
 
-    def attach(self, views: Path) -> None:
-        """Keep the pages of the experiment as artifacts of its parent run, and end that; nothing if it has them."""
+    def attach(self, views: Path, view: Mapping[str, str] | None = None) -> None:
+        """Keep pages as artifacts of the parent run, figures and places of results as those of the others.
+
+        The parent run is ended. Nothing happens if it has these pages. `view` are tags of the experiment that say how it
+        is shown.
+        """
+        for tag, value in (view or {}).items():
+            if self.experiment.tags.get(tag) != value:
+                self.client.set_experiment_tag(self.experiment.experiment_id, tag, value)
         verdicts = _verdicts(views / "summary.json")
         state = digest([*self.state, verdicts, (views / "metrics.csv").read_text()])
         if self.parent_tags.get("state") == state:
             return
         for tag, value in {**self.own_tags, "verdicts": verdicts, "state": state}.items():
             self.client.set_tag(self.parent, tag, value)
+        self._keep_artifacts(views)
         self.client.log_artifacts(self.parent, str(views))
         self.client.set_terminated(self.parent, "FAILED" if self.failed else "FINISHED")
+
+    def _keep_artifacts(self, views: Path) -> None:
+        from mlflow.utils.file_utils import local_file_uri_to_path
+
+        from surfexp.records.run_artifacts import keep_artifacts
+
+        results, places = views.parent, dict[str, Any]()
+        for leaf in self.plan.leaves:
+            folder = Path(local_file_uri_to_path(self.experiment.artifact_location)) / self.runs[leaf.key] / "artifacts"
+            keep_artifacts(folder, self.plan, leaf, results, views / "figures", places)
 
 
 def record(plan: Plan, results: Path) -> Recording:
@@ -80,6 +110,9 @@ def record(plan: Plan, results: Path) -> Recording:
         client.restore_experiment(experiment.experiment_id)
         said += (f"experiment {name!r} was deleted in MLflow: it is restored",)
     written, database = _way_to_write(client, results, location)
+    if experiment.artifact_location != location:
+        written.relocate(database, experiment, location)
+        experiment = client.get_experiment(experiment.experiment_id)
     runs = written.known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
     parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
     parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
@@ -89,17 +122,19 @@ def record(plan: Plan, results: Path) -> Recording:
     tags = {**versions, "mlflow.parentRunId": parent_id}
     page = f"#/experiments/{experiment.experiment_id}/runs/{parent_id}/artifacts/report.html"
     names = _names(plan) if changes else {}
-    written.write_runs(
+    identities = written.write_runs(
         database,
         experiment,
         ((change.run, _content(plan, results, change, outcomes, names, tags, page)) for change in changes),
     )
     written.set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
+    by_leaf = {run.tags["leaf"]: run.identity for run in reversed(runs) if "leaf" in run.tags}
+    by_leaf |= {change.leaf.key: run for change, run in zip(changes, identities, strict=True)}
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
     state = (sorted(leaf.key for leaf in plan.leaves), failed)
     own_tags = {"plan": plan.identity, **versions}
-    known = parent.tags if parent else {}
-    return Recording(client, parent_id, known, own_tags, state, failed, tuple(line for line in said if line))
+    known, told = parent.tags if parent else {}, tuple(line for line in said if line)
+    return Recording(client, experiment, plan, by_leaf, parent_id, known, own_tags, state, failed, told)
 
 
 def _verdicts(summary: Path) -> str:
@@ -147,7 +182,7 @@ def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRu
     changes, taken = [], set[str]()
     for leaf in plan.leaves:
         stored = tuple(key for key in _upstream(plan, leaf.key, upstream) if key in outcomes)
-        state = digest([[states[key] for key in stored], leaf.configuration])
+        state = digest([[states[key] for key in stored], leaf.configuration, CONTENT])
         same = by_configuration.get(leaf.configuration, [])
         free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
         mine = by_leaf.get(leaf.key) or next(free, None)
@@ -193,13 +228,52 @@ def _content(
     ]
     failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
     own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
-    parameters = {key: str(value) for key, value in plan.parameters(leaf).items()}
+    parameters = {key: str(value) for key, value in _used(plan, leaf).items()}
     status = "FAILED" if own.failure else "FINISHED"
     note = (
         {} if change.run else {NOTE: f"A row of [report.html]({page}): `{leaf.key}` in the column leaf of metrics.csv."}
     )
     all_tags = {**tags, **own_tags, **note, "failure": "; ".join(failures)}
-    return RunContent(names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags)
+    return RunContent(
+        names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags, _datasets(plan, change, results)
+    )
+
+
+def _used(plan: Plan, leaf: Leaf) -> dict[str, Any]:
+    """The options of a leaf; of one that was left to its method, what its description says of the default, or nothing."""
+    used, given = {}, plan.parameters(leaf)
+    for name, value in given.items():
+        if value is None:
+            stage, _, option = name.rpartition(".")
+            kind = stage.rpartition(".")[2]
+            value = _default(kind, str(given.get(f"{stage}.name")), option)
+        if value is not None:
+            used[name] = value
+    return used
+
+
+@cache
+def _default(kind: str, method: str, option: str) -> str | None:
+    """What the description of an option says behind "default:"; None where it says nothing, or the method is unknown."""
+    with suppress(UserError, ImportError, KeyError):
+        described = plugin(kind, method).options.model_fields[option].description or ""
+        return (described.partition("default: ")[2] and f"default: {described.partition('default: ')[2]}") or None
+    return None
+
+
+def _datasets(plan: Plan, change: _Change, results: Path) -> list[RunDataset]:
+    """The surfaces and images that a leaf was made from."""
+    from surfexp.records.run_content import RunDataset
+
+    found = []
+    for node in (plan.nodes[key] for key in change.upstream if plan.nodes[key].kind in DATA):
+        said = ", ".join(f"{name} {value}" for name, value in node.options.items() if value not in (None, "", []))
+        place = store.result_folder(results, node.kind, node.key)
+        files = ", ".join(f"{name} sha256 {value}" for name, value in node.files.items())
+        profile = json.dumps({"method": node.plugin, "options": said[:500], "files": files[:500]})
+        source = json.dumps({"uri": str(place)})
+        found.append(RunDataset(f"{node.kind} {node.plugin}", node.key[:36], source, profile))
+    return found
 
 
 def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
@@ -228,4 +302,6 @@ def _safe(name: str) -> str:
 
 
 def _versions() -> dict[str, str]:
-    return {**{f"version.{name}": version(name) for name in PACKAGES}, "git_commit": commit()}
+    """Versions of the packages, and the commit that the dashboard shows as the version of the source."""
+    found = {f"version.{name}": version(name) for name in PACKAGES}
+    return {**found, "git_commit": commit(), "mlflow.source.git.commit": commit(), "mlflow.source.name": "surfexp"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import shutil
@@ -19,8 +20,8 @@ from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
-from surfexp.records import run_content, run_database, tracking
-from surfexp.records.run_names import run_names, run_page
+from surfexp.records import run_client, run_content, run_database, tracking
+from surfexp.records.run_names import run_names, run_place
 from surfexp.report.page import write_report
 
 OWN = {"current": "true", "failure": ""}
@@ -154,7 +155,10 @@ def test_runs_show_options_numbers_history_and_what_came_before(results: Path) -
     memory = {"peak_memory_mb": max(event["peak_memory_mb"] for event in events.values())}
     history = store.load(results, "solver", leaf.key, "history")
     assert run.data.metrics == {**own, **taken, **memory, "history.gap": history["gap"][-1]}
-    assert run.data.params == {key: str(value) for key, value in plan.parameters(leaf).items()}
+    given = {key: str(value) for key, value in plan.parameters(leaf).items() if value is not None}
+    assert given.items() <= run.data.params.items() and "None" not in run.data.params.values()
+    left = {key: value for key, value in run.data.params.items() if key not in given}
+    assert left == {"image.width": "default: covers the surface", "solver.step": "default: from the model"}
     expected = {**OWN, "leaf": leaf.key, "configuration": leaf.configuration}
     assert expected.items() <= run.data.tags.items()
     assert run.data.tags["mlflow.parentRunId"] == parent.info.run_id
@@ -220,17 +224,17 @@ def test_a_row_leads_to_its_run_and_a_new_run_to_its_page(results: Path) -> None
     for leaf in plan.leaves:
         run = found[leaf.key]
         assert names[leaf.key] == run.info.run_id
-        assert run_page(database, run.info.run_id[:8]) == f"experiments/{number}/runs/{run.info.run_id}"
+        assert run_place(database, run.info.run_id[:8]) == (number, run.info.run_id)
         page = f"(#/experiments/{number}/runs/{found['plan'].info.run_id}/artifacts/report.html)"
         assert page in run.data.tags["mlflow.note.content"] and leaf.key in run.data.tags["mlflow.note.content"]
     write_report(plan, results)
     text = (results / name / "report.html").read_text()
     assert all(f'<code id="run-{(run := names[leaf.key][:8])}">{run}</code>' in text for leaf in plan.leaves)
     assert "127.0.0.1" not in text  # nothing serves the dashboard to whoever reads the page
-    assert run_names(database, "another") == {} and run_page(database, "zzz") is run_page(database, "") is None
+    assert run_names(database, "another") == {} and run_place(database, "zzz") is run_place(database, "") is None
     database.write_bytes(b"no database")
     assert run_names(database, name) == run_names(results / "none.db", name) == {}
-    assert run_page(database, "1a") is None
+    assert run_place(database, "1a") is None
     write_report(plan, results)
     assert 'id="run-' not in (results / name / "report.html").read_text()
 
@@ -309,3 +313,67 @@ def test_where_mlflow_has_other_tables_its_client_writes_the_same(
 def numbers(run: Any) -> dict[str, float]:
     """Metrics but those that a clock or the system measures."""
     return {key: value for key, value in run.data.metrics.items() if "seconds" not in key and "memory" not in key}
+
+
+def test_a_run_has_its_data_as_datasets_and_its_result_as_a_pointer(results: Path) -> None:
+    import mlflow
+
+    plan = finished(3, results)
+    found = recorded(plan, results)
+    leaf = plan.leaves[1]
+    run = found[leaf.key]
+    nodes = {node.key: node for node in plan.stored}
+    data = {item.dataset.digest: item.dataset for item in run.inputs.dataset_inputs}
+    assert {nodes[key].kind for key in data} == {"surface", "image"}
+    assert all(json.loads(one.source)["uri"].endswith(key) and Path(json.loads(one.source)["uri"]).is_dir()
+               for key, one in data.items())  # fmt: skip
+    where = mlflow.artifacts.load_dict(f"{run.info.artifact_uri}/result.json")
+    assert (where["result"]["kind"], where["result"]["key"]) == ("solver", leaf.key)
+    arrays = results / where["result"]["folder"] / "arrays.npz"
+    assert hashlib.sha256(arrays.read_bytes()).hexdigest() == where["result"]["arrays.npz"]
+    assert {one["kind"] for one in where["inputs"]} == {"surface", "image", "operator"}
+    event = event_path(results, "solver", leaf.key)
+    store.write_text(event, json.dumps(json.loads(event.read_text()) | {"seconds": 0.5}))
+    again = recorded(plan, results)[leaf.key]
+    assert len(again.inputs.dataset_inputs) == 2 and again.info.run_id == run.info.run_id
+
+
+def test_artifacts_of_a_folder_that_was_moved_are_found_again(tmp_path: Path, empty_database: Path) -> None:
+    import mlflow
+
+    first, second = tmp_path / "first", tmp_path / "second"
+    first.mkdir()
+    shutil.copy(empty_database, first / "mlflow.db")
+    plan = finished(2, first)
+    before = recorded(plan, first)
+    first.rename(second)
+    after = recorded(plan, second)
+    key = plan.leaves[0].key
+    assert after[key].info.run_id == before[key].info.run_id
+    assert mlflow.artifacts.load_dict(f"{after[key].info.artifact_uri}/result.json")["result"]["key"] == key
+    assert str(second) in after[key].info.artifact_uri and not first.exists()
+
+
+def test_the_client_alone_writes_the_same_datasets(results: Path) -> None:
+    from mlflow.tracking import MlflowClient
+
+    client = MlflowClient(tracking.tracking_uri(results))
+    experiment = client.get_experiment(client.create_experiment("any", artifact_location=results.as_uri()))
+    data = [run_content.RunDataset("surface cup", "0123", '{"uri": "x"}', "{}")]
+    content = run_content.RunContent("r", "FINISHED", 1.0, {}, [], {}, data)
+    (theirs,) = run_client.write_runs(client, experiment, [(None, content)])
+    (ours,) = run_database.write_runs(sql_store(results), experiment, [(None, content)])
+    one, other = (client.get_run(run).inputs.dataset_inputs[0].dataset for run in (theirs, ours))
+    assert vars(one) == vars(other)
+
+
+def test_views_are_tags_of_the_experiment_and_are_written_once(results: Path) -> None:
+    plan = finished(1, results)
+    (results / "views").mkdir()
+    (results / "views" / "metrics.csv").write_text("leaf\n")
+    tracking.record(plan, results).attach(results / "views", {"mlflow.sharedViewState.surfexp": "{}"})
+    recording = tracking.record(plan, results)
+    assert recording.experiment.tags["mlflow.sharedViewState.surfexp"] == "{}"
+    with statements() as again:
+        recording.attach(results / "views", {"mlflow.sharedViewState.surfexp": "{}"})
+    assert not again
