@@ -9,6 +9,7 @@ from importlib.util import find_spec
 EXTRAS: dict[str, tuple[str, str]] = {
     "PIL": ("pillow", "figures"),
     "matplotlib": ("matplotlib", "figures"),
+    "igl": ("libigl", "lab"),
     "hydra": ("hydra-core", "lab"),
     "jinja2": ("jinja2", "lab"),
     "markupsafe": ("markupsafe", "lab"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Literal
 
-import igl
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
@@ -32,6 +31,8 @@ def disk_map(mesh: TriangleMesh, boundary: Literal["free", "circle"] = "free") -
     ValueError
         If the mesh is not a topological disk.
     """
+    import igl
+
     loop = boundary_of_disk(mesh)
     length = np.linalg.norm(np.diff(mesh.vertices[np.append(loop, loop[0])], axis=0), axis=1)
     turn = np.concatenate([[0.0], np.cumsum(length)[:-1]]) / length.sum()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
-import igl
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -119,6 +118,8 @@ def narrow_band(mesh: TriangleMesh, step: float, radius: float) -> NarrowBand:
         )
     shape = (int(counts[0]), int(counts[1]), int(counts[2]))
     origin = lowest * step
+
+    import igl
 
     marked = np.zeros(shape, dtype=np.bool_)
     _mark_candidates(mesh.vertices, mesh.faces, mesh.face_normals, origin, step, radius * step, marked)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import igl
 import numpy as np
 from scipy.sparse import csr_array
 
@@ -91,6 +90,8 @@ def _grid_faces(columns: int, rows: int) -> Integers:
 
 def _barycentric_matrix(mesh: TriangleMesh, points: Floats) -> tuple[csr_array, Integers]:
     """(q, n) interpolation at the closest points of a mesh, and the (q,) faces that hold them."""
+    import igl
+
     _, face, closest = igl.point_mesh_squared_distance(np.ascontiguousarray(points), mesh.vertices, mesh.faces)
     corners = mesh.faces[face]
     weights = igl.barycentric_coordinates(

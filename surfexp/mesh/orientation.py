@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import igl
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -26,8 +27,31 @@ def flipped_faces(mesh: TriangleMesh) -> Mask:
 
     Patches end at non-manifold edges. On a patch that cannot be oriented some inconsistent edges remain afterwards.
     """
-    oriented, patch = igl.bfs_orient(np.array(mesh.faces))
-    turned = (oriented != mesh.faces).any(axis=1)
+    if not len(mesh.faces):
+        return np.zeros(0, dtype=bool)
+    count = len(mesh.faces)
+    _, _, half_edges, starts = mesh.edge_table
+    shared = starts[:-1][np.diff(starts) == 2]
+    one, other = half_edges[shared], half_edges[shared + 1]
+    first = mesh.faces.ravel()
+    # two faces run through their edge from the same vertex where one of them has to be turned
+    unlike = first[one] == first[other]
+    pairs = np.concatenate([np.stack([one, other]), np.stack([other, one])], axis=1) // 3
+    neighbours = csr_array((np.ones(pairs.shape[1], np.int8), pairs), shape=(count, count))
+    patch = connected_components(neighbours, directed=False)[1]
+    seeds = np.unique(patch, return_index=True)[1]
+    # one search of all patches, from a root that leads to the first face of each
+    rows, columns = np.append(pairs[0], np.full(len(seeds), count)), np.append(pairs[1], seeds)
+    graph = csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count + 1, count + 1))
+    before = breadth_first_order(graph, count)[1][:count].astype(np.int64)
+    turned = np.zeros(count, dtype=bool)
+    steps = before[pairs[1]] == pairs[0]
+    turned[pairs[1][steps]] = np.tile(unlike, 2)[steps]
+    # what the whole path to the first face says, twice as far each time; a first face is its own and is not turned
+    above = np.where(before < count, before, np.arange(count))
+    while (above != above[above]).any():
+        turned = turned ^ turned[above]
+        above = above[above]
     share = np.bincount(patch, turned) / np.bincount(patch)
     return np.asarray(turned != (share > 0.5)[patch])
 
@@ -113,8 +137,17 @@ def _enclosing(mesh: TriangleMesh, label: Integers, volumes: Floats) -> list[lis
         inner = np.flatnonzero(within)
         if len(inner):
             faces = np.ascontiguousarray(mesh.faces[label == outer])
-            winding = igl.winding_number(np.array(mesh.vertices), faces, np.array(mesh.vertices[first[inner]]))
-            for component, number in zip(inner.tolist(), np.ravel(winding).tolist(), strict=True):
-                if abs(number) > 0.5:
+            for component in inner.tolist():
+                if abs(winding_number(mesh.vertices[faces], mesh.vertices[first[component]])) > 0.5:
                     around[component].append(outer)
     return around
+
+
+def winding_number(corners: Floats, point: Floats) -> float:
+    """Sum of the signed solid angles of triangles (m, 3, 3) seen from a point, over 4 pi (van Oosterom, Strackee 1983)."""
+    a, b, c = (corners - point).transpose(1, 0, 2)
+    sizes = [np.linalg.norm(side, axis=1) for side in (a, b, c)]
+    volume = np.einsum("mi,mi->m", a, np.cross(b, c))
+    ab, bc, ca = (np.einsum("mi,mi->m", *pair) for pair in ((a, b), (b, c), (c, a)))
+    base = sizes[0] * sizes[1] * sizes[2] + ab * sizes[2] + bc * sizes[0] + ca * sizes[1]
+    return float(np.arctan2(volume, base).sum() / (2.0 * np.pi))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import igl
 import numpy as np
 from scipy.sparse import csr_array
 
@@ -28,6 +27,8 @@ def libigl_operator(mesh: TriangleMesh) -> SurfaceOperator:
     ValueError
         As `fem`.
     """
+    import igl
+
     check_mesh(mesh)
     faces, count = mesh.faces, len(mesh.faces)
     gradient = csr_array(igl.grad(mesh.vertices.copy(), faces.copy()))

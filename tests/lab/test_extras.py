@@ -19,7 +19,6 @@ from surfexp import extras
 ROOT = Path(__file__).resolve().parent.parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 MODULES = {
-    "libigl": "igl",
     "scikit-learn": "sklearn",
     "resvg-py": "resvg_py",
     "snakemake-executor-plugin-slurm": "snakemake_executor_plugin_slurm",

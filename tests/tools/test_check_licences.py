@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from importlib.metadata import distribution
+from pathlib import Path
+
 import pytest
 
 pytest.importorskip("numpydoc", reason="development only: all of the lock")
@@ -39,6 +43,29 @@ def test_the_copyleft_part_of_libigl_is_not_imported() -> None:
         file for folder in ("surfexp", "plugins", "studies") for file in (check_licences.ROOT / folder).rglob("*.py")
     ]
     assert len(files) > 500 and not [file for file in files if "igl.copyleft" in file.read_text(encoding="utf-8")]
+
+
+def copyleft_files(package: str) -> list[str]:
+    """Files of a wheel that are named after a copyleft library, or are its licence without an exception for runtimes."""
+    found = []
+    for path in distribution(package).files or []:
+        name, place = str(path).lower(), Path(str(path.locate()))
+        if re.search(r"copyleft|cgal|tetgen|cholmod|suitesparse|[^l]gpl", name) and "testing" not in name:
+            found.append(str(path))
+        elif re.match(r"licen[cs]e|copying", path.name.lower()) and place.suffix in ("", ".txt", ".md", ".rst"):
+            text = place.read_text(encoding="utf-8", errors="replace")
+            if re.search(r"(?<!LESSER )GENERAL PUBLIC LICENSE", text) and not re.search(
+                "exception", text, re.IGNORECASE
+            ):
+                found.append(str(path))
+    return found
+
+
+def test_no_wheel_of_the_core_holds_a_copyleft_part() -> None:
+    core = sorted(name for name, users in needed_by().items() if "core" in users)
+    assert {"numpy", "scipy", "numba", "scikit-learn", "nibabel"} <= set(core) and "libigl" not in core
+    assert {name: files for name in core if (files := copyleft_files(name))} == {}
+    assert any("copyleft" in name for name in copyleft_files("libigl"))
 
 
 def test_a_copyleft_dependency_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
