@@ -51,7 +51,7 @@ SECTIONS = {
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),
-    "What a user waits for": ("waiting", "commands", "cohort"),
+    "What a user waits for": ("whole_calls", "waiting", "commands", "cohort"),
 }
 
 

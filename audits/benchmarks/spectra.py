@@ -133,7 +133,7 @@ def _matrices(mesh: TriangleMesh) -> tuple[csr_array, csr_array]:
 
 
 def _slicing(mesh: TriangleMesh, count: int) -> tuple[Floats, Floats, bool]:
-    found = eigenpairs(*_matrices(mesh), count, "slicing", RESIDUAL)
+    found = eigenpairs(*_matrices(mesh), count, "slicing", RESIDUAL, threads=int(os.environ.get(THREADS, "1")))
     return found.values, found.vectors, found.complete
 
 

@@ -37,6 +37,7 @@ GROUPS = (
     "hierarchy",
     "nulls",
     "waiting",
+    "whole_calls",
     "commands",
     "cohort",
 )
