@@ -7,6 +7,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from docs_registry import write_registry
 from docs_turning import write_picture
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
@@ -17,6 +18,7 @@ shutil.copytree(DOCS.parent / "examples", PROGRAMS, ignore=shutil.ignore_pattern
 
 PICTURE = DOCS / "generated" / "turning" / "picture.html"
 write_picture(PICTURE)
+write_registry(DOCS / "generated")
 
 project = "surfexp"
 author = copyright = "The surfexp developers"
@@ -31,7 +33,7 @@ extensions = [
 exclude_patterns = ["inside/*.py", "generated/examples/*.ipynb", "sg_execution_times.rst", "generated/programs/*"]
 nitpicky = False
 html_theme = "furo"
-html_title = "surfexp"
+html_title = f"surfexp {version}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_extra_path = ["generated/turning"]
