@@ -40,30 +40,39 @@ def ambient_occlusion(depth: Floats, normals: Floats, radius: float, nearest: fl
     return _occlusion(far, normals, shifts.astype(np.int64), radius)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _occlusion(depth: Floats, normals: Floats, shifts: Integers, radius: float) -> Floats:
     height, width = depth.shape
     result = np.zeros((height, width))
     reach = radius * radius
+    # a rim of nothing, so that no step leaves the picture; the columns of a row are then taken several at once
+    rim = np.abs(shifts).max()
+    around = np.full((height + 2 * rim, width + 2 * rim), FAR)
+    around[rim : rim + height, rim : rim + width] = depth
+    highest, total = np.zeros(width), np.zeros(width)
     for row in range(height):
+        here = depth[row]
+        if here.min() == FAR:
+            continue
+        nx, ny, nz = normals[row, :, 0].copy(), normals[row, :, 1].copy(), normals[row, :, 2].copy()
+        total[:] = 0.0
+        for direction in range(shifts.shape[0]):
+            highest[:] = 0.0
+            for step in range(shifts.shape[1]):
+                dx, dy = float(shifts[direction, step, 0]), float(shifts[direction, step, 1])
+                start = rim + shifts[direction, step, 0]
+                there = around[rim + row + shifts[direction, step, 1], start : start + width]
+                flat = dx * dx + dy * dy
+                for column in range(width):
+                    dz = here[column] - there[column]
+                    squared = flat + dz * dz
+                    above = nx[column] * dx - ny[column] * dy + nz[column] * dz
+                    hidden = (above / np.sqrt(squared) - BIAS) * (1.0 - squared / reach)
+                    hidden = hidden if squared < reach and above > 0.0 else 0.0
+                    highest[column] = hidden if hidden > highest[column] else highest[column]
+            for column in range(width):
+                total[column] += highest[column]
         for column in range(width):
-            here = depth[row, column]
-            if here == FAR:
-                continue
-            nx, ny, nz = normals[row, column]
-            total = 0.0
-            for direction in range(shifts.shape[0]):
-                highest = 0.0
-                for step in range(shifts.shape[1]):
-                    dx, dy = shifts[direction, step, 0], shifts[direction, step, 1]
-                    i, j = row + dy, column + dx
-                    if i < 0 or j < 0 or i >= height or j >= width:
-                        break
-                    dz = here - depth[i, j]
-                    squared = dx * dx + dy * dy + dz * dz
-                    above = nx * dx - ny * dy + nz * dz
-                    if squared < reach and above > 0.0:
-                        highest = max(highest, (above / np.sqrt(squared) - BIAS) * (1.0 - squared / reach))
-                total += highest
-            result[row, column] = total / shifts.shape[0]
+            if here[column] != FAR:
+                result[row, column] = total[column] / shifts.shape[0]
     return result

@@ -67,7 +67,7 @@ def rasterize(mesh: TriangleMesh, camera: Camera) -> Raster:
     return Raster(face, barycentric, depth)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _fill(
     screen: Floats, behind: Floats, divisor: Floats, faces: Integers, face: Integers, barycentric: Floats, depth: Floats
 ) -> None:
@@ -105,7 +105,7 @@ def _fill(
                     barycentric[row, column, 2] = w
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _interpolate(face: Integers, barycentric: Floats, faces: Integers, values: Floats) -> Floats:
     result = np.zeros((len(face), values.shape[1]))
     for p in range(len(face)):

@@ -49,7 +49,10 @@ def to_linear(srgb: Floats) -> Floats:
 
 def to_display(linear: Floats) -> NDArray[np.uint8]:
     """Display colours 0..255 of linear light."""
-    return np.rint(255.0 * np.clip(linear, 0.0, 1.0) ** (1.0 / 2.2)).astype(np.uint8)
+    shown = np.full(linear.shape, 255, dtype=np.uint8)
+    darker = linear < 1.0  # the rest, most of it background, is white
+    shown[darker] = np.rint(255.0 * np.maximum(linear[darker], 0.0) ** (1.0 / 2.2))
+    return shown
 
 
 def seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
@@ -96,11 +99,11 @@ def shade(
         raster.face, raster.barycentric, mesh.faces, vertex_normals, turn, coloring, table, strength, factor, flat,
         light, normals, coverage,
     )  # fmt: skip
-    lengths = np.linalg.norm(normals, axis=2, keepdims=True)
+    lengths = np.sqrt(np.einsum("ijk,ijk->ij", normals, normals))[:, :, None]
     return Shaded(light, coverage, normals / np.where(lengths > 0.0, lengths, 1.0))
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def illumination(x: float, y: float, z: float) -> float:
     """Light that a white matte surface with unit normal (x, y, z) in camera coordinates returns, about 1 toward the key."""
     key = KEY[0] * x + KEY[1] * y + KEY[2] * z
@@ -111,7 +114,7 @@ def illumination(x: float, y: float, z: float) -> float:
     return light * (1.0 - RIM_DARKENING * (1.0 - min(max(z, 0.0), 1.0)) ** 3)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, error_model="numpy")
 def _shade(
     face: Integers, barycentric: Floats, faces: Integers, vertex_normals: Floats, turn: Floats, coloring: Floats,
     table: Floats, strength: float, factor: int, flat: bool, light: Floats, normals: Floats, coverage: Floats,
