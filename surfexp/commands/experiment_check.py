@@ -20,11 +20,23 @@ def check_experiment(file: Path) -> str:
     """
     if not file.is_file():
         raise UserError(f"{file}: no such file; surfexp new experiment NAME writes one to start from")
-    found = experiments().get(file.stem)
+    found, words = experiments().get(file.stem), list[str]()
     if found is None or found.resolve() != file.resolve():
-        raise UserError(f"{file}: experiments are read from conf/experiment/NAME.yaml of the folder you work in")
+        if file.resolve().parent.name != "experiment":
+            raise UserError(
+                f"{file}: experiments are read from a folder conf/experiment, of yours or of a plugin package"
+            )
+        words = ["--config-dir", str(file.resolve().parent.parent)]
     plans: list[Plan] = []
-    plan_and_act([f"experiment={file.stem}"], plans.append)
+    try:
+        plan_and_act([*words, f"experiment={file.stem}"], plans.append)
+    except UserError as error:
+        package = next((one for one in file.resolve().parents if (one / "pyproject.toml").exists()), None)
+        if not words or package is None or " plugin " not in str(error):
+            raise
+        raise UserError(
+            f"{error}; plugins of a package are known once it is installed: pip install {package}"
+        ) from None
     (plan,) = plans
     counts = {"row": len(plan.leaves), "stage": len(plan.stored), "claim": len(plan.settings.claims)}
     return f"{file}: nothing wrong; " + ", ".join(

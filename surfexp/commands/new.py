@@ -15,8 +15,16 @@ from surfexp.commands.click_command import shown
 from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError, unknown
 
-INPUTS = {"surface": (), "image": ("surface",), "operator": ("surface",), "model": (), "figure": ("surface", "solver")}
-ROLES = {"solver": "solution"}
+# kinds of which a method is written that computes something, with an exact solution as its test
+WHOLE = ("solver", "operator", "signature", "distance", "classifier", "figure")
+INPUTS = {"surface": (), "image": ("surface",), "model": ()}
+TRY = {
+    "operator": "experiment=eigenfunction_gallery operator={} 'figures=[]'",
+    "signature": "experiment=eigenfunction_gallery target=signature signature={} 'columns=[]' 'figures=[]' ~claims",
+    "distance": "experiment=embedding_invariance distance={}",
+    "classifier": "experiment=pose_classification classifier={}",
+    "figure": "experiment=rof_cup 'figures=[{}]'",
+}
 
 
 @click.command(**shown("new", "solver my_method", "kind thickness", "experiment noise", cls=click.Command))
@@ -58,6 +66,8 @@ def new(kind: str, name: str) -> None:
     if kind == "solver":
         echo("try it:  surfexp new experiment trial")
         echo(f"         surfexp run experiment=trial operator=fem solver={name},newton")
+    elif kind in TRY:
+        echo(f"try it:  surfexp run {TRY[kind].format(name)}")
     echo(f"test it: python -m pytest {test}")
 
 
@@ -87,12 +97,12 @@ def _texts(kind: str, name: str, path: Path) -> tuple[str, str]:
     values = {"kind": kind, "name": name, "path": path.as_posix(), "title": title, "model": camel}
     if kind == "kind":
         return _filled("kind", values | {"result": camel}), _filled("kind_test", values)
-    if kind == "solver":
-        return _filled("solver", values), _filled("solver_test", values)
+    if kind in WHOLE:
+        return _filled(kind, values), _filled(f"{kind}_test", values)
     roles = INPUTS.get(kind, ("surface",))
     imports = {(KINDS[one].result.__module__, KINDS[one].result.__name__) for one in (*roles, kind)}
     imports.add(("surfexp.lab.registry.registry", "register"))
-    signature = [f"    {ROLES.get(one, one)}: {KINDS[one].result.__name__},\n" for one in roles]
+    signature = [f"    {one}: {KINDS[one].result.__name__},\n" for one in roles]
     values |= {
         "imports": "\n".join(f"from {module} import {item}" for module, item in sorted(imports)),
         "parameters": "".join(signature),

@@ -14,6 +14,7 @@ from surfexp.statistics.resampling import bootstrap_interval, permuted
 from surfexp.statistics.separation import retrieval
 
 Method = Literal["nearest_neighbour", "k_nearest", "nearest_centroid", "support_vectors", "random_forest"]
+Predictor = Callable[[Integers, Integers, Integers], Integers]
 METHODS = ("nearest_neighbour", "k_nearest", "nearest_centroid", "support_vectors", "random_forest")
 
 
@@ -49,8 +50,40 @@ def classify(
     ValueError
         If there is one class, one group, or no coordinates for a method that needs them.
     """
-    codes, names, owners = _coded(matrix, method)
-    predict = _predictor(matrix, method, neighbours, seed)
+    if method not in METHODS:
+        raise ValueError(f"classifier {method!r} is unknown, choose one of {', '.join(METHODS)}")
+    if method not in ("nearest_neighbour", "k_nearest") and matrix.coordinates is None:
+        raise ValueError(f"{method} needs coordinates, the distances {matrix.name!r} have none: take nearest_neighbour")
+    return cross_validated(matrix, _predictor(matrix, method, neighbours, seed), method, permutations, seed)
+
+
+def cross_validated(
+    matrix: DistanceMatrix, predict: Predictor, method: str, permutations: int = 200, seed: int = 0
+) -> Classification:
+    """Predict the class of every member by a rule that is given the members of the other groups alone.
+
+    Parameters
+    ----------
+    matrix : DistanceMatrix
+    predict : callable
+        ``predict(train, labels, test)``: places (a,) of the members of other groups, their classes (a,) as numbers from 0,
+        and places (b,) of the members that are asked for; returns their classes (b,) int64.
+    method : str
+        Name of the rule.
+    permutations, seed : int
+        As in `classify`.
+
+    Returns
+    -------
+    Classification
+        As `classify`.
+
+    Raises
+    ------
+    ValueError
+        If there is one class, or one group.
+    """
+    codes, names, owners = _coded(matrix)
     predicted = _left_out(predict, codes, owners)
     right = predicted == codes
     confusion = np.zeros((len(names), len(names)), np.int64)
@@ -78,9 +111,6 @@ def classify(
         metrics=metrics,
         notes=(*matrix.notes, *_lonely(codes, owners, names)),
     )
-
-
-Predictor = Callable[[Integers, Integers, Integers], Integers]
 
 
 def _left_out(predict: Predictor, codes: Integers, owners: Integers) -> Integers:
@@ -135,17 +165,13 @@ def _model(method: str, seed: int) -> Any:
     return RandomForestClassifier(60, random_state=seed, n_jobs=1)
 
 
-def _coded(matrix: DistanceMatrix, method: str) -> tuple[Integers, tuple[str, ...], Integers]:
-    if method not in METHODS:
-        raise ValueError(f"classifier {method!r} is unknown, choose one of {', '.join(METHODS)}")
+def _coded(matrix: DistanceMatrix) -> tuple[Integers, tuple[str, ...], Integers]:
     names, codes = np.unique(np.asarray(matrix.classes), return_inverse=True)
     owners = np.unique(np.asarray(matrix.groups), return_inverse=True)[1]
     if len(names) < 2:
         raise ValueError(f"the collection has one class, {str(names[0])!r}: a classifier needs at least 2")
     if owners.max() < 1:
         raise ValueError("all members belong to one group: grouped validation needs at least 2")
-    if matrix.coordinates is None and method not in ("nearest_neighbour", "k_nearest"):
-        raise ValueError(f"{method} needs coordinates, the distances {matrix.name!r} have none: take nearest_neighbour")
     return codes.astype(np.int64), tuple(str(name) for name in names), owners.astype(np.int64)
 
 

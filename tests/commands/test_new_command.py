@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands.command_line import main
+from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.store.kinds import KINDS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,6 +34,37 @@ def test_whatever_is_new_is_formatted(working_folder: Path, name: str, capsys: p
     first_party = 'lint.isort.known-first-party=["surfexp"]'  # as in a checkout
     lint = called("ruff", "check", "--config", str(ROOT / "pyproject.toml"), "--config", first_party, ".")
     assert lint.returncode == 0, lint.stdout
+
+
+LIKE = {
+    "operator": "fem",
+    "signature": "shape_dna",
+    "distance": "mean_hausdorff",
+    "classifier": "nearest_neighbour",
+    "figure": "denoising",
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", sorted(LIKE))
+def test_a_scaffold_takes_what_a_shipped_method_takes(
+    working_folder: Path, kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["new", kind, "of_mine"]) == 0
+    registry.load_file(working_folder / "plugins" / kind / "of_mine.py")
+    load_all(Path("nowhere"))
+    shipped, written = registry.plugin(kind, LIKE[kind]), registry.plugin(kind, "of_mine")
+    assert written.inputs.items() <= shipped.inputs.items() and written.inputs
+    line = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("try it:"))
+    assert main(["plan", *shlex.split(line)[4:]]) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", sorted(LIKE))
+def test_the_test_of_a_scaffold_passes(working_folder: Path, kind: str) -> None:
+    main(["new", kind, "tested"])
+    done = called("pytest", "-q", "tests")
+    assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.timeout(3600)  # for what never ends: numba compiles for a minute on a machine that is idle

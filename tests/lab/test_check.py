@@ -117,3 +117,19 @@ def test_the_schema_takes_every_experiment_and_no_mistake(file: Path, capsys: py
     for old, new, line, _ in MISTAKES[:6]:
         if line not in (6, 7):  # values of a grid, which may be anything
             assert not validator.is_valid(yaml.safe_load(GOOD.replace(old, new, 1))), new
+
+
+def test_an_experiment_of_a_plugin_package_is_checked_where_it_lies(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    package = file.parents[2] / "package"
+    theirs = package / "theirs" / "conf" / "experiment" / "of_a_package.yaml"
+    theirs.parent.mkdir(parents=True)
+    (package / "pyproject.toml").write_text("")
+    theirs.write_text(GOOD)
+    assert main(["check", str(theirs)]) == 0
+    assert "nothing wrong; 12 rows, " in capsys.readouterr().out
+    theirs.write_text(GOOD.replace("solver: primal_dual", "solver: of_a_package"))
+    assert main(["check", str(theirs)]) == 2
+    assert "unknown solver" in (error := capsys.readouterr().err)
+    assert error.count("\n") == 1 and error.endswith(f"once it is installed: pip install {package}\n")
