@@ -82,9 +82,14 @@ def words_of(config: Mapping[str, Any], above: str = "") -> Iterator[str]:
     --------
     >>> list(words_of({"experiment": "rof_cup", "model": {"smoothness": 0.3}, "figures": []}))
     ['experiment=rof_cup', 'model.smoothness=0.3', 'figures=[]']
+    >>> list(words_of({"surface": {"name": "icosphere", "levels": 3}}))
+    ['surface=icosphere', 'surface.levels=3']
     """
     for name, value in config.items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and not above and "name" in value:
+            yield f"{name}={value['name']}"
+            yield from words_of({key: item for key, item in value.items() if key != "name"}, f"{name}.")
+        elif isinstance(value, Mapping):
             yield from words_of(value, f"{above}{name}.")
         else:
             yield f"{above}{name}={value if isinstance(value, str) else json.dumps(value)}"

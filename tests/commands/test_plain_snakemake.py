@@ -240,7 +240,7 @@ def test_a_configuration_is_words_of_surfexp_run() -> None:
         "columns": ["rmse"],
         "cores": None,
     }
-    words = ["experiment=rof_cup", "solver.name=newton", "solver.tolerance=1e-06", 'columns=["rmse"]', "cores=null"]
+    words = ["experiment=rof_cup", "solver=newton", "solver.tolerance=1e-06", 'columns=["rmse"]', "cores=null"]
     assert list(plain_snakemake.words_of(config)) == words
 
 
@@ -249,3 +249,9 @@ def test_a_plan_of_several_searches_is_refused(working_folder: Path, monkeypatch
     monkeypatch.setattr(plain_snakemake, "plan_and_act", lambda arguments, action: [])
     with pytest.raises(UserError, match="a search is run by surfexp run"):
         plain_snakemake._plan_of(["experiment=rof_cup"])
+
+
+def test_a_stage_is_spelled_as_in_an_experiment() -> None:
+    config = {"experiment": "rof_cup", "surface": {"name": "icosphere", "levels": 3}, "operator": "fem"}
+    words = ["experiment=rof_cup", "surface=icosphere", "surface.levels=3", "operator=fem"]
+    assert list(plain_snakemake.words_of(config)) == words
