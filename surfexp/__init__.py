@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.noise_of_map import noise as noise
     from surfexp.tasks.null_maps import null_maps as null_maps
     from surfexp.tasks.pictures import plot as plot
+    from surfexp.tasks.proving import proof_page as proof_page
     from surfexp.tasks.repairing import check as check
     from surfexp.tasks.repairing import repair as repair
     from surfexp.tasks.segmentation import segment as segment

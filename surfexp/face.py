@@ -22,6 +22,7 @@ FACE = {
     "noise": "surfexp.tasks.noise_of_map",
     "null_maps": "surfexp.tasks.null_maps",
     "plot": "surfexp.tasks.pictures",
+    "proof_page": "surfexp.tasks.proving",
     "read": "surfexp.tasks.files",
     "reeb_graph": "surfexp.tasks.skeletons",
     "repair": "surfexp.tasks.repairing",

@@ -15,8 +15,11 @@ from surfexp.commands.surface_arguments import (
     named_as,
     opened,
     progress_line,
+    proof_option,
     ready,
+    ready_proof,
     result_option,
+    save_proof,
     surface_options,
 )
 
@@ -41,6 +44,7 @@ EXAMPLES = {
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
 @click.option("--tolerance", default=1e-4, help="largest relative duality gap")
 @surface_options
+@proof_option
 @result_option()
 def denoise(
     path: str,
@@ -51,6 +55,7 @@ def denoise(
     noise: float | None,
     tolerance: float,
     target: Path,
+    proof: Path | None,
     **given: Any,
 ) -> int:
     """Remove the noise of a map by total variation, which keeps its edges.
@@ -66,11 +71,15 @@ def denoise(
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
     ready(target, files, check_target, channels=channels, hemisphere=surface.hemisphere)
+    ready_proof(proof, files)
+    if proof is not None and method == "auto":
+        raise ValueError("--proof with method auto, which proves no gap: choose method rof or tgv")
     started = time.perf_counter()
     with progress_line("denoise") as progress:
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
         clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
+    save_proof(proof, clean)
     chosen = {} if method == "auto" else {"weight": weight, "tolerance": tolerance}
     return finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
 

@@ -76,6 +76,31 @@ def result_option(required: bool = True) -> Callable[[Command], Command]:
     )
 
 
+def proof_option(command: Command) -> Command:
+    """Add `--proof FILE`: a page that computes the certificate again where it is read."""
+    chosen: Command = click.option(
+        "--proof", type=click.Path(path_type=Path), help="also write a .html that proves the result where it is read"
+    )(command)
+    return chosen
+
+
+def save_proof(path: Path | None, result: Any, *surfaces: Any) -> None:
+    """Write the page of a result, where one was asked for."""
+    if path is not None:
+        from surfexp.tasks.proving import proof_page
+
+        proof_page(result, *surfaces).save(path)
+        echo(f"{path}: open it in any browser, it computes the certificate again")
+
+
+def ready_proof(path: Path | None, files: Inputs) -> None:
+    """Refuse a page that cannot be written, before anything is computed."""
+    if path is not None:
+        from surfexp.tasks.proving import check_proof_target
+
+        ready(path, files, check_proof_target)
+
+
 def opened(
     path: str, mask: str | None, maps: tuple[str, ...], unit: str, hemisphere: str | None, repair: bool
 ) -> tuple[Surface, Inputs]:

@@ -16,8 +16,11 @@ from surfexp.commands.surface_arguments import (
     opened,
     picture_options,
     progress_line,
+    proof_option,
     ready,
+    ready_proof,
     result_option,
+    save_proof,
     shown_map,
     surface_options,
 )
@@ -46,14 +49,18 @@ EXAMPLES = {
     "--threads", type=int, help="threads for more than 200 pairs; all cores by default, the bytes are the same"
 )
 @surface_options
+@proof_option
 @result_option()
-def modes(path: str, count: int, tolerance: float, threads: int | None, target: Path, **given: Any) -> int:
+def modes(
+    path: str, count: int, tolerance: float, threads: int | None, target: Path, proof: Path | None, **given: Any
+) -> int:
     """Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."""
     from surfexp.tasks.spectra import eigenpairs
     from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
     ready(target, files, check_target, count=count, hemisphere=surface.hemisphere)
+    ready_proof(proof, files)
     started = time.perf_counter()
     with progress_line("modes") as progress:
         system = eigenpairs(surface, count, tolerance=tolerance, progress=progress, threads=threads)
@@ -62,6 +69,7 @@ def modes(path: str, count: int, tolerance: float, threads: int | None, target: 
         "residual": float(system.residuals.max()),
         "seconds": time.perf_counter() - started,
     }
+    save_proof(proof, system, surface)
     return finish(
         target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes
     )
@@ -142,8 +150,9 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
 @click.argument("second", type=click.Path())
 @click.option("-n", "count", default=20, help="number of eigenfunctions")
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
+@proof_option
 @result_option(required=False)
-def distance(first: str, second: str, count: int, limit: int | None, target: Path | None) -> None:
+def distance(first: str, second: str, count: int, limit: int | None, target: Path | None, proof: Path | None) -> None:
     """Measure the spectral distance of two surfaces, with a proved lower bound.
 
     The signs of the eigenfunctions are printed too; --to writes the correspondence.
@@ -156,12 +165,14 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
     files = Inputs(first, second)
     if target is not None:
         ready(target, files, check_map_target)
+    ready_proof(proof, files)
     started = time.perf_counter()
     with progress_line("distance") as progress:
         found = task(first, second, count, limit=limit, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
-    proof = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
-    echo(f"distance {found.value:.6g} ({proof}), signs {signs}")
+    bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
+    echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
+    save_proof(proof, found, first, second)
     if target is not None:
         facts = {
             "value": found.value,

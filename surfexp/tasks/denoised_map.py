@@ -10,6 +10,32 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.variational.solution import Solution
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """All that a duality gap is computed from, inside the mask.
+
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    map : (p,) or (p, c) float64
+        Before denoising.
+    solution : Solution
+        Its values and dual field.
+    slopes : (e, 2) float64
+        Those of "tgv" along and across each edge; of "rof" none.
+    tolerance : float
+        Largest relative gap that was asked for.
+    """
+
+    mesh: TriangleMesh
+    map: Floats
+    solution: Solution
+    slopes: Floats
+    tolerance: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,6 +55,8 @@ class DenoisedMap(Drawable):
         Under which the surface carries the map that it was made of; what a file calls it.
     outliers : (k,) int64
         Vertices whose values "auto" replaced before, far from those of all their neighbours.
+    evidence : Evidence, optional
+        Of "rof" and "tgv": what `proof_page` shows.
     """
 
     values: Floats
@@ -37,6 +65,7 @@ class DenoisedMap(Drawable):
     notes: tuple[str, ...] = ()
     name: str = "map"
     outliers: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    evidence: Evidence | None = None
 
     def _summary(self) -> Summary:
         known = np.isfinite(self.values)

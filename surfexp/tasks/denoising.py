@@ -15,7 +15,7 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
-from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.denoised_map import DenoisedMap, Evidence
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
 from surfexp.tasks.noisy_image import noisy_image
 from surfexp.variational.fidelity import Progress
@@ -112,9 +112,11 @@ def denoise(
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}
     data = rof(operator.mass, image.values, image.data_weight(weight, sigma))
-    solution = _minimised(method, data, operator, ratio, tolerance, progress)
+    solution, slopes = _minimised(method, data, operator, ratio, tolerance, progress)
     notes = part.notes + solution.notes + said
-    return DenoisedMap(part.extend(solution.values), method, facts | _proof(solution, operator), notes, image.name)
+    evidence = Evidence(part.mesh, image.values, solution, slopes, tolerance)
+    facts |= _proof(solution, operator)
+    return DenoisedMap(part.extend(solution.values), method, facts, notes, image.name, evidence=evidence)
 
 
 def _minimised(
@@ -124,13 +126,14 @@ def _minimised(
     ratio: float,
     tolerance: float,
     progress: Progress | None,
-) -> Solution:
-    """Solve the model that a method stands for, by the solver that suits the tolerance."""
+) -> tuple[Solution, Floats]:
+    """Solve the model that a method stands for, by the solver that suits the tolerance; return the slopes of "tgv" too."""
     if method == "tgv":
         problem = GeneralisedVariation(data, operator, ratio * operator.edge_length)
-        return generalised_splitting(problem, tolerance=tolerance, progress=progress).solution
+        found = generalised_splitting(problem, tolerance=tolerance, progress=progress)
+        return found.solution, found.slopes
     solver = newton if tolerance < NEWTON_BELOW and len(data.shape) == 1 else primal_dual
-    return solver(data, operator, tolerance=tolerance, progress=progress)
+    return solver(data, operator, tolerance=tolerance, progress=progress), np.empty((0, 2))
 
 
 def _proof(solution: Solution, operator: SurfaceOperator) -> dict[str, Any]:

@@ -21,6 +21,7 @@ from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, m
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
+from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for, require_connected
 
@@ -231,9 +232,17 @@ def embedded(
 
     `name` is what the user calls n.
     """
+    embedding, _, part = embedded_pairs(given, n, weighting, name=name, more=more)
+    return embedding, part
+
+
+def embedded_pairs(
+    given: SurfaceLike, n: int, weighting: Weighting, *, name: str = "n", more: int = 0
+) -> tuple[SpectralEmbedding, EigenSystem, SurfacePart]:
+    """Return the same with the eigenpairs behind it."""
     owner = as_surface(given)
     part = part_for(owner)
     require_connected(part, "spectral distances")
     n = whole_number(n, name, 1, len(part.vertices) - 1 - more) + more
     _, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), n + 1)
-    return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), part
+    return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), system, part

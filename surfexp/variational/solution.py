@@ -17,10 +17,10 @@ class Solution:
     ----------
     values : (n,) or (n, c) float64
         The minimiser that was found; the certificate belongs to exactly this array.
-    dual : (m, 2) or (m, c, 2) float64, optional
-        A feasible dual field, |p| <= 1 on every face, that proves the gap.
     energy : float
         Primal energy of `values` under the consistent discretisation.
+    dual : (m, 2) or (m, c, 2) float64, optional
+        A feasible dual field, |p| <= 1 on every face, that proves the gap.
     lower_bound : float, optional
         Dual energy of `dual`: no field has less energy.
     relative_gap : float, optional
@@ -38,7 +38,8 @@ class Solution:
         Names for captions.
     segmentation : (n,) bool-like float64, optional
         The labelling that a segmentation model derives from `values`.
-    metrics, notes
+    metrics : dict of str to float
+    notes : tuple of str
         As in `Surface`.
     """
 

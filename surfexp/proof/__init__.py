@@ -1,0 +1,1 @@
+"""Pages that recompute what a result is certified by, in the browser of who reads them."""

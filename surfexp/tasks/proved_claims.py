@@ -1,0 +1,184 @@
+"""What a page can prove of a result: the arrays and numbers of its certificate."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from surfexp.contract.arrays import Floats
+from surfexp.embedding.distance import Distance
+from surfexp.embedding.spectral_embedding import Weighting
+from surfexp.linalg.ldlt_ordering import nested_dissection
+from surfexp.mesh.surface import Surface
+from surfexp.operators.elements_surface import Boundary, Mass
+from surfexp.operators.fem import fem
+from surfexp.proof.claim import Claim
+from surfexp.spectrum.eigensystem import EigenSystem, measure
+from surfexp.spectrum.surface_spectrum import elements_of
+from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.distances import embedded_pairs
+from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+
+# a shift lies where neighbouring eigenvalues differ by more, relatively; stated numbers are refused that differ by more
+CLEAR_GAP, OTHER_OPERATOR = 1e-6, 1e-6
+
+
+def gap_claim(result: DenoisedMap) -> Claim:
+    """Return the claim that a denoised map is near the minimiser of its model.
+
+    Raises
+    ------
+    ValueError
+        If the map was not denoised by "rof" or "tgv", or its gap is not proved.
+    """
+    proof = result.evidence
+    if proof is None or proof.solution.lower_bound is None:
+        raise ValueError(f"a map after {result.method} has no duality gap: choose method rof or tgv")
+    solution, dual, facts = proof.solution, proof.solution.dual, result.certificate
+    arrays: dict[str, NDArray[Any]] = {
+        "vertices": proof.mesh.vertices,
+        "faces": proof.mesh.faces,
+        "map": proof.map,
+        "values": solution.values,
+        "dual": np.asarray(dual),
+    }
+    tgv = result.method == "tgv"
+    if tgv:
+        arrays["slopes"] = proof.slopes
+    model = "TGV" if tgv else "TV"
+    bound = f"no field has an energy below {solution.lower_bound:.10g}, and this one has {solution.energy:.10g}"
+    return Claim(
+        "duality gap",
+        f"The map is within a relative gap of {proof.tolerance:g} of the minimum of {model}(u) + mu/2 |u - f|^2",
+        f"On {len(proof.mesh.vertices)} vertices and {len(proof.mesh.faces)} faces {bound}. The dual field proves it.",
+        arrays,
+        {
+            "model": "TGV" if tgv else "ROF",
+            "weight": facts["weight"],
+            "noise": facts["noise"],
+            "ratio": facts.get("ratio", 0.0),
+            "tolerance": proof.tolerance,
+        },
+        {
+            "energy": solution.energy,
+            "lower_bound": solution.lower_bound,
+            "relative_gap": facts["relative_gap"],
+            "error_bound": facts["error_bound"],
+        },
+    )
+
+
+def spectrum_claim(
+    system: EigenSystem,
+    surface: SurfaceLike,
+    mass: Mass = "consistent",
+    boundary: Boundary = "neumann",
+    tolerance: float = 1e-8,
+) -> Claim:
+    """Return the claim that pairs are eigenpairs and that none is missing below a shift.
+
+    Raises
+    ------
+    ValueError
+        If the pairs are not those of linear elements on the surface.
+    """
+    owner = as_surface(surface)
+    part = part_for(owner)
+    vectors = np.asarray(part.restrict(system.vectors), dtype=np.float64)
+    elements = elements_of(Surface(part.mesh, owner.name, owner.unit), fem(part.mesh), 1, mass=mass, boundary=boundary)
+    inside = np.asfortranarray(vectors[elements.free])
+    shift, certified = _shift(system)
+    found = measure(elements.stiffness, elements.mass, inside, spacing=shift / certified)
+    apart = float(np.abs(found.values - system.values).max() / max(float(system.values[-1]), found.spacing))
+    if system.order != 1 or apart > OTHER_OPERATOR or found.residuals.max() > tolerance:
+        raise ValueError(
+            f"the pairs differ by {apart:.1e}, residual {found.residuals.max():.1e}, from those of linear elements on the "
+            f"surface with mass {mass} and boundary {boundary}: give the surface, mass and boundary that they were found on"
+        )
+    pattern = elements.stiffness
+    return Claim(
+        "spectrum",
+        f"The first {certified} of {len(system.values)} eigenpairs are the lowest ones, and none is missing",
+        f"On {len(part.mesh.vertices)} vertices exactly {certified} eigenvalues lie below {shift:.10g}: so many pivots of "
+        f"L D L^T are negative. Mass: {mass}; boundary: {boundary}.",
+        {
+            "vertices": part.mesh.vertices,
+            "faces": part.mesh.faces,
+            "values": system.values,
+            "vectors": vectors.T,
+            "residuals": found.residuals,
+            "order": nested_dissection(pattern.indptr.astype(np.int64), pattern.indices.astype(np.int64)),
+        },
+        {"mass": mass, "boundary": boundary, "shift": shift, "certified": certified, "tolerance": tolerance},
+        {"orthogonality": found.orthogonality, "area": elements.area},
+    )
+
+
+def sign_claims(
+    found: Distance, source: SurfaceLike, target: SurfaceLike, weighting: Weighting = "biharmonic"
+) -> tuple[Claim, Claim, Claim]:
+    """Return the claims of both spectra, and that no signs of the target's modes give a smaller distance.
+
+    Raises
+    ------
+    ValueError
+        If the distance is not that of the two surfaces, or has no search over signs.
+    """
+    if weighting not in ("biharmonic", "global_point") or not len(found.closed):
+        raise ValueError(
+            f"weighting {weighting!r} with {len(found.closed)} closed nodes: choose biharmonic or global_point"
+        )
+    dimension = len(found.basis)
+    pairs = [embedded_pairs(one, dimension, weighting) for one in (source, target)]
+    signs = np.diag(found.basis)
+    in_their_basis = (found.source_points, found.target_points * signs)
+    for (embedding, _, part), points in zip(pairs, in_their_basis, strict=True):
+        inside = np.asarray(part.restrict(points), dtype=np.float64)
+        if inside.shape != embedding.points.shape or not _same(inside, embedding.points):
+            raise ValueError(
+                f"the distance is not that of these surfaces with weighting {weighting}: give the ones it is of"
+            )
+    spectra = []
+    for (_, system, part), one in zip(pairs, ("source", "target"), strict=True):
+        claim = spectrum_claim(system, (part.mesh.vertices, part.mesh.faces))
+        spectra.append(
+            Claim(claim.kind, f"{one}: {claim.heading}", claim.sentence, claim.arrays, claim.numbers, claim.stated)
+        )
+    first, second = pairs[0][2], pairs[1][2]
+    number = np.full(first.whole_count, -1, dtype=np.int64)
+    number[first.vertices] = np.arange(len(first.vertices))
+    proved = "no other signs give less" if found.optimal else f"no signs give less than {found.lower_bound:.10g}"
+    claim = Claim(
+        "signs",
+        f"The distance is {found.value:.10g}, and {proved}",
+        f"{len(found.closed)} bounds decide all {2**dimension} choices of signs of {dimension} eigenfunctions. The label of each "
+        "vertex of the target is its nearest vertex of the source.",
+        {
+            "signs": signs.astype(np.int64),
+            "closed": found.closed,
+            "correspondence": number[np.asarray(second.restrict(found.correspondence), dtype=np.int64)],
+        },
+        {"spectra": [0, 1], "dimension": dimension, "weighting": weighting},
+        {"value": found.value, "lower_bound": found.lower_bound, "optimal": found.optimal},
+    )
+    return spectra[0], spectra[1], claim
+
+
+def _same(points: Floats, others: Floats) -> bool:
+    return bool(np.abs(points - others).max() <= OTHER_OPERATOR * np.abs(others).max())
+
+
+def _shift(system: EigenSystem) -> tuple[float, int]:
+    """Return a shift with a certified count of pairs below it: that of the proof, else the last clear gap between pairs."""
+    values, count = system.values, len(system.values)
+    for shift, below in reversed(system.inertia):
+        if below == count and shift > values[-1]:
+            return float(shift), count
+    gaps = np.diff(values) / np.maximum(values[1:], np.finfo(float).tiny)
+    clear = np.flatnonzero(gaps > max(CLEAR_GAP, 0.1 * float(gaps[1:].max(initial=0.0))))
+    if not len(clear):
+        raise ValueError(f"{count} eigenvalues have no gap between them: take more pairs")
+    last = int(clear[-1])
+    return float(values[last : last + 2].mean()), last + 1

@@ -1,0 +1,195 @@
+"""Pages that prove themselves: node runs their scripts, planted changes are all seen, and the numbers are those of Python."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.proof.page import LARGEST, claims_page
+
+NODE = shutil.which("node")
+needs_node = pytest.mark.skipif(NODE is None, reason="needs node")
+CHECKS = Path(__file__).with_name("check_page.js")
+# rows of a claim that compare bytes, not numbers that were computed
+BYTES = "SHA-256"
+
+
+def computed(page: Any, folder: Path, changes: list[dict[str, Any]] = []) -> dict[str, Any]:  # noqa: B006
+    """Return the rows of a page's claims, as it is and after each change, by its own scripts in node."""
+    file = folder / "page.html"
+    page.save(file)
+    found = subprocess.run(
+        [str(NODE), str(CHECKS), str(file)], input=json.dumps(changes), capture_output=True, text=True, check=True
+    )
+    return dict(json.loads(found.stdout))
+
+
+def failing(rows: list[list[dict[str, Any]]], but: str = "\0") -> list[dict[str, Any]]:
+    """Return the rows that do not hold; those that begin with `but` aside."""
+    return [row for claim in rows for row in claim if not row["holds"] and not row["what"].startswith(but)]
+
+
+def noisy(levels: int = 2) -> tuple[Any, Any]:
+    sphere = sx.shape("icosphere", levels=levels)
+    x, _, z = sphere.mesh.vertices.T
+    return sphere, z + (x > 0) + 0.1 * np.random.default_rng(0).standard_normal(len(x))
+
+
+def bodies() -> tuple[Any, Any]:
+    body = sx.shape("ellipsoid", levels=2).mesh
+    other = body.vertices * [1.0, 1.1, 0.9] + 0.02 * np.sin(3.0 * body.vertices[:, [1, 2, 0]])
+    return (body.vertices, body.faces), (other, body.faces)
+
+
+@pytest.fixture(scope="module")
+def pages() -> dict[str, Any]:
+    sphere, values = noisy()
+    first, second = bodies()
+    return {
+        "rof": sx.proof_page(sx.denoise(sphere, values)),
+        "channels": sx.proof_page(sx.denoise(sphere, np.stack([values, values**2], axis=1), tolerance=1e-3)),
+        "newton": sx.proof_page(sx.denoise(sphere, values, tolerance=1e-10)),
+        "tgv": sx.proof_page(sx.denoise(sphere, values, method="tgv")),
+        "modes": sx.proof_page(sx.eigenpairs(first, 12), first),
+        "lumped": sx.proof_page(sx.eigenpairs(sphere, 16, mass="lumped"), sphere, mass="lumped"),
+        "distance": sx.proof_page(sx.distance(first, second, 6), first, second),
+    }
+
+
+@needs_node
+@pytest.mark.parametrize("name", ["rof", "channels", "newton", "tgv", "modes", "lumped", "distance"])
+def test_an_untouched_page_holds_with_the_numbers_of_python(name: str, pages: dict[str, Any], tmp_path: Path) -> None:
+    rows = computed(pages[name], tmp_path)["unchanged"]
+    assert failing(rows) == []
+    stated = {row["what"]: row for claim in rows for row in claim if "slack" in row}
+    assert stated
+    for row in stated.values():
+        computed_here, expected = row["computed"], row["stated"]
+        if row["what"].startswith("largest distance"):
+            computed_here, expected = computed_here**2, expected**2  # the gap, up to a factor
+        assert abs(computed_here - expected) <= 1e-12 * max(abs(expected), 1.0)
+
+
+def planted(claims: tuple[Any, ...], count: int, rng: np.random.Generator) -> list[dict[str, Any]]:
+    """Return changes of single numbers: of arrays, in turn, by a thousandth of their size, and of numbers of the claims."""
+    places = [(k, "", name) for k, claim in enumerate(claims) for name in claim.arrays]
+    skipped = (
+        "tolerance",
+        "shift",
+        "spectra",
+        "dimension",
+        "weighting",
+    )  # a change states another claim, which may hold
+    for k, claim in enumerate(claims):
+        for part in ("numbers", "stated"):
+            named = getattr(claim, part)
+            places += [(k, part, n) for n, v in named.items() if n not in skipped and not isinstance(v, str | bool)]
+    places = [(k, part, n) for k, part, n in places if not (n == "ratio" and claims[k].numbers["model"] == "ROF")]
+    changes = []
+    for turn in range(count):
+        k, part, name = places[turn % len(places)]
+        if part:
+            value = getattr(claims[k], part)[name]
+            changed = value + 1 if isinstance(value, int) else value * 1.001 if abs(value) > 1e-9 else value + 1e-6
+            changes.append({"claim": k, "part": part, "name": name, "value": changed})
+            continue
+        array = claims[k].arrays[name]
+        index = int(rng.integers(array.size))
+        value = array.ravel()[index]
+        if np.issubdtype(array.dtype, np.integer):
+            least, largest = int(array.min()), int(array.max())
+            changed = int(value) + 1 if value < largest else least
+        else:
+            changed = float(value + 1e-3 * np.abs(array).max())
+        changes.append({"claim": k, "array": name, "index": index, "value": changed})
+    return changes
+
+
+@needs_node
+@pytest.mark.slow
+def test_a_hundred_planted_changes_of_single_numbers_are_all_seen(pages: dict[str, Any], tmp_path: Path) -> None:
+    rng, total, unseen, by_bytes_alone = np.random.default_rng(1), 0, [], set()
+    for name, count in {"rof": 20, "channels": 12, "tgv": 20, "modes": 20, "lumped": 12, "distance": 36}.items():
+        changes = planted(pages[name].claims, count, rng)
+        found = computed(pages[name], tmp_path, changes)["changed"]
+        for change, rows in zip(changes, found, strict=True):
+            total += 1
+            unseen += [] if failing(rows) else [(name, change)]
+            by_bytes_alone |= set() if failing(rows, BYTES) else {change["array"]}
+    assert (total, unseen) == (120, [])
+    # a thousandth of a residual of 1e-11 is below the rounding of the residual
+    assert by_bytes_alone <= {"residuals"}
+
+
+@needs_node
+def test_the_last_bit_of_any_array_is_seen_by_its_bytes(pages: dict[str, Any], tmp_path: Path) -> None:
+    claim = pages["tgv"].claims[0]
+    floats = {name: array for name, array in claim.arrays.items() if name != "faces"}
+    changes = [
+        {"claim": 0, "array": name, "index": 7, "value": float(np.nextafter(array.ravel()[7], np.inf))}
+        for name, array in floats.items()
+    ]
+    assert all(failing(rows) for rows in computed(pages["tgv"], tmp_path, changes)["changed"])
+
+
+@needs_node
+def test_boundaries_holes_and_masks_are_those_of_python(tmp_path: Path) -> None:
+    sphere, values = noisy()
+    cap = sx.Surface(sphere.mesh, mask=sphere.mesh.vertices[:, 2] > -0.3)
+    assert failing(computed(sx.proof_page(sx.denoise(cap, values)), tmp_path)["unchanged"]) == []
+    for boundary in ("neumann", "dirichlet"):
+        system = sx.eigenpairs(cap, 10, boundary=boundary)
+        rows = computed(sx.proof_page(system, cap, boundary=boundary), tmp_path)["unchanged"]
+        assert failing(rows) == []
+
+
+@needs_node
+def test_a_missing_pair_is_counted(tmp_path: Path) -> None:
+    body = bodies()[0]
+    page = sx.proof_page(sx.eigenpairs(body, 8), body)
+    claim = page.claims[0]
+    kept = np.delete(np.arange(8), 3)
+    arrays = {
+        name: array[kept] if name in ("values", "vectors", "residuals") else array
+        for name, array in claim.arrays.items()
+    }
+    forged = type(claim)(
+        claim.kind, "", "", arrays, {**claim.numbers, "certified": claim.numbers["certified"] - 1}, claim.stated
+    )
+    seen = failing(computed(type(page)((forged,), ""), tmp_path)["unchanged"])
+    assert any("by inertia" in row["what"] for row in seen)
+
+
+def test_a_page_says_what_it_does_not_prove_and_loads_nothing(pages: dict[str, Any]) -> None:
+    text = pages["modes"].html()
+    assert "the arrays are those of your data" in text and "default-src 'none'" in text
+    assert "Nothing is computed yet." in text and "http" not in text.replace("http-equiv", "")
+
+
+def test_results_without_a_certificate_are_refused(tmp_path: Path) -> None:
+    sphere, values = noisy()
+    for result, surfaces, said in (
+        (sx.smooth(sphere, values, 0.5), (), "choose method rof or tgv"),
+        (sx.eigenpairs(sphere, 5), (), "give 1"),
+        (sx.eigenpairs(sphere, 5, mass="lumped"), (sphere,), "give the surface, mass and boundary"),
+        (sx.distance(*bodies(), 3), bodies()[::-1], "give the ones it is of"),
+        (values, (), "has no certificate for a page"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            sx.proof_page(result, *surfaces)
+    with pytest.raises(ValueError, match=r"choose \.html"):
+        sx.proof_page(sx.denoise(sphere, values)).save(tmp_path / "page.txt")
+
+
+def test_a_page_above_five_megabytes_is_refused(pages: dict[str, Any]) -> None:
+    claims = pages["modes"].claims
+    copies = LARGEST // (len(claims_page(claims, "")) - len(claims_page((), ""))) + 2
+    with pytest.raises(ValueError, match="at most 5"):
+        claims_page(claims * copies, "")
