@@ -14,9 +14,11 @@ from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
 from surfexp.smoothing.automatic import CANDIDATES, EDGE_OF_GRIDS
+from surfexp.smoothing.fitted_trials import fitted_trials
 from surfexp.smoothing.methods import MethodName, Methods
 from surfexp.smoothing.parameter_choice import smooth_on_grid
 from surfexp.variational.noise_reading import read_noise, without_outliers
+from surfexp.variational.own_unit import own_unit
 
 HALVES = ("first", "second")
 IN_HINDSIGHT: dict[str, MethodName] = {
@@ -44,6 +46,7 @@ class Filters:
         """Root mean square errors of every rule, and "best", the least of all filters with all their parameters."""
         rough = with_noise(self.clean, noise, seed)
         before, tried = self._rule_of_before(rough)
+        tried += self._filters_of_default(rough)
         found = {
             "default": self._error(sx.denoise(self.clean.surface, rough).values),
             "rule of before": before,
@@ -67,6 +70,14 @@ class Filters:
             errors.extend(self._error(one[:, 0]) for one in run.values)
         return errors[int(np.argmin(estimates))], errors
 
+    def _filters_of_default(self, rough: Floats) -> list[float]:
+        """The errors of all filters that the default mixes, outliers replaced before."""
+        operator, own = self.clean.operator, own_unit(rough)
+        unit = own.normalised(rough)
+        noise = read_noise(operator, unit)
+        trials = fitted_trials(operator, without_outliers(operator, unit, noise.outliers), noise)
+        return [self._error(own.restored(trial.values)) for trial in trials]
+
     def _error(self, values: Floats) -> float:
         mass = self.clean.operator.mass
         return float(np.sqrt(mass @ (values - self.clean.values) ** 2 / mass.sum()))
@@ -77,13 +88,13 @@ def chosen_maps(halves: Iterable[str]) -> Iterator[NoisyMap]:
     return (clean for clean in study_maps() if clean.half in halves)
 
 
-def cells(halves: Iterable[str], seeds: int) -> Cells:
+def cells(halves: Iterable[str], seeds: Iterable[int]) -> Cells:
     """Errors of every rule, for each seed, by the name of a map and its noise."""
     found: Cells = defaultdict(list)
     for clean in chosen_maps(halves):
         filters = Filters(clean)
         for noise in NOISES:
-            found[clean.name, noise] = [filters.errors(noise, seed) for seed in range(seeds)]
+            found[clean.name, noise] = [filters.errors(noise, seed) for seed in seeds]
         print(f"{clean.name}: done", flush=True)
     return found
 
@@ -125,12 +136,13 @@ def main() -> None:
     parser.add_argument("tables", nargs="*", metavar="TABLE", help="errors, alarms")
     parser.add_argument("--half", choices=HALVES, help="one half of the maps")
     parser.add_argument("--seeds", type=int, default=SEEDS, help="seeds of each noise")
-    parser.add_argument("--first-seed", type=int, default=0, help="of the draws of white noise for alarms")
+    parser.add_argument("--first-seed", type=int, default=0, help="where the seeds begin")
     options = parser.parse_args()
     halves = (options.half,) if options.half else HALVES
+    seeds = range(options.first_seed, options.first_seed + options.seeds)
     for half in halves:
         if not options.tables or "errors" in options.tables:
-            print(f"\n{half} half, errors over the best in hindsight\n\n{ratio_table(cells((half,), options.seeds))}")
+            print(f"\n{half} half, errors over the best in hindsight\n\n{ratio_table(cells((half,), seeds))}")
         if not options.tables or "alarms" in options.tables:
             print(f"\n{half} half, white noise\n\n{alarm_table((half,), options.first_seed)}")
 

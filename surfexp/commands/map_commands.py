@@ -34,31 +34,31 @@ EXAMPLES = {
 @click.argument("map_name", metavar="MAP", type=click.Path())
 @click.option(
     "--method",
-    type=click.Choice(["rof", "tgv", "auto"]),
-    default="rof",
-    help="rof: total variation; tgv: total generalised variation, which avoids staircasing; "
-    "auto: the method with the smallest estimated error",
+    type=click.Choice(["auto", "rof", "tgv"]),
+    default="auto",
+    help="auto: the filters with the smallest estimated error; rof: total variation; "
+    "tgv: total generalised variation, which avoids staircasing",
 )
-@click.option("--weight", default=0.9, help="dimensionless; smaller is smoother")
-@click.option("--ratio", default=2.0, help="of tgv: over how many edge lengths a slope may change")
+@click.option("--weight", type=float, help="of rof and tgv: dimensionless, smaller is smoother; 0.9 if not given")
+@click.option("--ratio", type=float, help="of tgv: over how many edge lengths a slope may change; 2 if not given")
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
-@click.option("--tolerance", default=1e-4, help="largest relative duality gap")
+@click.option("--tolerance", type=float, help="largest relative duality gap; 1e-3 for auto, else 1e-4")
 @surface_options
 @proof_option
 @result_option()
 def denoise(
     path: str,
     map_name: str,
-    method: Literal["rof", "tgv", "auto"],
-    weight: float,
-    ratio: float,
+    method: Literal["auto", "rof", "tgv"],
+    weight: float | None,
+    ratio: float | None,
     noise: float | None,
-    tolerance: float,
+    tolerance: float | None,
     target: Path,
     proof: Path | None,
     **given: Any,
 ) -> int:
-    """Remove the noise of a map by total variation, which keeps its edges.
+    """Remove the noise of a map by the filters that promise the least error, or by a method of your choice.
 
     MAP is a file, or a map that the surface carries.
     """
@@ -80,7 +80,7 @@ def denoise(
         clean = task(surface, values, noise=noise, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
     save_proof(proof, clean)
-    chosen = {} if method == "auto" else {"weight": weight, "tolerance": tolerance}
+    chosen = {name: value for name, value in options.items() if name != "method" and value is not None}
     return finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
 
 

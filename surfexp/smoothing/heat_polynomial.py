@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.special import ive
@@ -47,31 +49,70 @@ def heat_polynomial(
     Huang, Lyu, Qiu, Chung: Fast polynomial approximation of heat kernel convolution on manifolds and its application to
     brain sulcal and gyral graph pattern analysis (2020).
     """
-    check_positive("time", time)
+    return next(iter(heat_polynomials(operator, values, [time], tolerance)))
+
+
+def heat_polynomials(
+    operator: SurfaceOperator,
+    values: Floats,
+    times: Sequence[float],
+    tolerance: float = 1e-8,
+    weights: Floats | None = None,
+) -> list[tuple[Floats, int, float]]:
+    """Return exp(-t L) f for several times by one recurrence: the series differ in their coefficients alone.
+
+    Parameters
+    ----------
+    operator : SurfaceOperator
+    values : (n,) or (n, c) float64
+    times : sequence of float
+        At least one, in squared units of length.
+    tolerance : float
+        As in `heat_polynomial`.
+    weights : (n,) float64, optional
+        Positive factors of the mass, 1 if not given: where they are small, the map is smoothed more.
+
+    Returns
+    -------
+    list of (like `values`, int, float)
+        What `heat_polynomial` returns, for each time.
+
+    Raises
+    ------
+    ValueError
+        If a time or the tolerance is not positive, or more than 100,000 terms are needed.
+    """
+    for time in times:
+        check_positive("time", time)
     check_positive("tolerance", tolerance)
-    half = 0.5 * time * largest_eigenvalue_bound(operator)
-    coefficients, rest = _coefficients(half, tolerance)
-    mass = operator.mass
+    largest = largest_eigenvalue_bound(operator, weights)
+    series = [_coefficients(0.5 * time * largest, tolerance) for time in times]
+    mass = operator.mass if weights is None else operator.mass * weights
     laplacian = csr_array(diags_array(1.0 / mass) @ stiffness(operator))
-    scale = time / half
+    scale = 2.0 / largest
 
     def shifted(field: Floats) -> Floats:
         return scale * (laplacian @ field) - field
 
     before, now = values, shifted(values)
-    total = coefficients[0] * before + (coefficients[1] * now if len(coefficients) > 1 else 0.0)
-    for coefficient in coefficients[2:]:
+    totals = [given[0] * before + (given[1] * now if len(given) > 1 else 0.0) for given, _ in series]
+    for term in range(2, max(len(given) for given, _ in series)):
         before, now = now, 2.0 * shifted(now) - before
-        total = total + coefficient * now
-    return total, len(coefficients) - 1, rest
+        for place, (given, _) in enumerate(series):
+            if term < len(given):
+                totals[place] = totals[place] + given[term] * now
+    return [(total, len(given) - 1, rest) for total, (given, rest) in zip(totals, series, strict=True)]
 
 
-def largest_eigenvalue_bound(operator: SurfaceOperator) -> float:
+def largest_eigenvalue_bound(operator: SurfaceOperator, weights: Floats | None = None) -> float:
     """Return a number that no eigenvalue of the lumped problem exceeds: the largest of single triangles.
 
-    Both forms are sums over triangles, so a Rayleigh quotient is at most the largest quotient of a triangle.
+    Both forms are sums over triangles, so a Rayleigh quotient is at most the largest quotient of a triangle. Factors of
+    the mass may be given, one for each vertex.
     """
     hats = operator.hat_gradients
+    if weights is not None:
+        hats = hats / np.sqrt(weights[operator.faces])[:, :, None]
     local = np.einsum("fax,fbx->fab", hats, hats)
     return float(3.0 * np.linalg.eigvalsh(local)[:, -1].max())
 

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.smoothing.automatic import automatic_smoothing
+from surfexp.smoothing.fitted_smoothing import FittedSmoothing, fitted_smoothing
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.variational.noise_reading import read_noise, without_outliers
+
+HEAT = {"heat_polynomial": "heat_kernel", "heat_flow": "heat_kernel"}
+NAMED = 0.005
+AT_THE_END = (
+    "A parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: choose the width "
+    "by a second measurement."
+)
 
 
 def automatically_denoised(
-    part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float | None
+    part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float | None, tolerance: float
 ) -> DenoisedMap:
-    """Denoise a map by the method and the parameter that promise the least error, its outliers replaced before.
-
-    Stein's estimate holds for Gaussian noise: a few outliers make it choose what keeps them. Each is replaced by the median
-    of its neighbours, as `without_outliers` does, and listed.
+    """Denoise a map by the mixture of filters that promises the least error for the noise that was read from it.
 
     Parameters
     ----------
@@ -26,38 +31,41 @@ def automatically_denoised(
     image : (p,) float64
     noise : float, optional
         Standard deviation; read from the map if not given.
-
-    Raises
-    ------
-    ValueError
-        If the map has several channels.
+    tolerance : float
+        Of the relative gap of the minimisations.
     """
-    if image.ndim > 1:
-        raise ValueError(f"auto takes one channel, the map has {image.shape[1]}: denoise each by itself")
-    read = read_noise(operator, image)
-    clean = without_outliers(operator, image, read.outliers)
-    level = read_noise(operator, clean).level if noise is None else noise
-    found = automatic_smoothing(part.mesh, operator, clean, level)
-    facts = {
-        "noise": level,
-        "noise_estimated": noise is None,
-        "outliers": len(read.outliers),
-        "chosen": found.method,
-        "parameter": found.parameter,
-        **{f"risk_{name}": risk for name, risk in found.risk.items()},
-        "relative_gap": found.largest_gap,
-        "converged": found.converged,
-    }
+    found = fitted_smoothing(operator, image, noise, tolerance)
+    mixture, read = found.mixture, found.noise
+    facts = {"noise": read.level, "noise_estimated": noise is None, "noise_kind": ", ".join(read.kinds) or "white"}
+    facts |= {"outliers": len(read.outliers)} | _choice(found, part.length)
+    facts |= {"relative_gap": found.largest_gap, "error_bound": found.error_bound, "converged": found.converged}
     notes = part.notes + read.notes
     if len(read.outliers):
         notes += (
             f"{len(read.outliers)} values far from all their neighbours were replaced by the median of these before: "
             "`outliers` lists them.",
         )
-    if found.at_the_end:
+    if found.drawn_in:
         notes += (
-            "The parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: choose "
-            "the width by a second measurement.",
+            f"The noise has heavy tails: {found.drawn_in} values were drawn towards the smoothed map before the last pass. "
+            "No estimate of the error holds then.",
         )
-    places = part.vertices[read.outliers]
-    return DenoisedMap(part.extend(found.values), "auto", facts, notes, outliers=places)
+    ends = [one.at_the_end for one, share in zip(mixture.members, mixture.shares, strict=True) if share > NAMED]
+    notes += (AT_THE_END,) if any(ends) else ()
+    return DenoisedMap(part.extend(mixture.values), "auto", facts, notes, outliers=part.vertices[read.outliers])
+
+
+def _choice(found: FittedSmoothing, length: float) -> dict[str, Any]:
+    """What a mixture is made of and its risk, as a certificate holds them; widths of kernels in the unit of the surface."""
+    mixture = found.mixture
+    names = [HEAT.get(one.method, one.method) for one in mixture.members]
+    units = [length if name == "heat_kernel" else 1.0 for name in names]
+    parameters = [one.parameter * unit for one, unit in zip(mixture.members, units, strict=True)]
+    largest = int(mixture.shares.argmax())
+    facts: dict[str, Any] = {"chosen": names[largest], "parameter": parameters[largest]}
+    for name, parameter, share in zip(names, parameters, mixture.shares, strict=True):
+        if NAMED < share < 1.0 - NAMED:
+            facts |= {f"share_{name}": float(share), f"parameter_{name}": parameter}
+    if found.drawn_in:
+        return facts | {"drawn_in": found.drawn_in}
+    return facts | {"risk": mixture.risk, "risk_error": mixture.risk_error}

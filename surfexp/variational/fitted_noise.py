@@ -19,6 +19,8 @@ SOME_OUTLIERS = 0.001
 TIED = 0.05
 # ratio of the levels that a tenth of the vertices exceed and that a tenth stay below: 1.3 to 2.1 for one level
 VARYING = 2.3
+# growth up to which a spread is that of the noise: a map that is rough itself grows more
+ROUGH = 1.35
 # growth of a map beside noise of a tenth of its deviation is up to 2.1
 HIDDEN = 2.2
 # bounds of the weights by precision; outliers have the least
@@ -76,7 +78,7 @@ class FittedNoise(Drawable):
         """
         found = {
             "outliers": len(self.outliers) > SOME_OUTLIERS * np.isfinite(self.levels).sum(),
-            "varying": self.spread > VARYING,
+            "varying": varies(self.spread, self.growth, self.measurements > 1),
             "smooth": self.width > 0,
             "rounded": self.step > 0,
             "partly constant": self.step == 0 and self.tied >= TIED,
@@ -233,3 +235,8 @@ class FittedNoise(Drawable):
             )
         outliers = np.flatnonzero(np.isin(part.vertices, self.outliers))
         return replace(self, levels=levels, outliers=outliers)
+
+
+def varies(spread: float, growth: float, noise_alone: bool) -> bool:
+    """Whether a spread of local levels is that of the noise, and not of a map that is rough in places."""
+    return spread > VARYING and (noise_alone or growth <= ROUGH)

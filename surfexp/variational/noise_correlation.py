@@ -23,6 +23,8 @@ LEAST_GAIN, LEAST_SHARE = 0.1, 1.5
 # white noise grows by nothing from the first to the second ring, noise of a width of 1.5 edges by a quarter
 LEAST_GROWTH = 1.15
 WIDEST = 2.5
+# what a map that is rough itself leaves unexplained beside white noise, noise that is smooth does not
+LARGEST_REST = 0.085
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,10 @@ def correlation(statistics: NoiseStatistics, squares: Floats, noise_alone: bool 
     if not noise_alone and (gain < max(LEAST_GAIN, LEAST_SHARE * rests[best]) or WIDTHS[best] > WIDEST):
         return Correlation()
     if not noise_alone:
-        best = int(np.argmin([_explained(column, squares, WITH_BORDERS)[1] for column in growth]))
+        beside_borders = [_explained(column, squares, WITH_BORDERS)[1] for column in growth]
+        best = int(np.argmin(beside_borders))
+        if WIDTHS[best] > WIDEST or beside_borders[best] > LARGEST_REST:
+            return Correlation()
     variance = _explained(growth[best], squares, () if noise_alone else WITH_BORDERS)[0]
     return Correlation(WIDTHS[best], float(np.sqrt(squares[0] / variance)))
 

@@ -9,11 +9,11 @@ from scipy.sparse import csr_array
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.fitted_noise import TIED, VARYING, FittedNoise
+from surfexp.variational.fitted_noise import TIED, FittedNoise, varies
 from surfexp.variational.noise_correlation import correlation
 from surfexp.variational.noise_level import NORMAL_MEDIAN, noise_level
 from surfexp.variational.noise_statistics import NoiseStatistics
-from surfexp.variational.own_unit import own_unit
+from surfexp.variational.own_unit import odd_sign, own_unit
 
 ROUNDING = 1e-12
 PASSES = 4
@@ -59,7 +59,8 @@ def _read(operator: SurfaceOperator, values: Floats, second: Floats | None, seed
         return FittedNoise(0.0, blank, 1.0, 0.0, 1.0, 0.0, tied, np.empty(0, dtype=np.int64), 1 + (second is not None))
     step = _step(values, tied) if second is None else 0.0
     if step:
-        plain = plain + step * (np.random.default_rng(seed).random(len(values)) - 0.5)
+        # the negative map has the same noise
+        plain = plain + odd_sign(plain) * step * (np.random.default_rng(seed).random(len(values)) - 0.5)
         free = np.ones(len(free), dtype=bool)
     read = _fitted(statistics, plain, free, second is not None)
     if step:
@@ -110,18 +111,19 @@ def _fitted(statistics: NoiseStatistics, values: Floats, free: np.ndarray, noise
     seen = statistics.informative(free)
     seen = seen if seen.any() else np.ones(len(values), dtype=bool)
     spread = float(np.quantile(levels[seen], 0.9) / np.quantile(levels[seen], 0.1))
-    levels = np.where(seen, levels, whole) if spread > VARYING else np.full(len(values), whole)
     rings = statistics.ring_medians(values, seen)
+    growth = float(rings[2] / rings[1]) if rings[1] > 0 else np.inf
+    varying = varies(spread, growth, noise_alone)
+    levels = np.where(seen, levels, whole) if varying else np.full(len(values), whole)
     found = correlation(statistics, rings**2, noise_alone)
     if noise_alone:
         around = np.abs(values[seen] - np.median(values[seen]))
         levels = levels * float(np.median(around)) / NORMAL_MEDIAN / whole
     else:
         levels = levels / found.level_ratio
-    growth = float(rings[2] / rings[1]) if rings[1] > 0 else np.inf
     width = found.width * statistics.operator.edge_length
     kept = np.delete(levels, outliers) if len(outliers) < len(levels) else levels
-    level = float(np.sqrt((kept**2).mean())) if spread > VARYING else float(levels[0])
+    level = float(np.sqrt((kept**2).mean())) if varying else float(levels[0])
     return FittedNoise(level, levels, spread, width, growth, 0.0, 0.0, outliers)
 
 

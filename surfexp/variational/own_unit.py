@@ -52,6 +52,11 @@ def own_unit(values: Floats) -> OwnUnit:
     return OwnUnit(np.asarray(halves[0] + halves[1]), unit if unit > 0 else 1.0)
 
 
+def odd_sign(normalised: Floats) -> float:
+    """Return the sign of the first value that is not 0, or 1: of the negative map it is the other one."""
+    return -1.0 if normalised[np.argmax(normalised != 0)] < 0 else 1.0
+
+
 def normalised_fidelity(fidelity: SeparableQuadratic, own: OwnUnit) -> SeparableQuadratic:
     """Return the data term of the normalised map: its minimiser is the normalised one, its energy that over the unit."""
     return replace(fidelity, weight=own.unit * fidelity.weight, target=own.normalised(fidelity.target))

@@ -185,7 +185,9 @@ CALLS = {
     "denoise": Call(
         "vertices faces values mask width tolerance",
         lambda given, _: {
-            "map": sx.denoise(given.surface, given.values, weight=given.width, tolerance=given.tolerance).values
+            "map": sx.denoise(
+                given.surface, given.values, method="rof", weight=given.width, tolerance=given.tolerance
+            ).values
         },
         {},
         {"map": 1},

@@ -70,7 +70,7 @@ def test_the_face_keeps_mask_and_weights_of_denoise() -> None:
     holed = np.where(np.arange(642) < 20, np.nan, MAP)
     path = sx.denoise_path(sphere, holed, noise=0.3)
     one = path.at(0.9)
-    plain = sx.denoise(sphere, holed, noise=0.3, tolerance=1e-7)
+    plain = sx.denoise(sphere, holed, method="rof", noise=0.3, tolerance=1e-7)
     assert np.isnan(one.values).sum() == 20
     distance = np.sqrt(np.nanmean((one.values - plain.values) ** 2))
     assert distance < 2.0 * (one.certificate["error_bound"] + plain.certificate["error_bound"])
