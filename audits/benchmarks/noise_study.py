@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 import surfexp as sx
-from audits.benchmarks.noisy_maps import NOISES, SEEDS, NoisyMap, study_maps, with_noise
+from audits.benchmarks.noisy_maps import NOISES, SEEDS, NoisyMap, rough_maps, study_maps, with_noise
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
@@ -118,7 +118,7 @@ def ratio_table(found: Cells) -> str:
 def alarm_table(halves: Iterable[str], first_seed: int) -> str:
     """For each map, in how many draws of white noise of three levels the reading says anything, and what."""
     rows = ["| map | draws | not white | said |", "|---|---|---|---|"]
-    for clean in chosen_maps(halves):
+    for clean in (*chosen_maps(halves), *(rough_maps() if "first" in halves else ())):
         said: list[str] = []
         draws = [(level, seed) for level in ALARM_LEVELS for seed in range(ALARM_DRAWS[clean.half])]
         for level, seed in draws:

@@ -60,6 +60,15 @@ def study_maps() -> Iterator[NoisyMap]:
     yield standardised("second", "sphere, cameraman", ball, picture)
 
 
+def rough_maps() -> Iterator[NoisyMap]:
+    """Yield maps that are rough themselves, on which thresholds were fixed too: mean curvature and painted pictures."""
+    front, ball = half_cortex("right", 1.0), icosphere(4)
+    yield standardised("first", "cortex, front, mean curvature", front, mean_curvature(front.mesh))
+    for name in ("coins", "moon", "page"):
+        picture = paint(ball, pictures.picture(name), "spherical", name=name).values
+        yield standardised("first", f"sphere, {name}", ball, picture)
+
+
 def standardised(half: str, name: str, surface: Surface, values: Floats) -> NoisyMap:
     """Return a map with mean 0 and deviation 1 by area."""
     operator = fem(surface.mesh)

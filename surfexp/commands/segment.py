@@ -23,11 +23,13 @@ from surfexp.commands.surface_arguments import (
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
-@click.option("--smoothness", default=0.3, help="dimensionless; larger is smoother")
+@click.option("--smoothness", type=float, help="dimensionless, larger is smoother; read from the noise if not given")
 @click.option("--tolerance", default=1e-3, help="largest relative duality gap of the relaxed problem")
 @surface_options
 @result_option()
-def segment(path: str, map_name: str | None, smoothness: float, tolerance: float, target: Path, **given: Any) -> int:
+def segment(
+    path: str, map_name: str | None, smoothness: float | None, tolerance: float, target: Path, **given: Any
+) -> int:
     """Divide a surface into two regions, with a proved lower bound.
 
     They are where MAP is larger and where it is smaller. Without MAP it is the mean curvature, clipped at the median of
@@ -44,5 +46,6 @@ def segment(path: str, map_name: str | None, smoothness: float, tolerance: float
         parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, progress=progress)
     names = ("c1", "c2", "energy", "lower_bound", "gap", "labelling_gap", "converged", "perimeter")
     facts = {name: getattr(parts, name) for name in names} | {"seconds": time.perf_counter() - started}
-    options = {"smoothness": smoothness, "tolerance": tolerance, "map": map_name or "mean curvature"}
+    options: dict[str, Any] = {} if smoothness is None else {"smoothness": smoothness}
+    options |= {"tolerance": tolerance, "map": map_name or "mean curvature"}
     return finish(target, parts, surface, "convex Chan-Vese", options, files, facts, parts.notes)

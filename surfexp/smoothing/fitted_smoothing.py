@@ -9,8 +9,8 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.fitted_trials import fitted_trials
-from surfexp.smoothing.stein_mixture import Mixture, stein_mixture
-from surfexp.variational.fitted_noise import FittedNoise
+from surfexp.smoothing.stein_mixture import CAUTION, Mixture, stein_mixture
+from surfexp.variational.fitted_noise import ROUGH, FittedNoise
 from surfexp.variational.noise_level import NORMAL_MEDIAN
 from surfexp.variational.noise_reading import read_noise, without_outliers
 from surfexp.variational.own_unit import odd_sign, own_unit
@@ -60,7 +60,8 @@ def fitted_smoothing(
     """Smooth a map by the mixture of heat kernel, total variation and edge-weighted total variation of least risk.
 
     Outliers are replaced before. Where what is removed has heavy tails, values far from the smoothed map are drawn towards it,
-    to 1.5 deviations, and the map that results is smoothed in its place: Stein's estimate holds for normal noise.
+    to 1.5 deviations, and the map that results is smoothed in its place: Stein's estimate holds for normal noise. A map that is
+    rough itself leaves much of itself in the rest: its values are left where they are, and the choice is not cautious.
 
     Parameters
     ----------
@@ -93,9 +94,10 @@ def fitted_smoothing(
     noise = noise.with_level(target)
     plain = without_outliers(operator, unit, noise.outliers)
     trials = list(fitted_trials(operator, plain, noise, tolerance))
-    mixture, drawn = stein_mixture(operator, plain, noise, trials), 0
+    rough = noise.growth > ROUGH
+    mixture, drawn = stein_mixture(operator, plain, noise, trials, 1.0 if rough else CAUTION), 0
     heaviness = _tails(plain - mixture.values, noise)[1]
-    if heaviness > HEAVY and not noise.step:
+    if heaviness > HEAVY and not noise.step and not rough:
         mixture = stein_mixture(operator, plain, noise, trials, CAUTION_OF_PILOT)
         for _ in range(PASSES):
             rest = plain - mixture.values

@@ -16,7 +16,7 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
     """Read the noise from a map: its level at each vertex, outliers, correlation and rounding.
 
     What is affine on a pair of triangles is none of the noise; a median over the pairs gives its level. Noise of a full
-    width of 2.5 edges and more cannot be told from the map. A second measurement of the same map tells any noise, for the
+    width of 2 edges and more cannot be told from the map. A second measurement of the same map tells any noise, for the
     map is not in the difference.
 
     Parameters

@@ -12,12 +12,12 @@ from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import scaled
-from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
+from surfexp.smoothing.noisy_phases import NoisyPhases, noisy_phases
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
@@ -28,6 +28,9 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 
 # of the size of the curvature; what is left is little more than its sign, which two means can follow
 CLIPPED_AT = 50.0
+SMOOTHNESS, HALVINGS = 0.3, 8
+# rounding of a map that is the curvature times a number
+SAME = 1e-9
 NAMES = {0: "unknown", 1: "darker", 2: "brighter"}
 
 
@@ -93,7 +96,7 @@ def segment(
     surface: SurfaceLike,
     values: MapLike | None = None,
     *,
-    smoothness: float = 0.3,
+    smoothness: float | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
 ) -> Segmentation:
@@ -108,9 +111,11 @@ def segment(
         The part inside the mask is divided, or the part where the map is finite if there is no mask.
     values : str or (n,) float64, optional
         Name of a map of the surface, or the map. Without one it is the mean curvature, positive where the surface bulges
-        outward, clipped at the median of its modulus. On a cortex the brighter region is then the gyri.
-    smoothness : float
-        Weight of the boundary's length, dimensionless; larger is smoother.
+        outward. Any multiple of it is clipped at the median of its modulus. On a cortex the brighter region is then the gyri.
+    smoothness : float, optional
+        Weight of the boundary's length, dimensionless; larger is smoother. If it is not given, curvature takes 0.3. Any
+        other map is denoised, by `denoise`: the regions start from two means of the result, the map is clipped to its range,
+        and the length weighs twice the product of edge, contrast and noise. That weight is halved while a region is empty.
     tolerance : float
         Largest relative duality gap of the relaxed problem.
     progress : callable, optional
@@ -139,33 +144,69 @@ def segment(
     >>> bool((parts.labels == (sphere.mesh.vertices[:, 2] > 0)).mean() > 0.95)
     True
     """
-    smoothness = real_number(smoothness, "smoothness", above=0.0)
+    if smoothness is not None:
+        smoothness = real_number(smoothness, "smoothness", above=0.0)
     tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     owner = as_surface(surface)
     given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
+    mesh, length = scaled(owner.mesh)
+    curvature = np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
+    inside = np.asarray(part.restrict(given[0]), dtype=np.float64) if given else curvature
+    refuse_absurd_values(inside, part.vertices)
+    if np.ptp(inside) == 0:
+        raise ValueError(f"map is constant at {inside.flat[0]:g}, two regions need two values")
     said: tuple[str, ...] = ()
-    if given:
-        inside = np.asarray(part.restrict(given[0]), dtype=np.float64)
-        refuse_absurd_values(inside, part.vertices)
-    else:
-        inside, said = _clipped_curvature(owner, part)
+    own, phases = own_unit(inside), None
+    operator = fem(part.mesh)
+    if _is_multiple(inside, curvature, own.unit):
+        inside, said = _clipped_curvature(inside)
+        own, smoothness = own_unit(inside), smoothness or SMOOTHNESS
+    elif smoothness is None:
+        phases = _phases(operator, own.normalised(inside))
 
     def solve(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None = None) -> Solution:
         return primal_dual(fidelity, operator, start, tolerance=tolerance, progress=progress)
 
-    if np.ptp(inside) == 0:
-        raise ValueError(f"map is constant at {inside.flat[0]:g}, two regions need two values")
-    own = own_unit(inside)
-    image = Image(own.normalised(inside), "map")
-    solution = ConvexChanVese(smoothness=smoothness).run(image, fem(part.mesh), solve)
+    if phases is None:
+        model = ConvexChanVese(smoothness=smoothness or SMOOTHNESS)
+        solution = model.run(Image(own.normalised(inside), "map"), operator, solve)
+        return _labelled(solution, part, own, (*part.notes, *said))
+    bounds = own.restored(np.array([phases.least, phases.largest]))
+    said = (f"The map was clipped to the range of the denoised one, {bounds[0]:.3g} to {bounds[1]:.3g}.",)
+    mu, image = phases.mu, Image(phases.clipped, "map")
+    for _ in range(HALVINGS):
+        solution = ConvexChanVese(mu=mu, initial=phases.brighter).run(image, operator, solve)
+        if 0.0 < solution.metrics["brighter_share"] < 1.0:
+            break
+        mu *= 2.0
+    if mu > phases.mu:
+        said += (
+            f"The length weighs {phases.mu / mu:g} of what the noise asks for, for a region was empty before: such a boundary "
+            "may be one of noise.",
+        )
     return _labelled(solution, part, own, (*part.notes, *said))
 
 
-def _clipped_curvature(surface: Surface, part: SurfacePart) -> tuple[Floats, tuple[str, ...]]:
+def _is_multiple(values: Floats, curvature: Floats, unit: float) -> bool:
+    """Whether a map is the mean curvature times a number that is not 0."""
+    own, size = values / unit, float(np.linalg.norm(curvature))
+    if size == 0 or not np.ptp(curvature) > 0:
+        return False
+    factor = float(own @ curvature) / size**2
+    return bool(factor != 0 and np.linalg.norm(own - factor * curvature) <= SAME * np.linalg.norm(own))
+
+
+def _phases(operator: SurfaceOperator, values: Floats) -> NoisyPhases | None:
+    """The phases of a map in its own unit, or nothing where no noise can be read from it."""
+    try:
+        return noisy_phases(operator, values)
+    except ValueError:
+        return None
+
+
+def _clipped_curvature(curvature: Floats) -> tuple[Floats, tuple[str, ...]]:
     """The mean curvature of a part, clipped at the median of its size, and the note that says so."""
-    mesh, length = scaled(surface.mesh)
-    curvature = np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
     bound = float(np.percentile(np.abs(curvature), CLIPPED_AT))
     note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size."
     return np.clip(curvature, -bound, bound), (note,)

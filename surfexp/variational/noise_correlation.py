@@ -21,7 +21,9 @@ SMOOTH, WITH_BORDERS = (2.0, 4.0), (1.0, 2.0, 4.0)
 # by how much noise of some width must explain the rings better than white noise, and over what is left unexplained
 LEAST_GAIN, LEAST_SHARE = 0.1, 1.5
 # white noise grows by nothing from the first to the second ring, noise of a width of 1.5 edges by a quarter
-LEAST_GROWTH = 1.15
+LEAST_GROWTH = 1.2
+# beyond it the map itself is rough
+LARGEST_GROWTH = 1.6
 WIDEST = 2.5
 # what a map that is rough itself leaves unexplained beside white noise, noise that is smooth does not
 LARGEST_REST = 0.085
@@ -60,6 +62,8 @@ def correlation(statistics: NoiseStatistics, squares: Floats, noise_alone: bool 
         Whether there is no map below the noise: half the difference of two measurements.
     """
     if not squares.all() or squares[2] < LEAST_GROWTH**2 * squares[1]:
+        return Correlation()
+    if not noise_alone and squares[2] > LARGEST_GROWTH**2 * squares[1]:
         return Correlation()
     growth = growth_of_noise(statistics.operator)
     rests = np.array([_explained(column, squares, () if noise_alone else SMOOTH)[1] for column in growth])

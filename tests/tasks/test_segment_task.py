@@ -25,7 +25,7 @@ INSIDE = SPHERE.mesh.vertices[:, 0] > -0.5
 
 @pytest.fixture(scope="module")
 def parts():
-    return sx.segment(SPHERE, NOISY)
+    return sx.segment(SPHERE, NOISY, smoothness=0.3)
 
 
 def test_regions_are_those_that_were_planted_and_means_are_theirs(parts) -> None:
@@ -53,10 +53,11 @@ def test_bound_and_gap_belong_together(parts) -> None:
 
 
 def test_brightness_and_units_do_not_enter(parts) -> None:
-    scaled = sx.segment(Surface(SPHERE.mesh.__class__(7.0 * SPHERE.mesh.vertices, SPHERE.mesh.faces)), 40.0 * NOISY - 9)
+    large = Surface(SPHERE.mesh.__class__(7.0 * SPHERE.mesh.vertices, SPHERE.mesh.faces))
+    scaled = sx.segment(large, 40.0 * NOISY - 9, smoothness=0.3)
     assert (scaled.labels == parts.labels).mean() > 0.995
     assert scaled.gap == pytest.approx(parts.gap, abs=5e-3)
-    turned = sx.segment(SPHERE, -NOISY)
+    turned = sx.segment(SPHERE, -NOISY, smoothness=0.3)
     assert (turned.labels == 1 - parts.labels).mean() > 0.995
 
 
@@ -77,11 +78,38 @@ def test_without_a_map_the_clipped_mean_curvature_is_taken() -> None:
     torus = sx.shape("torus")
     alone = sx.segment(torus)
     curvature = sx.mean_curvature(torus)
-    bound = np.median(np.abs(curvature))
-    assert np.array_equal(alone.labels, sx.segment(torus, np.clip(curvature, -bound, bound)).labels)
-    assert any("mean curvature" in note for note in alone.notes)
+    assert np.array_equal(alone.labels, sx.segment(torus, curvature).labels)
+    assert np.array_equal(alone.labels, sx.segment(torus, 30.0 * curvature).labels)
+    assert np.array_equal(alone.labels, 1 - sx.segment(torus, -curvature).labels)
+    assert any("clipped at" in note and "median of its size" in note for note in alone.notes)
     radius = np.hypot(*torus.mesh.vertices[:, :2].T)
     assert radius[alone.labels == 1].mean() > radius[alone.labels == 0].mean()
+
+
+@pytest.mark.slow
+def test_planted_phases_are_found_whatever_their_share() -> None:
+    """Where the smoothness that has no eye for noise follows it."""
+    ball = sx.shape("icosphere", levels=4)
+    z, mass = ball.mesh.vertices[:, 2], fem(ball.mesh).mass
+    rng = np.random.default_rng(3)
+    normal, heavy = rng.standard_normal(len(z)), rng.laplace(size=len(z)) / np.sqrt(2.0)
+    scores, before = [], []
+    for share in (0.5, 0.1, 0.02):
+        planted = z > np.quantile(z, 1.0 - share)
+        for noise in (normal, heavy):
+            rough = planted + 0.5 * noise
+            for found, given in ((scores, {}), (before, {"smoothness": 0.3})):
+                bright = sx.segment(ball, rough, **given).labels == 1
+                found.append(2.0 * mass @ (bright & planted) / (mass @ bright + mass @ planted))
+    assert np.mean(scores) > 0.85 > 0.75 > np.mean(before)
+    assert min(np.array(scores) - before) > -0.01
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("factor", "offset"), [(1e6, 3.0), (1e-9, 0.0), (-1.0, 0.0), (-4.0, 7.0)])
+def test_scaling_and_negation_change_no_label_of_the_default(factor: float, offset: float) -> None:
+    one, other = sx.segment(SPHERE, NOISY).labels, sx.segment(SPHERE, factor * NOISY + offset).labels
+    assert np.array_equal(other, one if factor > 0 else 1 - one)
 
 
 @pytest.mark.parametrize("name", ["parts.label.gii", "parts.annot"])
@@ -122,7 +150,7 @@ def test_the_map_of_labels_is_unknown_outside_the_mask_alone() -> None:
 @pytest.mark.parametrize("scale", [1e-165, 1e-6, 1e6, 1e150])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
 def test_units_over_hundreds_of_decades_change_no_label_and_no_proof(parts, scale: float, offset: float) -> None:
-    other = sx.segment(SPHERE, scale * (NOISY + offset))
+    other = sx.segment(SPHERE, scale * (NOISY + offset), smoothness=0.3)
     assert np.array_equal(other.labels, parts.labels)
     assert (other.energy, other.gap) == pytest.approx((parts.energy, parts.gap), rel=1e-6)
     assert other.c1 == pytest.approx(scale * (parts.c1 + offset), rel=1e-9)
