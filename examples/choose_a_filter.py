@@ -8,6 +8,6 @@ sphere = sx.shape("icosphere", levels=4)
 height = sphere.mesh.vertices[:, 2]
 for name, clean in {"a step": 3.0 * (height > 0), "a slope": 2.0 * height}.items():
     noisy = clean + np.random.default_rng(0).normal(0, 1, len(clean))
-    found = sx.denoise(sphere, noisy, method="auto")
+    found = sx.denoise(sphere, noisy)
     error = np.sqrt(np.average((found.values - clean) ** 2, weights=sphere.mesh.vertex_areas))
     print(f"{name}: {found.certificate['chosen'].replace('_', ' ')}, error {error:.2f} of noise 1")

@@ -7,7 +7,7 @@ import surfexp as sx
 torus = sx.shape("torus", n_u=80, n_v=40)
 clean = 255.0 * (np.sin(3 * torus.coordinates[:, 0]) > 0)
 noisy = clean + np.random.default_rng(0).normal(0, 40, len(clean))
-found = sx.denoise(torus, noisy, noise=40.0)
+found = sx.denoise(torus, noisy, method="rof", noise=40.0)
 error = np.sqrt(np.average((found.values - clean) ** 2, weights=torus.mesh.vertex_areas))
 print(f"error {error:.1f} grey levels, relative gap {found.certificate['relative_gap']:.0e}")
 pictures = [sx.plot(torus, image, colormap="gray", width=500) for image in (noisy, found)]

@@ -55,7 +55,7 @@ def test_classify_with_scikit_learn(printed: list[str]) -> None:
 
 def test_denoise_a_cortex(printed: list[str]) -> None:
     known, vertices, noise, before, after, gap = numbers(printed)
-    assert known < vertices == 10242 and noise == pytest.approx(0.5, rel=0.1) and gap <= 1e-4
+    assert known < vertices == 10242 and noise == pytest.approx(0.5, rel=0.1) and gap <= 1e-3
     assert before == pytest.approx(0.5, abs=0.02) and after < 0.6 * before
     assert Path("thickness.shape.gii").stat().st_size > 0
 
