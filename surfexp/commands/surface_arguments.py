@@ -18,6 +18,7 @@ from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
     from surfexp.contract.arrays import Floats
+    from surfexp.mesh.label_map import LabelMap
     from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]
@@ -51,7 +52,7 @@ def picture_options(command: Command) -> Command:
         click.option("--colormap", help="a name of matplotlib's"),
         click.option("--limits", nargs=2, type=float, metavar="LOW HIGH", help="ends of the colour bar"),
         click.option("--contours", multiple=True, type=float, metavar="LEVEL", help="draw a line; repeatable"),
-        click.option("--borders", metavar="NAME", help="draw the borders of labels that the surface carries"),
+        click.option("--borders", metavar="FILE", help="draw the borders of labels: .annot, .label.gii, .dlabel.nii"),
         click.option("--label", help="of the colour bar; by default the name of the map"),
     ]
 
@@ -126,10 +127,37 @@ def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Flo
 
 
 def shown_map(surface: Surface, given: str | None, files: Inputs, side: str | None) -> Any:
-    """Return what a picture shows: the labels of a name, a map as `map_of`, or nothing."""
+    """Return what a picture shows: labels as `shown_labels`, a map as `map_of`, or nothing."""
     if not given:
         return None
-    return surface.labels[given] if given in surface.labels else map_of(surface, given, files, side)
+    labels = shown_labels(surface, given, files, side)
+    return map_of(surface, given, files, side) if labels is None else labels
+
+
+def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) -> LabelMap | None:
+    """Return labels by the name that the surface carries them under, or those of a file of labels, which joins the inputs.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, or is of the other hemisphere.
+    """
+    from surfexp.io.hemisphere import check_same_side
+    from surfexp.io.map_files import LABEL_FILES, read_named_labels
+
+    if given in surface.labels:
+        return surface.labels[given]
+    if given in surface.scalars or not given.lower().endswith(LABEL_FILES):
+        return None
+    files.add(given)
+    if side is None:
+        check_same_side("labels", given, surface.hemisphere)
+    return read_named_labels(given, surface.hemisphere)
+
+
+def shown_borders(surface: Surface, given: str | None, files: Inputs, side: str | None) -> LabelMap | str | None:
+    """Return labels as `shown_labels`; what is neither a name nor a file of labels is left to the picture, which says so."""
+    return given and (shown_labels(surface, given, files, side) or given)
 
 
 def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) -> dict[str, Floats]:

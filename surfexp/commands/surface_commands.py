@@ -21,6 +21,7 @@ from surfexp.commands.surface_arguments import (
     ready_proof,
     result_option,
     save_proof,
+    shown_borders,
     shown_map,
     surface_options,
 )
@@ -259,6 +260,7 @@ def plot(
 
     surface, files = opened(path, **given)
     values = shown_map(surface, map_name, files, given["hemisphere"])
+    looks["borders"] = shown_borders(surface, looks["borders"], files, given["hemisphere"])
     ready(target, files, check_picture_target)
     task(surface, values, width=width, **looks).save(target)
     echo(str(target))

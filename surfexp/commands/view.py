@@ -14,6 +14,7 @@ from surfexp.commands.surface_arguments import (
     picture_options,
     ready,
     result_option,
+    shown_borders,
     shown_map,
     surface_options,
 )
@@ -46,6 +47,7 @@ def view(
 
     surface, files = opened(path, **given)
     values = shown_map(surface, map_name, files, given["hemisphere"])
+    looks["borders"] = shown_borders(surface, looks["borders"], files, given["hemisphere"])
     if target is not None:
         ready(target, files, check_view_target)
     seen = task(surface, values, title=title, **looks)

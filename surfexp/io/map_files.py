@@ -34,6 +34,8 @@ KNOWN = (
     ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .nii, .npy, .npz, .csv, .txt, .asc, or a FreeSurfer curvature file "
     "(lh.sulc)"
 )
+# files of labels with names
+LABEL_FILES = (".annot", ".label.gii", ".label.gii.gz", ".dlabel.nii")
 
 
 def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
@@ -195,7 +197,7 @@ def mask_notes(path: Path | str, hemisphere: str = "") -> tuple[str, ...]:
 
 
 def _has_names(file: Path) -> bool:
-    return file.suffix == ".annot" or file.name.endswith((".label.gii", ".label.gii.gz", ".dlabel.nii"))
+    return file.name.endswith(LABEL_FILES)
 
 
 def _listed(file: Path, count: int) -> NDArray[np.bool_]:

@@ -70,7 +70,7 @@ def read_mesh_file(path: Path | str) -> MeshFile:
         points, corners = checked_geometry(vertices, faces)
         if len(points) and not len(corners):
             raise ValueError(
-                f"it holds {len(points)} points without faces: reconstruct a surface from them first (point_cloud)"
+                f"it holds {len(points)} points without faces: make a surface of them first (surfexp info surface/point_cloud)"
             )
         check_map_shapes(found.scalars)
         for name, values in found.scalars.items():
@@ -98,7 +98,9 @@ def _read(path: Path) -> Decoded:
     if suffix in MESH_SUFFIXES:
         return Decoded(*read_with_open3d(path))
     if suffix in POINT_SUFFIXES:
-        raise ValueError(f"{suffix} holds points without faces; reconstruct a surface from them first (point_cloud)")
+        raise ValueError(
+            f"{suffix} holds points without faces; make a surface of them first (surfexp info surface/point_cloud)"
+        )
     if freesurfer.is_geometry(path):
         vertices, faces = freesurfer.read_geometry(path)
         return Decoded(vertices, faces, frame=SpatialFrame(volume=freesurfer.read_volume_geometry(path)))

@@ -134,7 +134,9 @@ def surface_spectrum(
     if pieces > 1:
         notes.append(f"The surface has {pieces} components, each with a zero mode of its own.")
     if surface.mesh.minimum_angle < LARGEST_BAD_ANGLE and operator.name == "fem":
-        notes.append(f"The smallest angle is {surface.mesh.minimum_angle:.2g} degrees: consider intrinsic_delaunay.")
+        notes.append(
+            f"The smallest angle is {surface.mesh.minimum_angle:.2g} degrees; experiments can take operator=intrinsic_delaunay."
+        )
     return replace(
         system,
         vectors=np.asfortranarray(elements.extend(system.vectors)),

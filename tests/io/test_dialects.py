@@ -218,7 +218,9 @@ def test_counts_beyond_the_file_are_refused_before_room_is_made(tmp_path: Path) 
 )  # fmt: skip
 def test_points_alone_say_how_to_go_on(tmp_path: Path, name: str, text: str) -> None:
     (tmp_path / name).write_text(text)
-    with pytest.raises(ValueError, match=r"3 points without faces: reconstruct .* \(point_cloud\)"):
+    with pytest.raises(
+        ValueError, match=r"3 points without faces: make a surface .* \(surfexp info surface/point_cloud\)"
+    ):
         read_mesh(tmp_path / name)
 
 

@@ -90,6 +90,19 @@ def test_a_time_series_of_both_hemispheres_is_split(tmp_path: Path) -> None:
     assert np.array_equal(right[inside].T, data[:, len(sides[0]) :].astype(np.float64))
 
 
+def test_values_of_parcels_are_refused_with_the_way_out(tmp_path: Path) -> None:
+    parcels = cifti2.ParcelsAxis(
+        ["front", "back"],
+        [np.zeros((0, 3), int)] * 2,
+        [{"CIFTI_STRUCTURE_CORTEX_LEFT": np.arange(3)}, {"CIFTI_STRUCTURE_CORTEX_LEFT": np.arange(3, 9)}],
+        nvertices={"CIFTI_STRUCTURE_CORTEX_LEFT": N},
+    )
+    header = cifti2.Cifti2Header.from_axes((cifti2.ScalarAxis(["thickness"]), parcels))
+    cifti2.Cifti2Image(np.ones((1, 2)), header).to_filename(tmp_path / "a.pscalar.nii")
+    with pytest.raises(ValueError, match=r"a.pscalar.nii .* a ParcelsAxis, vertices .*: write a dense map"):
+        read_maps(tmp_path / "a.pscalar.nii", "left")
+
+
 def test_masks_of_every_kind_agree(tmp_path: Path) -> None:
     inside = MESH.vertices[:, 2] > -0.3
     rows = "".join(f"{v} 0 0 0 0\n" for v in np.flatnonzero(inside))

@@ -96,7 +96,7 @@ def test_what_a_spreadsheet_writes_is_read_back(
         ("path,surface.path\na.off,b.off\n", "has the column 'surface.path', write path"),
         ("path,level\na.off,high\n", "the level of a.off is 'high': write a finite number"),
         ("path,level\na.off,nan\n", "write a finite number"),
-        ("path\na.off\na.off\n", "two files are called 'a'"),
+        ("path\na.off\na.off\n", "two files are called 'a', a.off and a.off"),
         ('path\n"a.off\n', "line 2: unexpected end of data"),
         (b"path\n\xff\xfe\n", "cannot be read: 'utf-8' codec"),
     ],

@@ -184,7 +184,7 @@ def test_what_hydra_cannot_do_is_one_line(
 
 
 def test_the_way_that_a_quoted_value_is_shown_can_be_typed(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for value in ("a(1).ply", "it's.ply", 'say "x"(.ply', "back\\slash(.ply"):
+    for value in ("a(1).ply", "a=b,c.off", "ue [x] {1}.off", "it's.ply", 'say "x"(.ply', "back\\slash(.ply"):
         error = told(capsys, "plan", "experiment=own", "surface=file", f"surface.path={value}", code=2)
         (word,) = shlex.split(error.partition("for the shell: ")[2])
         assert "does not exist" in (again := told(capsys, "plan", "experiment=own", "surface=file", word, code=2))

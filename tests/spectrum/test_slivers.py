@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import block_diag, csr_array, diags_array, eye_array
 
 import surfexp as sx
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.spectrum.components import solve_components
+from surfexp.spectrum.eigensolver_error import EigensolverError, SliverError
 
 # so near to an edge that the residual of the constant mode is over the tolerance
 THIN = 1e-7
@@ -61,6 +64,19 @@ def test_a_spectrum_goes_on_with_other_triangles_and_counts_alike(scan):
     np.testing.assert_allclose(between.values, first.values[1:], rtol=1e-7)
     for found in (between, first):
         assert found.complete and sum("Slivers" in note for note in found.notes) == 1
+
+
+@pytest.mark.parametrize("kind", [EigensolverError, SliverError])
+def test_what_stops_one_component_is_told_apart(kind):
+    path = diags_array([np.r_[1.0, np.full(18, 2.0), 1.0], -np.ones(19), -np.ones(19)], offsets=[0, 1, -1])
+    both, labels = block_diag([path, path], format="csr"), np.repeat([0, 1], 20)
+
+    def stop(stiffness, mass, count):
+        raise kind("pair 0 has residual 1")
+
+    with pytest.raises(kind, match=r"^component 0 of 2 .20 rows.: pair 0 has residual 1") as caught:
+        solve_components(csr_array(both), csr_array(eye_array(40)), labels, 4, stop, dense_size=0)
+    assert type(caught.value) is kind
 
 
 def test_a_component_with_slivers_beside_a_sound_one(scan):

@@ -175,8 +175,9 @@ def _unlike(items: Iterable[Item]) -> list[Item]:
     found: dict[str, Item] = {}
     for item in items:
         if item["label"] in found:
+            names = " and ".join(Path(one["surface"]["path"]).name for one in (found[item["label"]], item))
             raise UserError(
-                f"two files are called {item['label']!r}; tell them apart by (?P<owner>...) or (?P<detail>...), "
+                f"two files are called {item['label']!r}, {names}; tell them apart by (?P<owner>...) or (?P<detail>...), "
                 "or by the column label of a table"
             )
         found[item["label"]] = item
