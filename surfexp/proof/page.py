@@ -26,8 +26,8 @@ SCRIPTS = (
 )
 LARGEST = 5_000_000
 NOT_PROVED = (
-    "That the arrays are those of your data. Compare the SHA-256 of vertices, faces and map below with the ones of your own "
-    "arrays: float64 and int32, little-endian, row after row.",
+    "That the arrays are those of your data. Compare the SHA-256 of vertices, faces and map, which stands under each claim, "
+    "with the one of your own arrays: float64 and int32, little-endian, row after row.",
     "That the mesh, the map and the parameters suit the question. The page computes what follows from them.",
     "That the scripts of the page are right. They are plain text in the source of the page. Who changes them can make any page "
     "green: compare them with those of the package, or trust the place where you got the page.",
@@ -82,10 +82,10 @@ def claims_page(claims: Sequence[Claim], title: str) -> str:
 <p id="verdict" class="verdict" role="status">Nothing is computed yet.</p>
 <noscript><p class="verdict fails">Nothing is proved: the page computes where scripts may run.</p></noscript>
 <p>This browser assembles the operator from vertices and faces and computes each number again. A number of the
-page that does not come out fails.</p>
+page that does not come out fails. <a href="#limits">It does not prove that the arrays are those of your data.</a></p>
 {sections}
 <section>
-<h2>What this page does not prove</h2>
+<h2 id="limits">What this page does not prove</h2>
 <ul>
 {limits}
 </ul>
@@ -106,4 +106,5 @@ def _section(claim: Claim) -> str:
 <p class="verdict">Not computed yet.</p>
 <table><thead><tr><th></th><th>what</th><th>computed here</th><th>stated</th><th>may differ by</th></tr></thead>
 <tbody></tbody></table>
+<details><summary>Bytes of the arrays, to compare with your own</summary><table><tbody></tbody></table></details>
 </section>"""

@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import surfexp as sx
-from surfexp.proof.page import LARGEST, claims_page
+from surfexp.commands.all_commands import surfexp
+from surfexp.proof.page import LARGEST, asset, claims_page
 
 NODE = shutil.which("node")
 needs_node = pytest.mark.skipif(NODE is None, reason="needs node")
@@ -151,6 +153,40 @@ def test_boundaries_holes_and_masks_are_those_of_python(tmp_path: Path) -> None:
 
 
 @needs_node
+def test_a_choice_of_signs_that_is_decided_twice_is_seen(pages: dict[str, Any], tmp_path: Path) -> None:
+    closed = pages["distance"].claims[2].arrays["closed"]
+    places = np.flatnonzero(closed.ravel() != 0)[:12]
+    changes = [{"claim": 2, "array": "closed", "index": int(k), "value": -int(closed.ravel()[k])} for k in places]
+    for rows in computed(pages["distance"], tmp_path, changes)["changed"]:
+        assert any("decided twice" in str(row["computed"]) for row in failing(rows, BYTES))
+
+
+@needs_node
+def test_the_inertia_is_that_of_dense_algebra_and_its_backward_error_is_bounded() -> None:
+    rng, size, cases = np.random.default_rng(3), 40, []
+    for _ in range(20):
+        matrix = rng.standard_normal((size, size)) * (rng.random((size, size)) < 0.1)
+        matrix = matrix + matrix.T + np.diag(3.0 * rng.standard_normal(size))
+        cases.append({"matrix": matrix.tolist(), "order": rng.permutation(size).tolist()})
+    script = "".join(asset(name) for name in ("arrays.js", "triangles.js", "ldlt.js")).replace('"use strict";', "")
+    script += """
+    const cases = JSON.parse(require("fs").readFileSync(0, "utf8"));
+    console.log(JSON.stringify(cases.map(({ matrix, order }) => {
+      const rows = matrix.map((row) => new Map([...row.entries()].filter(([, entry]) => entry !== 0)));
+      try { return inertia(compressed(rows), Int32Array.from(order)); } catch (error) { return { stopped: error.message }; }
+    })));"""
+    cases.append({"matrix": [[0.0, 1.0], [1.0, 0.0]], "order": [0, 1]})
+    cases.append({"matrix": [[1.0, 0.0], [0.0, 1.0]], "order": [0, 0]})
+    run = subprocess.run([str(NODE), "-e", script], input=json.dumps(cases), capture_output=True, text=True, check=True)
+    *found, singular, unordered = json.loads(run.stdout)
+    for case, one in zip(cases, found, strict=False):
+        values = np.linalg.eigvalsh(np.array(case["matrix"]))
+        assert np.abs(values).min() > one["error"]
+        assert one["negative"] == (values < 0).sum()
+    assert "choose another shift" in singular["stopped"] and "no permutation" in unordered["stopped"]
+
+
+@needs_node
 def test_a_missing_pair_is_counted(tmp_path: Path) -> None:
     body = bodies()[0]
     page = sx.proof_page(sx.eigenpairs(body, 8), body)
@@ -193,3 +229,24 @@ def test_a_page_above_five_megabytes_is_refused(pages: dict[str, Any]) -> None:
     copies = LARGEST // (len(claims_page(claims, "")) - len(claims_page((), ""))) + 2
     with pytest.raises(ValueError, match="at most 5"):
         claims_page(claims * copies, "")
+
+
+def test_commands_write_the_page_beside_the_result(tmp_path: Path) -> None:
+    sphere, values = noisy()
+    surface, noise = str(tmp_path / "a.ply"), str(tmp_path / "map.csv")
+    sx.write(surface, sphere)
+    np.savetxt(noise, values)
+    page, result = tmp_path / "proof.html", str(tmp_path / "result.npz")
+    for given in (
+        ["denoise", surface, noise, "--to", result],
+        ["modes", surface, "-k", "9", "--to", result],
+        ["distance", surface, surface, "-n", "3"],
+    ):
+        page.unlink(missing_ok=True)
+        done = CliRunner().invoke(surfexp, [*given, "--proof", str(page)])
+        assert done.exit_code == 0, done.output
+        assert "computes the certificate again" in done.output and "Nothing is computed yet." in page.read_text()
+    refused = CliRunner().invoke(
+        surfexp, ["denoise", surface, noise, "--method", "auto", "--to", result, "--proof", str(page)]
+    )
+    assert refused.exit_code != 0 and "choose method rof or tgv" in str(refused.exception or refused.output)

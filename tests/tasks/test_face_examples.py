@@ -151,3 +151,8 @@ def test_spectrum_of_a_solid(printed: list[str]) -> None:
     assert 3.9 < numbers(printed[7:8])[0] < 4.1
     small, large = printed[8].split(",")
     assert numbers([small]) == numbers([large])
+
+
+def test_a_page_that_proves_itself(printed: list[str]) -> None:
+    assert [line.partition(":")[0] for line in printed] == ["modes.html", "step.html"]
+    assert all(0.2 < float(line.split()[1]) < 1.0 for line in printed)

@@ -12,9 +12,9 @@ function element(name, text, looks = "") {
   return made;
 }
 
-function shownRow({ what, computed, stated, slack, bound, holds: held }) {
+function shownRow({ what, computed, stated, slack, bound, bytes, holds: held }) {
   const row = element("tr", "", held ? "holds" : "fails");
-  const rule = bound !== undefined ? `at most ${digits(bound)}` : stated !== undefined ? digits(stated) : "";
+  const rule = bytes && held ? "the same" : bound !== undefined ? `at most ${digits(bound)}` : stated !== undefined ? digits(stated) : "";
   const cells = [["", held ? "holds" : "fails"], ["what", what], ["computed here", digits(computed)], ["stated", rule], ["may differ by", short(slack)]];
   cells.forEach(([label, text], k) => {
     const cell = element(k === 1 ? "th" : "td", text);
@@ -44,7 +44,7 @@ async function prove() {
   }
   const sections = [...document.querySelectorAll("section.claim")];
   if (claims.length !== sections.length || !claims.length) all = false;
-  document.getElementById("bytes").append(shownRow({ what: "SHA-256 of all that the page states", computed: digest, stated: source.dataset.sha256, holds: all }));
+  document.getElementById("bytes").append(shownRow({ what: "SHA-256 of all that the page states", bytes: true, computed: digest, stated: source.dataset.sha256, holds: all }));
   for (const [place, section] of sections.entries()) {
     const told = section.querySelector(".verdict");
     say(told, null, "computing");
@@ -53,7 +53,10 @@ async function prove() {
     const rows = place < claims.length ? rowsOf(claims, place) : [{ what: "claim is missing", holds: false }];
     const seconds = ((performance.now() - started) / 1000).toFixed(2);
     const wrong = rows.filter((row) => row.holds !== true).length;
-    section.querySelector("tbody").append(...rows.map(shownRow));
+    const [numbers, fingerprints] = section.querySelectorAll("tbody");
+    numbers.append(...rows.filter((row) => !row.bytes).map(shownRow));
+    fingerprints.append(...rows.filter((row) => row.bytes).map(shownRow));
+    section.querySelector("details").open = rows.some((row) => row.bytes && !row.holds);
     say(told, holds(rows), holds(rows) ? `${rows.length} checks hold, computed here in ${seconds} s` : `${wrong} of ${rows.length} checks fail`);
     all = all && holds(rows);
     checks += rows.length;
