@@ -9,7 +9,7 @@ import surfexp as sx
 body = sx.shape("ellipsoid", levels=4)
 modes = sx.proof_page(sx.eigenpairs(body, 20), body, title="Twenty modes of an ellipsoid")
 noisy = np.sign(body.mesh.vertices[:, 0]) + np.random.default_rng(0).normal(0, 0.2, len(body.mesh.vertices))
-clean = sx.proof_page(sx.denoise(body, noisy), title="A step without its noise")
+clean = sx.proof_page(sx.denoise(body, noisy, method="rof"), title="A step without its noise")
 for name, page in (("modes.html", modes), ("step.html", clean)):
     page.save(name)
     print(f"{name}: {Path(name).stat().st_size / 1e6:.1f} MB, open it in any browser")

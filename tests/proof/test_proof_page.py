@@ -55,9 +55,11 @@ def pages() -> dict[str, Any]:
     sphere, values = noisy()
     first, second = bodies()
     return {
-        "rof": sx.proof_page(sx.denoise(sphere, values)),
-        "channels": sx.proof_page(sx.denoise(sphere, np.stack([values, values**2], axis=1), tolerance=1e-3)),
-        "newton": sx.proof_page(sx.denoise(sphere, values, tolerance=1e-10)),
+        "rof": sx.proof_page(sx.denoise(sphere, values, method="rof")),
+        "channels": sx.proof_page(
+            sx.denoise(sphere, np.stack([values, values**2], axis=1), method="rof", tolerance=1e-3)
+        ),
+        "newton": sx.proof_page(sx.denoise(sphere, values, method="rof", tolerance=1e-10)),
         "tgv": sx.proof_page(sx.denoise(sphere, values, method="tgv")),
         "modes": sx.proof_page(sx.eigenpairs(first, 12), first),
         "lumped": sx.proof_page(sx.eigenpairs(sphere, 16, mass="lumped"), sphere, mass="lumped"),
@@ -145,7 +147,7 @@ def test_the_last_bit_of_any_array_is_seen_by_its_bytes(pages: dict[str, Any], t
 def test_boundaries_holes_and_masks_are_those_of_python(tmp_path: Path) -> None:
     sphere, values = noisy()
     cap = sx.Surface(sphere.mesh, mask=sphere.mesh.vertices[:, 2] > -0.3)
-    assert failing(computed(sx.proof_page(sx.denoise(cap, values)), tmp_path)["unchanged"]) == []
+    assert failing(computed(sx.proof_page(sx.denoise(cap, values, method="rof")), tmp_path)["unchanged"]) == []
     for boundary in ("neumann", "dirichlet"):
         system = sx.eigenpairs(cap, 10, boundary=boundary)
         rows = computed(sx.proof_page(system, cap, boundary=boundary), tmp_path)["unchanged"]
@@ -221,7 +223,7 @@ def test_results_without_a_certificate_are_refused(tmp_path: Path) -> None:
         with pytest.raises(ValueError, match=said):
             sx.proof_page(result, *surfaces)
     with pytest.raises(ValueError, match=r"choose \.html"):
-        sx.proof_page(sx.denoise(sphere, values)).save(tmp_path / "page.txt")
+        sx.proof_page(sx.denoise(sphere, values, method="rof")).save(tmp_path / "page.txt")
 
 
 def test_a_page_above_five_megabytes_is_refused(pages: dict[str, Any]) -> None:
@@ -238,7 +240,7 @@ def test_commands_write_the_page_beside_the_result(tmp_path: Path) -> None:
     np.savetxt(noise, values)
     page, result = tmp_path / "proof.html", str(tmp_path / "result.npz")
     for given in (
-        ["denoise", surface, noise, "--to", result],
+        ["denoise", surface, noise, "--method", "rof", "--to", result],
         ["modes", surface, "-k", "9", "--to", result],
         ["distance", surface, surface, "-n", "3"],
     ):

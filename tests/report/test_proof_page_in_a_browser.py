@@ -30,7 +30,7 @@ def pages() -> dict[str, str]:
     values = sphere.mesh.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(162)
     body = sx.shape("ellipsoid", levels=2)
     made = {
-        "rof": sx.proof_page(sx.denoise(sphere, values)),
+        "rof": sx.proof_page(sx.denoise(sphere, values, method="rof")),
         "tgv": sx.proof_page(sx.denoise(sphere, values, method="tgv")),
         "modes": sx.proof_page(sx.eigenpairs(body, 12), body),
         "distance": sx.proof_page(sx.distance(body, body, 4), body, body),
@@ -53,6 +53,12 @@ def test_a_page_is_green_as_it_is_written(name: str, pages: dict[str, str], tab:
     assert tab.run("document.querySelectorAll('tr.fails').length") == 0
     assert tab.run("document.querySelectorAll('tr.holds').length") > 10
     assert "Each number was computed by this browser" in tab.run("document.getElementById('verdict').textContent")
+
+
+def test_numbers_are_shown_with_their_exponents(tab: Browser, tmp_path: Path, pages: dict[str, str]) -> None:
+    verdict(tab, pages["rof"], tmp_path)
+    for number in (1.2e-10, -3.25e-20, 1.5e100, 0.1, 1e-7, 100.0, 2.0 / 3.0):
+        assert float(tab.run(f"digits({number!r})")) == pytest.approx(number, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,7 @@
 "use strict";
 // The page: each claim is computed in its turn and shown; the verdict is green only after all of them hold.
 
-const digits = (number) =>
-  typeof number !== "number" ? String(number ?? "") : Number.isInteger(number) ? String(number) : number.toPrecision(13).replace(/\.?0+(e|$)/, "$1");
+const digits = (number) => (typeof number !== "number" ? String(number ?? "") : String(Number(number.toPrecision(13))));
 const short = (number) => (Number.isFinite(number) ? (number === 0 ? "0" : number.toExponential(1)) : "");
 
 function element(name, text, looks = "") {
