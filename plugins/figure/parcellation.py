@@ -8,7 +8,7 @@ from pydantic import Field
 
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.figure import Figure, compare, whole
+from surfexp.figures.figure import Figure, compare, sentence, whole
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.render import SurfaceView
 from surfexp.lab.registry.registry import register
@@ -44,9 +44,11 @@ def parcellation_figure(
         if gap is not None
         else ""
     )
+    # the colours end where the image was clipped
+    clipped = "".join(f" {sentence(note)}." for note in image.notes)
     caption = (
         f"{surface.name}: {image.name}, and in red the boundary of the regions found by {solver.model.replace('_', ' ')}"
-        f"{f', {whole(length)} {surface.unit} long' if length is not None else ''}.{proved}{compare(reference)}"
+        f"{f', {whole(length)} {surface.unit} long' if length is not None else ''}.{clipped}{proved}{compare(reference)}"
     )
     title = " · ".join(name.replace("_", " ") for name in (operator.name, solver.solver, surface.name))
     return replace(surface_panel(panels, width=width, caption=caption), title=title)
