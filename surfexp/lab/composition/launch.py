@@ -12,8 +12,9 @@ from typing import Any
 
 from hydra.core.config_search_path import ConfigSearchPath, SearchPathQuery
 from hydra.core.config_store import ConfigStore
-from hydra.core.override_parser.types import Override
+from hydra.core.override_parser.types import Override, ValueType
 from hydra.core.utils import JobReturn, JobStatus
+from hydra.errors import HydraException
 from hydra.plugins.launcher import Launcher
 from hydra.plugins.search_path_plugin import SearchPathPlugin
 from omegaconf import DictConfig, OmegaConf
@@ -41,6 +42,8 @@ class PlanLauncher(Launcher):
     """Hydra launcher that takes the whole batch of a sweep and makes one plan of it."""
 
     action: Callable[[Plan], Any] = staticmethod(lambda plan: None)
+    # removals of what experiments say, which Hydra would look for before it composes a job
+    removed: Sequence[str] = ()
 
     def setup(self, *, hydra_context: Any, task_function: Any, config: DictConfig) -> None:
         """Keep Hydra's loader and the composed configuration."""
@@ -51,7 +54,7 @@ class PlanLauncher(Launcher):
         file_digest.cache_clear()  # a file may have been replaced since the last batch
         jobs = []
         for overrides in job_overrides:
-            request = request_of(overrides, self.loader.repository)
+            request = request_of([*overrides, *self.removed], self.loader.repository)
             composed = _plain(self.loader.load_sweep_config(self.config, request.rest))
             jobs.append(_leaves(composed, overrides, request))
         plan = make_plan(leaf for leaves in jobs for leaf in leaves)
@@ -114,6 +117,9 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
     import hydra
 
     PlanLauncher.action = staticmethod(action)
+    read = zip(overrides, parsed(overrides), strict=True)
+    PlanLauncher.removed = [text for text, item in read if item.is_delete() and not _of_hydra(item)]
+    overrides = [text for text in overrides if text not in PlanLauncher.removed]
     os.environ["HYDRA_FULL_ERROR"] = "1"
     own_mode = {"--run", "--multirun", *ANSWERED_BY_HYDRA} & words.flags.keys()
     sys.argv = ["surfexp run", *([] if own_mode else ["--multirun"]), *words.typed, *overrides]
@@ -122,7 +128,7 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
         """Plan and do one job of a launcher that takes each by itself."""
         from hydra.core.hydra_config import HydraConfig
 
-        overrides = [str(text) for text in HydraConfig.get().overrides.task]
+        overrides = [*(str(text) for text in HydraConfig.get().overrides.task), *PlanLauncher.removed]
         composed, request = _composed(overrides, words)
         plan = make_plan(_leaves(_plain(composed), overrides, request))
         action(plan)
@@ -130,6 +136,11 @@ def launch(arguments: Sequence[str], action: Callable[[Plan], Any]) -> None:
 
     try:
         hydra.main(version_base="1.3", config_path=_folder(words), config_name="config")(job)()
+    except HydraException as error:
+        if intervals := [item.input_line for item in parsed(overrides) if item.value_type == ValueType.INTERVAL_SWEEP]:
+            way_out = "only a search takes an interval: add hydra/sweeper=optuna objective=METRIC, or give values"
+            raise UserError(f"{intervals[0]}: {way_out}") from error
+        raise
     except SystemExit as ended:  # after --hydra-help and --version
         if ended.code:
             raise
