@@ -12,6 +12,7 @@ from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import scaled
+from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.mean_curvature import mean_curvature
@@ -150,16 +151,14 @@ def segment(
     owner = as_surface(surface)
     given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
-    mesh, length = scaled(owner.mesh)
-    curvature = np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
-    inside = np.asarray(part.restrict(given[0]), dtype=np.float64) if given else curvature
+    inside = np.asarray(part.restrict(given[0]), dtype=np.float64) if given else _curvature(owner, part)
     refuse_absurd_values(inside, part.vertices)
     if np.ptp(inside) == 0:
         raise ValueError(f"map is constant at {inside.flat[0]:g}, two regions need two values")
+    operator = fem(part.mesh)
     said: tuple[str, ...] = ()
     own, phases = own_unit(inside), None
-    operator = fem(part.mesh)
-    if _is_multiple(inside, curvature, own.unit):
+    if not given or _is_multiple_of_curvature(inside, owner, part, own.unit):
         inside, said = _clipped_curvature(inside)
         own, smoothness = own_unit(inside), smoothness or SMOOTHNESS
     elif smoothness is None:
@@ -188,8 +187,18 @@ def segment(
     return _labelled(solution, part, own, (*part.notes, *said))
 
 
-def _is_multiple(values: Floats, curvature: Floats, unit: float) -> bool:
+def _curvature(surface: Surface, part: SurfacePart) -> Floats:
+    """The mean curvature on a part, also of a surface in a very small or large unit."""
+    mesh, length = scaled(surface.mesh)
+    return np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
+
+
+def _is_multiple_of_curvature(values: Floats, surface: Surface, part: SurfacePart, unit: float) -> bool:
     """Whether a map is the mean curvature times a number that is not 0."""
+    try:
+        curvature = _curvature(surface, part)
+    except ValueError:
+        return False
     own, size = values / unit, float(np.linalg.norm(curvature))
     if size == 0 or not np.ptp(curvature) > 0:
         return False

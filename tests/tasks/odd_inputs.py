@@ -274,7 +274,8 @@ WIDTHS = [
     of("width", "float32", np.float32(0.5), 0.5),
     of("width", "whole", 1, 1.0),
     *(of("width", repr(value), value, says=NAMED) for value in (np.nan, np.inf, -1.0, 0.0, "3mm", 4j, True, [0.4])),
-    of("width", "None", None, says=NAMED),
+    # of weights it means that none is given
+    of("width", "None", None, says=NAMED, also_refused=True),
     of("width", "1e300", 1e300, says=".", also_refused=True),
     of("width", "1e-300", 1e-300, says=".", also_refused=True),
 ]
