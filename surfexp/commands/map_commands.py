@@ -16,7 +16,7 @@ from surfexp.commands.surface_arguments import (
     opened,
     progress_line,
     proof_option,
-    ready,
+    ready_map,
     ready_proof,
     result_option,
     save_proof,
@@ -64,13 +64,12 @@ def denoise(
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
     maps = given_maps(surface, map_name, files, given["hemisphere"])
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
-    ready(target, files, check_target, channels=channels, hemisphere=surface.hemisphere)
+    ready_map(target, files, surface, values, channels=channels)
     ready_proof(proof, files)
     if proof is not None and method == "auto":
         raise ValueError("--proof with method auto, which proves no gap: choose method rof or tgv")
@@ -107,13 +106,12 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import smooth as task
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
     maps = given_maps(surface, map_name, files, given["hemisphere"])
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
-    ready(target, files, check_target, channels=channels, hemisphere=surface.hemisphere)
+    ready_map(target, files, surface, values, channels=channels)
     started = time.perf_counter()
     smoothed = task(surface, values, width)
     facts = smoothed.certificate | {"seconds": time.perf_counter() - started}

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, ready, result_option, surface_options
+from surfexp.commands.surface_arguments import finish, map_of, opened, ready_map, result_option, surface_options
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to level.shape.gii")
@@ -27,13 +27,12 @@ def noise(path: str, map_name: str, second_name: str | None, target: Path | None
     MAP is a file, or a map that the surface carries. With --to the level at each vertex is written.
     """
     from surfexp.tasks.noise_of_map import noise as task
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files, given["hemisphere"])
     second = map_of(surface, second_name, files, given["hemisphere"]) if second_name else None
     if target is not None:
-        ready(target, files, check_target, hemisphere=surface.hemisphere)
+        ready_map(target, files, surface, values)
     started = time.perf_counter()
     found = task(surface, values, second)
     seconds = time.perf_counter() - started

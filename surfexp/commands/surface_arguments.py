@@ -224,6 +224,18 @@ def ready(target: Path, files: Inputs, check: Callable[..., None], **wanted: Any
     files.refuse_to_overwrite(target)
 
 
+def ready_map(target: Path, files: Inputs, surface: Surface, *maps: Any, **wanted: Any) -> None:
+    """Refuse a file that maps on a surface, NaN where it has no vertex or a map no value, cannot be written to, as `ready`."""
+    import numpy as np
+
+    from surfexp.tasks.written_files import check_target
+
+    outside = surface.mask is not None and not surface.mask.all()
+    faces_at = np.bincount(surface.mesh.faces.ravel(), minlength=len(surface.mesh.vertices))
+    unknown = outside or not faces_at.all() or any(np.isnan(values).any() for values in maps)
+    ready(target, files, check_target, hemisphere=surface.hemisphere, unknown=unknown, **wanted)
+
+
 @contextmanager
 def progress_line(label: str) -> Iterator[Callable[[int, float], None]]:
     """Yield a progress callback that keeps one line of the terminal up to date, with the elapsed time; silent without one."""

@@ -18,6 +18,7 @@ from surfexp.commands.surface_arguments import (
     progress_line,
     proof_option,
     ready,
+    ready_map,
     ready_proof,
     result_option,
     save_proof,
@@ -57,10 +58,9 @@ def modes(
 ) -> int:
     """Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."""
     from surfexp.tasks.spectra import eigenpairs
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target, count=count, hemisphere=surface.hemisphere)
+    ready_map(target, files, surface, count=count)
     ready_proof(proof, files)
     started = time.perf_counter()
     with progress_line("modes") as progress:
@@ -86,10 +86,9 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     import numpy as np
 
     from surfexp.tasks.skeletons import geodesic as task
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target, hemisphere=surface.hemisphere)
+    ready_map(target, files, surface)
     started = time.perf_counter()
     values, lower = task(surface, sources, bounds=True)
     unreached = np.isinf(values)
@@ -107,10 +106,9 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
 def curvature(path: str, target: Path, **given: Any) -> None:
     """Compute the mean curvature, positive where the surface bulges outward."""
     from surfexp.tasks.skeletons import mean_curvature
-    from surfexp.tasks.written_files import check_target
 
     surface, files = opened(path, **given)
-    ready(target, files, check_target, hemisphere=surface.hemisphere)
+    ready_map(target, files, surface)
     started = time.perf_counter()
     values = mean_curvature(surface)
     facts = {"seconds": time.perf_counter() - started}

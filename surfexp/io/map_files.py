@@ -254,7 +254,9 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
             freesurfer.write_curvature(temporary, next(iter(check_single_precision_maps(maps).values())))
 
 
-def check_map_target(path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None) -> None:
+def check_map_target(
+    path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None, unknown: bool = False
+) -> None:
     """Refuse a file that maps cannot be written to: of a format that is unknown or too narrow, or in no writable folder.
 
     Parameters
@@ -266,6 +268,8 @@ def check_map_target(path: Path | str, count: int = 1, channels: int = 1, hemisp
         The most channels that one has.
     hemisphere : {"", "left", "right"}, optional
         Of the maps; None if it is not known yet.
+    unknown : bool
+        Whether they are NaN somewhere.
 
     Raises
     ------
@@ -281,6 +285,11 @@ def check_map_target(path: Path | str, count: int = 1, channels: int = 1, hemisp
         raise ValueError(f"{path} holds one map, there are {count}: choose .npz, .func.gii or .csv")
     if channels > 1 and not holds_names(path) and suffix not in (".npy", *VOLUMES):
         raise ValueError(f"{path} holds one number a vertex, the map has {channels}: choose .mgh, .npz or .func.gii")
+    as_curvature = suffix not in (".npz", ".npy", *TEXT, *VOLUMES) and not is_cifti(path) and not is_gifti(path)
+    if unknown and as_curvature:
+        raise ValueError(
+            f"{path} cannot say NaN, which the map has outside of its mask: choose .mgh, .shape.gii or .npz"
+        )
     if hemisphere is not None:
         check_named_side(path, hemisphere)
         if is_cifti(path) and not hemisphere:

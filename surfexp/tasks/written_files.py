@@ -172,7 +172,12 @@ def _written_map(given: Any, what: str) -> Floats:
 
 
 def check_target(
-    path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None, labels: bool = False
+    path: Path | str,
+    count: int = 1,
+    channels: int = 1,
+    hemisphere: str | None = None,
+    labels: bool = False,
+    unknown: bool = False,
 ) -> None:
     """Refuse a file that maps on a surface cannot be written to, before anything is computed.
 
@@ -185,6 +190,8 @@ def check_target(
         Of the maps; None if it is not known yet.
     labels : bool
         Whether formats of labels are among those that are known.
+    unknown : bool
+        Whether the maps are NaN somewhere.
 
     Raises
     ------
@@ -196,7 +203,7 @@ def check_target(
         check_named_side(target, hemisphere or "")
         check_writable(target)
     else:
-        check_map_target(target, count, channels, hemisphere)
+        check_map_target(target, count, channels, hemisphere, unknown)
 
 
 def check_surface_target(path: Path | str, hemisphere: str = "") -> None:

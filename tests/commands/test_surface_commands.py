@@ -102,6 +102,24 @@ def test_maps_keep_their_names(files: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("arguments", "task"),
+    [
+        (["smooth", "brain.surf.gii", "noisy.shape.gii", "--width", "1"], "denoising.smooth"),
+        (["denoise", "brain.surf.gii", "noisy.shape.gii"], "denoising.denoise"),
+        (["noise", "brain.surf.gii", "noisy.shape.gii"], "noise_of_map.noise"),
+        (["curvature", "brain.surf.gii", "--mask", "inside.npy"], "skeletons.mean_curvature"),
+        (["geodesic", "brain.surf.gii", "5", "--mask", "inside.npy"], "skeletons.geodesic"),
+    ],
+)
+def test_a_format_without_nan_is_refused_before_anything_is_computed(
+    files: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, arguments: list[str], task: str
+) -> None:
+    monkeypatch.setattr(f"surfexp.tasks.{task}", lambda *given, **options: pytest.fail("it computed"))
+    assert main([*arguments, "--to", "lh.out"]) == 2
+    assert "lh.out cannot say NaN" in capsys.readouterr().err and not Path("lh.out").exists()
+
+
+@pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (["plot", "own.vtp", "hieght", "--to", "a.png"], "no map that own carries; did you mean 'height'?"),
