@@ -540,7 +540,7 @@ def test_an_image_of_another_length_or_with_nan_is_refused(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (lambda v, f: (v, f[:0]), "642 points without faces: reconstruct a surface from them"),
+        (lambda v, f: (v, f[:0]), "642 points without faces: make a surface of them first"),
         (lambda v, f: (v, np.vstack([f[1:], f[:1, ::-1]])), "surfexp repair"),
         (lambda v, f: (v, np.vstack([f, [[0, 0, 1]]])), "surfexp repair"),
         (lambda v, f: (v, np.vstack([f, [[f[0, 0], f[0, 1], len(v) - 1]]])), "surfexp repair"),

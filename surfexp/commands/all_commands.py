@@ -26,7 +26,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "modes": Entry(
             "surface_commands", "Find the lowest Laplace-Beltrami eigenpairs, with the proof that none is missing."
         ),
-        "denoise": Entry("map_commands", "Remove the noise of a map by total variation, which keeps its edges."),
+        "denoise": Entry("map_commands", "Remove the noise of a map by the filters that promise the least error."),
         "noise": Entry("noise", "Say what noise a map has: level, outliers, correlation."),
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),

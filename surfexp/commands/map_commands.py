@@ -58,7 +58,9 @@ def denoise(
     proof: Path | None,
     **given: Any,
 ) -> int:
-    """Remove the noise of a map by the filters that promise the least error, or by a method of your choice.
+    """Remove the noise of a map by the filters that promise the least error.
+
+    --method chooses one of them, with a proved gap.
 
     MAP is a file, or a map that the surface carries.
     """

@@ -76,7 +76,7 @@ def test_a_mistake_is_told_with_its_line(
 
 def test_a_file_elsewhere_is_refused(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file.rename(file.parents[2] / "mine.yaml")
-    assert main(["check", "mine.yaml"]) == 2 and "conf/experiment/NAME.yaml" in capsys.readouterr().err
+    assert main(["check", "mine.yaml"]) == 2 and "a folder conf/experiment, of yours" in capsys.readouterr().err
     assert main(["check", "other.yaml"]) == 2 and "no such file" in capsys.readouterr().err
 
 

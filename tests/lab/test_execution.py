@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from surfexp.commands import execution, request
@@ -188,7 +188,8 @@ def test_where_clocks_matter_a_leaf_is_measured_alone_and_once(run: Run, plan: P
 
 
 def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(np, "abs", lambda values: 1 / 0)
+    module = sys.modules[registry.plugin("pairing", "toy_distance").function.__module__]
+    monkeypatch.setattr(module, "Pairing", lambda *values, **metrics: 1 / 0)
     with pytest.raises(StageFailure, match="pairing/toy_distance: division by zero"):
         run()
 

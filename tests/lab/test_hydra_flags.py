@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import shlex
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -110,6 +112,20 @@ def test_cfg_shows_what_the_command_line_makes_of_the_experiment(own: Path, caps
     assert "no nosuch" in told(capsys, "run", "--cfg", "job", "--package", "nosuch", code=2)
 
 
+@pytest.fixture
+def log_as_before() -> Iterator[None]:
+    """The log of the process, which --info leaves on, writing to a terminal that is captured no more."""
+    root = logging.getLogger()
+    handlers, level = list(root.handlers), root.level
+    hydra = logging.getLogger("hydra")
+    of_hydra = list(hydra.handlers), hydra.level
+    yield
+    root.handlers[:], hydra.handlers[:] = handlers, of_hydra[0]
+    root.setLevel(level)
+    hydra.setLevel(of_hydra[1])
+
+
+@pytest.mark.usefixtures("log_as_before")
 def test_info_and_version_are_hydras(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "Hydra" in told(capsys, "run", "--info", "plugins", "experiment=own")
     assert "elsewhere" in told(capsys, "run", "--config-dir", "elsewhere", "--info", "searchpath")

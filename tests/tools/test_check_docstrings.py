@@ -26,9 +26,15 @@ def test_what_functions_return_and_fields_hold_is_covered() -> None:
 @pytest.mark.parametrize(
     ("faulty", "code"),
     [
-        (DENOISE.replace("    weight : float\n", "    wait : float\n"), "PR01 Parameters {'weight'} not documented"),
-        (DENOISE.replace("    weight : float\n", "    wait : float\n"), "PR02 Unknown parameters {'wait'}"),
-        (DENOISE.replace("weight : float\n", "weight\n"), 'PR04 Parameter "weight" has no type'),
+        (
+            DENOISE.replace("    weight : float, optional\n", "    wait : float, optional\n"),
+            "PR01 Parameters {'weight'} not documented",
+        ),
+        (
+            DENOISE.replace("    weight : float, optional\n", "    wait : float, optional\n"),
+            "PR02 Unknown parameters {'wait'}",
+        ),
+        (DENOISE.replace("weight : float, optional\n", "weight\n"), 'PR04 Parameter "weight" has no type'),
         (DENOISE.replace("    Returns\n    -------\n", "    Notes\n    -----\n"), "RT01 No Returns section found"),
         (DENOISE.replace("    Examples\n    --------\n", "    Notes\n    -----\n"), "EX01 No examples section found"),
         ("", "GL08 The object does not have a docstring"),
