@@ -105,6 +105,7 @@ def test_a_dataset_is_named_with_or_without_its_suffix_and_is_whole_or_not_there
     assert Path("conf/datasets/mine.yaml").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_a_run_takes_the_collection_in_place_of_its_own(shapes: Path) -> None:
     assert main(["collect", str(shapes), "--to", "mine"]) == 0
     command = [sys.executable, "-m", "surfexp.commands.command_line", "plan", "experiment=tosca_classification"]

@@ -164,6 +164,7 @@ def test_several_experiments_have_a_page_each_and_one_that_fails_stops_no_other(
     assert "plan of chain" in planned and "plan of second" in planned and planned.count("0 to compute") == 2
 
 
+@pytest.mark.slow
 def test_plain_snakemake_is_tracked_and_gives_the_same_bytes(laboratory: Path) -> None:
     command = [
         sys.executable,

@@ -21,7 +21,9 @@ MAPS = {"smooth": SMOOTH, "piecewise": PIECEWISE, "patches": PATCHES}
 
 
 @pytest.mark.parametrize("name", MAPS)
-@pytest.mark.parametrize("share", [0.1, 0.3, 1.0])
+@pytest.mark.parametrize(
+    "share", [pytest.param(0.1, marks=pytest.mark.slow), 0.3, pytest.param(1.0, marks=pytest.mark.slow)]
+)
 def test_white_noise_raises_at_most_one_false_alarm_in_twenty(name: str, share: float) -> None:
     alarms = 0
     for seed in range(20):

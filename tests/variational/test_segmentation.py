@@ -42,6 +42,7 @@ def energy(operator: SurfaceOperator, slope: np.ndarray, values: np.ndarray) -> 
     return total_variation(operator, values) + float(operator.mass @ (slope * values))
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=3)
 @given(size=FACTORS, unit=FACTORS)
 def test_scales_change_no_label(size: float, unit: float) -> None:

@@ -80,6 +80,7 @@ def test_false_borders_of_noise_count_both_signs() -> None:
     assert false_border_of_noise(SHEET.mesh, FLAT, np.zeros(len(X)), 0.5) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["heat_flow", "geodesic_gaussian", "neighbour_mean"])
 def test_what_is_carried_over_a_straight_border_is_that_of_a_gaussian(name: str) -> None:
     width, inside = 8.0, ~UPPER
