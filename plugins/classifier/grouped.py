@@ -10,49 +10,20 @@ OPTIONS = {
     "seed": Field(ge=0, description="seed of permutations, bootstrap and forests"),
 }
 NEIGHBOURS = {"neighbours": Field(ge=1, le=1000, description="neighbours that vote")}
-NAMES = {"matrix": "distance_matrix"}
+METHODS = {
+    "nearest_neighbour": "The class of the nearest member of another group.",
+    "k_nearest": "The class of most among the k nearest members of other groups.",
+    "nearest_centroid": "The class whose centre, over the other groups, is nearest in standardised coordinates.",
+    "support_vectors": "Support vectors with a Gaussian kernel on standardised coordinates.",
+    "random_forest": "Sixty random trees on the coordinates, seeded.",
+}
 
-register(
-    "classifier",
-    "nearest_neighbour",
-    summary="The class of the nearest member of another group.",
-    given={"method": "nearest_neighbour"},
-    options=OPTIONS,
-    names=NAMES,
-)(classify)
-
-register(
-    "classifier",
-    "k_nearest",
-    summary="The class of most among the k nearest members of other groups.",
-    given={"method": "k_nearest"},
-    options={**OPTIONS, **NEIGHBOURS},
-    names=NAMES,
-)(classify)
-
-register(
-    "classifier",
-    "nearest_centroid",
-    summary="The class whose centre, over the other groups, is nearest in standardised coordinates.",
-    given={"method": "nearest_centroid"},
-    options=OPTIONS,
-    names=NAMES,
-)(classify)
-
-register(
-    "classifier",
-    "support_vectors",
-    summary="Support vectors with a Gaussian kernel on standardised coordinates.",
-    given={"method": "support_vectors"},
-    options=OPTIONS,
-    names=NAMES,
-)(classify)
-
-register(
-    "classifier",
-    "random_forest",
-    summary="Sixty random trees on the coordinates, seeded.",
-    given={"method": "random_forest"},
-    options=OPTIONS,
-    names=NAMES,
-)(classify)
+for method, summary in METHODS.items():
+    register(
+        "classifier",
+        method,
+        summary=summary,
+        given={"method": method},
+        options=OPTIONS | (NEIGHBOURS if method == "k_nearest" else {}),
+        names={"matrix": "distance_matrix"},
+    )(classify)
