@@ -5,7 +5,7 @@ import numpy as np
 
 import surfexp as sx
 
-cortex = sx.shape("fsaverage5", hemisphere="left", surface="white")
+cortex = sx.shape("fsaverage5", hemisphere="left", sheet="white")
 curvature = igl.gaussian_curvature(cortex.mesh.vertices, np.array(cortex.mesh.faces))
 print(f"{cortex.name}: area {cortex.mesh.area / 100:.0f} cm^2, total curvature {curvature.sum() / np.pi:.6f} pi")
 picture = sx.plot(cortex, curvature, views=("lateral", "medial"), label="angle defect", limits=(-0.5, 0.5), width=800)

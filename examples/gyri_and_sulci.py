@@ -4,7 +4,7 @@ import numpy as np
 
 import surfexp as sx
 
-brain = sx.shape("fsaverage5", hemisphere="left", surface="pial")
+brain = sx.shape("fsaverage5", hemisphere="left", sheet="pial")
 parts = sx.segment(brain)
 raised = brain.scalars["sulc"] < 0
 for name, found in (("short boundary", parts.labels == 1), ("sign of curvature alone", sx.mean_curvature(brain) > 0)):

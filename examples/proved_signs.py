@@ -2,7 +2,7 @@
 
 import surfexp as sx
 
-left, right = (sx.shape("fsaverage5", hemisphere=side, surface="white") for side in ("left", "right"))
+left, right = (sx.shape("fsaverage5", hemisphere=side, sheet="white") for side in ("left", "right"))
 found = sx.distance(left, right, n=20, weighting="global_point")
 print(f"distance {found.value:.4f}, no signs give less than {found.lower_bound:.4f}: {found.optimal}")
 print(f"proved with {found.evaluations} evaluations of {2**20}")

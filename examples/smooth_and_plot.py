@@ -2,7 +2,7 @@
 
 import surfexp as sx
 
-brain = sx.shape("fsaverage5", hemisphere="left", surface="pial")
+brain = sx.shape("fsaverage5", hemisphere="left", sheet="pial")
 smoothed = sx.smooth(brain, "curv", 10.0)
 before, after = brain.scalars["curv"].std(), smoothed.values.std()
 change = smoothed.certificate["change_of_mean"]

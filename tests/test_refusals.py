@@ -56,7 +56,7 @@ CASES: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "semiaxis": (lambda: spheroid_embedding(-1.0, 3), "semiaxis -1"),
     "semiaxis of nothing": (lambda: spheroid_embedding(float("nan"), 3), "semiaxis nan"),
-    "weight of normals": (lambda: NormalFiltering(w=0.0).run(MESH), "^w is 0"),
+    "weight of normals": (lambda: NormalFiltering(weight=0.0).run(MESH), "^weight is 0"),
     "levels between critical values": (
         lambda: choose_levels(RING, RING.vertices[:, 0], 1, "critical"), "1 levels cannot separate 4 critical values",
     ),

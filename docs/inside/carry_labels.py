@@ -4,7 +4,7 @@ import surfexp as sx
 from surfexp.embedding.labels import desikan_killiany, label_accuracy
 from surfexp.embedding.surface_map import Pair, zoomout_map
 
-surfaces = [sx.shape("fsaverage5", hemisphere=hemisphere, surface="white") for hemisphere in ("left", "right")]
+surfaces = [sx.shape("fsaverage5", hemisphere=hemisphere, sheet="white") for hemisphere in ("left", "right")]
 systems = [sx.eigenpairs(surface, 121) for surface in surfaces]
 found = zoomout_map(Pair(*surfaces, *systems), field="sulc")
 labels = [desikan_killiany(hemisphere) for hemisphere in ("left", "right")]

@@ -12,7 +12,7 @@ register(
     metrics=RESTORATION_METRICS,
     options={
         "width": Field(gt=0, le=100, description="standard deviation of the blur in edge lengths"),
-        "w": Field(gt=0, description="weight without unit, w = mu sigma h"),
-        "mu": Field(gt=0, description="the published weight in place of w; needed without noise"),
+        "weight": Field(gt=0, description="weight without unit, mu sigma h"),
+        "mu": Field(gt=0, description="the published weight in place of weight; needed without noise"),
     },
 )(Deblurring)

@@ -11,7 +11,7 @@ register(
     "inpainting",
     metrics=RESTORATION_METRICS,
     options={
-        "w": Field(gt=0, description="weight without unit, w = mu sigma h"),
-        "mu": Field(gt=0, description="the published weight in place of w; needed without noise"),
+        "weight": Field(gt=0, description="weight without unit, mu sigma h"),
+        "mu": Field(gt=0, description="the published weight in place of weight; needed without noise"),
     },
 )(Inpainting)

@@ -11,7 +11,7 @@ register(
     "rof",
     metrics=RESTORATION_METRICS,
     options={
-        "w": Field(gt=0, description="weight without unit, w = mu sigma h"),
-        "mu": Field(gt=0, description="the published weight in place of w"),
+        "weight": Field(gt=0, description="weight without unit, mu sigma h"),
+        "mu": Field(gt=0, description="the published weight in place of weight"),
     },
 )(ROF)

@@ -11,8 +11,8 @@ register(
     "tgv",
     metrics=RESTORATION_METRICS,
     options={
-        "w": Field(gt=0, description="weight without unit, w = mu sigma h"),
-        "mu": Field(gt=0, description="the weight itself in place of w"),
+        "weight": Field(gt=0, description="weight without unit, mu sigma h"),
+        "mu": Field(gt=0, description="the weight itself in place of weight"),
         "ratio": Field(gt=0, description="length over which a slope may turn, in edge lengths"),
     },
 )(TGV)

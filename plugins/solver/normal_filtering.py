@@ -15,7 +15,7 @@ from surfexp.variational.solution import Solution
 def normal_filtering_solver(
     surface: Surface,
     *,
-    w: Annotated[float, Field(gt=0, description="weight without unit: small is smooth")],
+    weight: Annotated[float, Field(gt=0, description="weight without unit: small is smooth")],
     vertex_steps: Annotated[
         int, Field(ge=1, le=10000, description="steps that fit the vertices to the filtered normals")
     ],
@@ -23,6 +23,6 @@ def normal_filtering_solver(
     iteration_limit: Annotated[int, Field(ge=1, description="most iterations for the normals")],
 ) -> Solution:
     """Total variation of the face normals, then vertices moved to fit them; the moved vertices are the result."""
-    return NormalFiltering(w=w, vertex_steps=vertex_steps, tolerance=tolerance, iteration_limit=iteration_limit).run(
-        surface.mesh, progress=report_progress
-    )
+    return NormalFiltering(
+        weight=weight, vertex_steps=vertex_steps, tolerance=tolerance, iteration_limit=iteration_limit
+    ).run(surface.mesh, progress=report_progress)

@@ -14,17 +14,17 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Hemisphere = Literal["left", "right"]
-SURFACES = {"pial": "pial", "white": "white", "inflated": "infl", "sphere": "sphere"}
+SHEETS = {"pial": "pial", "white": "white", "inflated": "infl", "sphere": "sphere"}
 MAPS = {"sulc": "sulc", "curv": "curv", "thickness": "thick", "area": "area"}
 
 
-def fsaverage5(hemisphere: Hemisphere = "left", surface: str = "pial") -> Surface:
+def fsaverage5(hemisphere: Hemisphere = "left", sheet: str = "pial") -> Surface:
     """One hemisphere of fsaverage5 (Fischl et al. 1999): 10,242 vertices, closed, genus 0, in mm.
 
     Parameters
     ----------
     hemisphere : "left" or "right"
-    surface : "pial", "white", "inflated" or "sphere"
+    sheet : "pial", "white", "inflated" or "sphere"
         All four share their faces, so maps carry over.
 
     Returns
@@ -36,15 +36,15 @@ def fsaverage5(hemisphere: Hemisphere = "left", surface: str = "pial") -> Surfac
     Raises
     ------
     ValueError
-        If hemisphere or surface is unknown, or nilearn's files are not there.
+        If hemisphere or sheet is unknown, or nilearn's files are not there.
     """
     if hemisphere not in ("left", "right"):
         raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left or right")
-    if surface not in SURFACES:
-        raise ValueError(f"fsaverage5 surface {surface!r} is unknown, choose one of {', '.join(SURFACES)}")
-    vertices, faces = read_gifti_arrays(_packaged(f"{SURFACES[surface]}_{hemisphere}"))
+    if sheet not in SHEETS:
+        raise ValueError(f"sheet {sheet!r} of fsaverage5 is unknown, choose one of {', '.join(SHEETS)}")
+    vertices, faces = read_gifti_arrays(_packaged(f"{SHEETS[sheet]}_{hemisphere}"))
     scalars = {name: _map(f"{stem}_{hemisphere}") for name, stem in MAPS.items()}
-    name = f"fsaverage5 {surface}, {hemisphere}"
+    name = f"fsaverage5 {sheet}, {hemisphere}"
     return with_metrics(Surface(TriangleMesh(vertices, faces), name, "mm", scalars, hemisphere=hemisphere))
 
 

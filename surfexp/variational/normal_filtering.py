@@ -25,8 +25,8 @@ class NormalFiltering:
 
     Parameters
     ----------
-    w : float
-        Weight without unit, w = alpha s h, s the spread of the normals across an edge, estimated by its median.
+    weight : float
+        Weight without unit, alpha s h, s the spread of the normals across an edge, estimated by its median.
     vertex_steps : int
         Steps x_i += mean over the ring of N_f (N_f . (c_f - x_i)), c_f the centre of the face.
     tolerance : float
@@ -39,7 +39,7 @@ class NormalFiltering:
     Sun, Rosin, Martin, Langbein: Fast and effective feature-preserving mesh denoising (2007), for the vertex update.
     """
 
-    w: float = 0.5
+    weight: float = 0.5
     vertex_steps: int = 30
     tolerance: float = 1e-4
     iteration_limit: int = 5000
@@ -50,14 +50,14 @@ class NormalFiltering:
         Raises
         ------
         ValueError
-            As `fem`, or if w is not positive.
+            As `fem`, or if the weight is not positive.
         """
-        check_positive("w", self.w)
+        check_positive("weight", self.weight)
         check_mesh(mesh)
         pairs, lengths = _inner_edges(mesh)
         jumps = np.linalg.norm(mesh.face_normals[pairs[:, 0]] - mesh.face_normals[pairs[:, 1]], axis=1)
         spread = max(float(np.median(jumps)), 1e-6)
-        alpha = self.w / (spread * mesh.edge_length)
+        alpha = self.weight / (spread * mesh.edge_length)
         normals, rows = self._filter(mesh, pairs, lengths, alpha, progress)
         normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
         iteration, energy, bound, gap = rows[-1]

@@ -32,7 +32,7 @@ def table(
     for k in range(rows):
         leaf = Leaf(f"key{k}", "configuration", {"target": "solver"})
         values = {f"some metric {m}": NUMBERS[(k + m) % len(NUMBERS)] * (1 + k) for m in range(metrics)}
-        parameters = {"solver.name": ("primal_dual", "split_bregman")[k % 2], "model.w": k, "surface.name": "cup"}
+        parameters = {"solver.name": ("primal_dual", "split_bregman")[k % 2], "model.weight": k, "surface.name": "cup"}
         made.append(Row(leaf, parameters, values | {"always": 2.5}, 1.0, ["A long note of one row."] if k == 0 else []))
     return Comparison(title, "", made, [])
 

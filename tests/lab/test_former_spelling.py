@@ -25,6 +25,7 @@ FORMER = {
         "solver:\n  newton:\n    tolerance: 1.0e-10  # tight\nmodel: rof",
         "solver: {name: newton, tolerance: 1.0e-10}  # tight\nmodel: rof",
     ),
+    "weight of a model": ("model: {name: tgv, w: 0.5, ratio: 2.0}", "model: {name: tgv, weight: 0.5, ratio: 2.0}"),
     "stages of a grid": ("grid: {operator: [fem, {libigl: {}}]}", "grid: {operator: [fem, {name: libigl}]}"),
     "input over an axis": (
         "distance_matrix: {name: signatures, inputs: {signatures: {over: b}}}",

@@ -26,7 +26,7 @@ EXPERIMENT = {
     "figures": ["denoising", {"name": "sweep", "title": "Cup", "caption": "cup", "reference": "2.2", "metric": "rmse"}],
     "variants": [{"comparison": "The cup", "caption": "A"}, {"comparison": "Its handle"}, {"comparison": "The cup"}],
 }
-METHODS = ["solver=newton", "solver.tolerance=1e-3", "++model.w=1", "eigensolver=slicing,arpack"]
+METHODS = ["solver=newton", "solver.tolerance=1e-3", "++model.weight=1", "eigensolver=slicing,arpack"]
 DATA = [
     "surface=file",
     "++surface.levels=3",

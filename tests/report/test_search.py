@@ -16,13 +16,13 @@ from surfexp.records.table import Row
 from surfexp.report.search import Search, Trial, draw, search_of, searched
 
 COMMAND = (
-    "surfexp run experiment=x 'figures=[]' hydra/sweeper=optuna objective=rmse 'model.w=interval(0.1,2)' "
-    "solver=choice(newton,primal_dual) hydra.sweeper.n_trials=3 model.w_other=1"
+    "surfexp run experiment=x 'figures=[]' hydra/sweeper=optuna objective=rmse 'model.weight=interval(0.1,2)' "
+    "solver=choice(newton,primal_dual) hydra.sweeper.n_trials=3 model.weight_other=1"
 )
 
 
 def row(w: float, solver: str, rmse: float, failure: str = "") -> Row:
-    parameters: dict[str, Any] = {"model.w": w, "solver.name": solver, "image.noise": 3.0}
+    parameters: dict[str, Any] = {"model.weight": w, "solver.name": solver, "image.noise": 3.0}
     return Row(Leaf("key", "configuration", {}), parameters, {"rmse": rmse}, 1.0, failure=failure)
 
 
@@ -33,22 +33,22 @@ ROWS += [row(0.25, "primal_dual", 1.0), row(0.25, "primal_dual", 2.0)]
 def test_trials_are_in_order_and_a_failed_row_leaves_a_trial_without_a_value() -> None:
     search = search_of(ROWS, "rmse", COMMAND)
     assert search is not None and search.best is not None
-    assert [trial.options["model.w"] for trial in search.trials] == [0.5, 1.0, 0.25]
+    assert [trial.options["model.weight"] for trial in search.trials] == [0.5, 1.0, 0.25]
     assert [trial.value for trial in search.trials][::2] == [2.0, 1.5] and math.isnan(search.trials[1].value)
-    assert search.best.options == {"model.w": 0.25, "solver.name": "primal_dual"}
-    assert "3 trials" in search.sentence and "the least rmse, 1.5, at model.w = 0.25" in search.sentence
+    assert search.best.options == {"model.weight": 0.25, "solver.name": "primal_dual"}
+    assert "3 trials" in search.sentence and "the least rmse, 1.5, at model.weight = 0.25" in search.sentence
 
 
 def test_the_command_runs_the_best_trial_alone() -> None:
     search = search_of(ROWS, "rmse", COMMAND)
     assert search is not None
-    expected = "surfexp run experiment=x 'figures=[]' model.w_other=1 model.w=0.25 solver=primal_dual"
+    expected = "surfexp run experiment=x 'figures=[]' model.weight_other=1 model.weight=0.25 solver=primal_dual"
     assert search.command == expected
 
 
 def test_what_asks_for_no_search_has_none() -> None:
     assert search_of(ROWS, None, COMMAND) is None
-    assert search_of(ROWS, "rmse", "surfexp run experiment=x objective=rmse model.w=1,2") is None
+    assert search_of(ROWS, "rmse", "surfexp run experiment=x objective=rmse model.weight=1,2") is None
     assert search_of([], "rmse", COMMAND) is None
 
 
@@ -59,10 +59,10 @@ def test_without_a_value_no_trial_is_best() -> None:
 
 
 def test_the_picture_is_the_same_bytes_and_its_text_is_text() -> None:
-    options = [{"model.w": k / 10, "solver.name": name} for k, name in enumerate(["newton", "primal_dual"] * 5)]
+    options = [{"model.weight": k / 10, "solver.name": name} for k, name in enumerate(["newton", "primal_dual"] * 5)]
     search = Search("rmse", [Trial(some, float((k - 4) ** 2)) for k, some in enumerate(options)], [])
     assert draw(search) == draw(search)
-    assert all(f">{text}</text>" in draw(search) for text in ("trial", "model.w", "newton", "rmse"))
+    assert all(f">{text}</text>" in draw(search) for text in ("trial", "model.weight", "newton", "rmse"))
 
 
 def test_swept_options_are_found_as_hydra_finds_them() -> None:
@@ -74,10 +74,10 @@ def test_swept_options_are_found_as_hydra_finds_them() -> None:
 
 
 def test_a_search_has_a_seed_unless_it_is_given_one() -> None:
-    asked = ["hydra/sweeper=optuna", "model.w=interval(0,1)"]
+    asked = ["hydra/sweeper=optuna", "model.weight=interval(0,1)"]
     assert is_search(asked) and repeatable(asked)[-1] == "hydra.sweeper.sampler.seed=1"
     own = [*asked, "hydra.sweeper.sampler.seed=7"]
-    assert repeatable(own) == own and repeatable(["model.w=1"]) == ["model.w=1"]
+    assert repeatable(own) == own and repeatable(["model.weight=1"]) == ["model.weight=1"]
 
 
 def test_trials_are_rows_of_one_plan_each_once() -> None:
@@ -99,7 +99,7 @@ def test_a_search_asked_again_computes_nothing_and_is_one_table(
         "image.noise=20",
     ]
     asked += ["model=rof", "solver=primal_dual", "operator=fem", "figures=[]", "columns=[rmse]", "hydra/sweeper=optuna"]
-    asked += ["objective=rmse", "model.w=interval(0.5,2)", "hydra.sweeper.n_trials=4"]
+    asked += ["objective=rmse", "model.weight=interval(0.5,2)", "hydra.sweeper.n_trials=4"]
     assert main(asked) in (0, 3)
     first = capsys.readouterr().out
     stored = sorted((working_folder / "results" / "store").rglob("*"))
@@ -107,6 +107,6 @@ def test_a_search_asked_again_computes_nothing_and_is_one_table(
     assert sorted((working_folder / "results" / "store").rglob("*")) == stored
     again = capsys.readouterr().out
     said = [line for line in first.splitlines() if line.startswith(("search", "again"))]
-    assert len(said) == 2 and all(line in again for line in said) and "4 trials of model.w" in said[0]
+    assert len(said) == 2 and all(line in again for line in said) and "4 trials of model.weight" in said[0]
     page = (working_folder / "results" / "quickstart" / "report.html").read_text()
-    assert "4 trials of model.w" in page and "data:image/svg+xml;base64," in page
+    assert "4 trials of model.weight" in page and "data:image/svg+xml;base64," in page

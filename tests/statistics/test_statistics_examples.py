@@ -15,6 +15,7 @@ def printed(name: str, capsys: pytest.CaptureFixture[str]) -> list[str]:
     return capsys.readouterr().out.splitlines()
 
 
+@pytest.mark.slow
 def test_classify_bodies(capsys: pytest.CaptureFixture[str]) -> None:
     spectra, counts = printed("classify_bodies", capsys)
     assert spectra.startswith("shape_dna: 1.00 right") and counts.startswith("nodal_counts: ")

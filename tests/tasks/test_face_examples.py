@@ -42,6 +42,7 @@ def test_certified_spectrum(printed: list[str]) -> None:
     assert printed[1].startswith("300 eigenvalues below 340.69") and printed[1].endswith("True")
 
 
+@pytest.mark.slow
 def test_choose_a_filter(printed: list[str]) -> None:
     step, slope = printed
     assert "variation" in step and "heat" in slope

@@ -32,6 +32,7 @@ def seen_in_terminal(cache: Path) -> str:
     return seen.decode().replace("\r\n", "\n")
 
 
+@pytest.mark.slow
 def test_the_first_call_says_that_it_compiles_and_the_second_does_not(tmp_path: Path) -> None:
     assert seen_in_terminal(tmp_path) == LINE
     assert seen_in_terminal(tmp_path) == ""

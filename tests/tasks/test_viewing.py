@@ -38,7 +38,7 @@ def test_a_notebook_gets_the_page_in_a_frame_whose_words_are_escaped() -> None:
     assert shown.startswith("<iframe srcdoc=") and "<img" not in shown and 'sandbox="allow-scripts"' in shown
 
 
-@pytest.mark.parametrize("suffix", ["html", "png", "svg", "pdf"])
+@pytest.mark.parametrize("suffix", ["html", "png", "svg", pytest.param("pdf", marks=pytest.mark.slow)])
 def test_a_view_is_saved_in_every_format(tmp_path: Path, suffix: str) -> None:
     file = tmp_path / f"ball.{suffix}"
     sx.view(BALL, Z).save(file)

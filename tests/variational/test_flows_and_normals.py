@@ -70,5 +70,5 @@ def test_vertex_update_leaves_a_mesh_with_its_own_normals_alone() -> None:
     mesh = cube(6).mesh
     assert np.abs(update_vertices(mesh, mesh.face_normals, 10) - mesh.vertices).max() <= 1e-14
     assert normal_deviation(mesh, mesh) <= 1e-5
-    with pytest.raises(ValueError, match="w is 0"):
-        NormalFiltering(w=0).run(mesh)
+    with pytest.raises(ValueError, match="weight is 0"):
+        NormalFiltering(weight=0).run(mesh)

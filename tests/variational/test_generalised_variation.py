@@ -43,6 +43,7 @@ def strip(n: int) -> TriangleMesh:
     return TriangleMesh(flat.vertices + shift - [1, 0, 0], flat.faces)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**31))
 def test_linear_images_of_a_plane_cost_nothing_and_stay(seed: int) -> None:
     mesh, rng = strip(6), np.random.default_rng(seed)
@@ -189,7 +190,7 @@ def test_motions_scale_and_numbering_change_nothing() -> None:
         "turned faces": (TriangleMesh(mesh.vertices, np.roll(mesh.faces[::-1], 1, axis=1)), values),
         "other unit": (mesh, 1e3 * values),
     }
-    model = TGV(w=0.9, ratio=2.0)
+    model = TGV(weight=0.9, ratio=2.0)
     plain = model.run(Image(values, noise=20.0), fem(mesh), generalised_splitting).values
     for name, (other, image) in others.items():
         noise = 20.0 * (1e3 if name == "other unit" else 1.0)
@@ -204,8 +205,8 @@ def test_slopes_do_not_become_stairs() -> None:
     operator, rng = fem(mesh), np.random.default_rng(0)
     clean = 100 * mesh.vertices[:, 0] + 100 * (mesh.vertices[:, 0] > 1.21)
     image = Image(clean + 20 * rng.standard_normal(len(clean)), clean=clean, noise=20.0)
-    stairs = min(ROF(w=w).run(image, operator, primal_dual).metrics["rmse"] for w in (0.4, 0.6, 0.9, 1.3))
-    assert TGV(ratio=4.0, w=0.6).run(image, operator, generalised_splitting).metrics["rmse"] < 0.75 * stairs
+    stairs = min(ROF(weight=w).run(image, operator, primal_dual).metrics["rmse"] for w in (0.4, 0.6, 0.9, 1.3))
+    assert TGV(ratio=4.0, weight=0.6).run(image, operator, generalised_splitting).metrics["rmse"] < 0.75 * stairs
 
 
 def test_refusals() -> None:

@@ -140,6 +140,7 @@ def test_multiphase_separates_three_colours(surface: Surface) -> None:
         MultiphaseSegmentation(1).run(Image(noisy), fem(surface.mesh), primal_dual)
 
 
+@pytest.mark.slow
 def test_multiphase_separates_six_noisy_colours() -> None:
     """The first means have to be those of the cells: the alternation cannot part two that begin as one."""
     surface = torus(120, 48)
@@ -245,7 +246,7 @@ def test_any_convex_fidelity_works_by_its_value_and_prox(surface: Surface) -> No
         ("initial has 3", lambda s, i: ConvexChanVese(initial=np.ones(3, bool)).run(i, fem(s.mesh), primal_dual)),
         ("updates is 0", lambda s, i: ConvexChanVese(updates=0).run(i, fem(s.mesh), primal_dual)),
         ("noise 0.0", lambda s, i: ROF().run(Image(i.values, clean=i.values), fem(s.mesh), primal_dual)),
-        ("w is -1", lambda s, i: ROF(w=-1).run(i, fem(s.mesh), primal_dual)),
+        ("weight is -1", lambda s, i: ROF(weight=-1).run(i, fem(s.mesh), primal_dual)),
         ("mu is 0", lambda s, i: ROF(mu=0).run(i, fem(s.mesh), primal_dual)),
         ("does not say which", lambda s, i: Inpainting().run(Image(i.values, noise=1.0), fem(s.mesh), primal_dual)),
         ("image has 10 values", lambda s, i: ROF(mu=1).run(Image(np.arange(10.0)), fem(s.mesh), primal_dual)),

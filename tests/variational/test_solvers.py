@@ -185,6 +185,7 @@ def test_published_pair_is_audited_under_the_consistent_energy(surface: Surface,
     assert solution.error_bound > np.sqrt(operator.mass @ (solution.values - sound.values) ** 2) - sound.error_bound
 
 
+@pytest.mark.slow
 def test_limit_of_the_published_pair_depends_on_lambda_and_that_of_the_sound_one_does_not(
     surface: Surface, image: Image
 ) -> None:
@@ -225,6 +226,7 @@ def test_conjugate_gradients_and_sweeps_tend_to_the_direct_solve(surface: Surfac
         assert np.abs(run.values - runs["direct"].values).max() <= 1e-4
 
 
+@pytest.mark.slow
 def test_published_dual_segmentation_is_biased_by_theta(surface: Surface, image: Image) -> None:
     fidelity, operator = segmenting(surface, image, 0.5), fem(surface.mesh)
     best = primal_dual(fidelity, operator, tolerance=1e-6)

@@ -14,6 +14,7 @@ from surfexp.spectrum.surface_spectrum import surface_spectrum
 from surfexp_studies.convergence.spectrum_error import spectrum_error
 
 
+@pytest.mark.slow
 def test_patches_gain_on_the_sphere_and_on_the_torus() -> None:
     ball = icosphere(3)
     operator = fem(ball.mesh)

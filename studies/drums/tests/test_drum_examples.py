@@ -21,6 +21,7 @@ def test_isospectral_drums(capsys: pytest.CaptureFixture[str]) -> None:
     assert (first[1], second[1]) == ("1 2 3 3 4", "1 2 3 4 4")
 
 
+@pytest.mark.slow
 def test_drum_values(capsys: pytest.CaptureFixture[str]) -> None:
     values, extrapolated, finest = printed("drum_values", capsys)
     assert float(values.split()[0]) == pytest.approx(2.5379439998, abs=2e-7)

@@ -18,6 +18,7 @@ def spectrum(surface: Surface, count: int = 25, **options):
     return surface_spectrum(surface, fem(surface.mesh), count, **options)
 
 
+@pytest.mark.slow
 def test_heat_trace_tells_the_corrected_expansion_from_the_published_one() -> None:
     sphere = icosphere(3)
     closed = heat_expansion(sphere, spectrum(sphere, 120, order=2, curved=True)).metrics

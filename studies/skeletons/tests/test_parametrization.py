@@ -75,6 +75,7 @@ def test_midline_coordinates_of_points_put_beside_the_midline():
     assert noise.std() == pytest.approx(1.0, abs=0.1) and abs(noise.mean()) < 0.15
 
 
+@pytest.mark.slow
 def test_a_planted_bump_is_found_where_it_is_and_nowhere_else():
     with_bump = {str(i): callosum(100 + i, edge_length=1.0, signal=4.0) for i in range(8)}
     without = {str(i): callosum(i, edge_length=1.0, signal=0.0) for i in range(8)}

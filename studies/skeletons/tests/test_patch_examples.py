@@ -7,6 +7,7 @@ import runpy
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 
@@ -32,6 +33,7 @@ def test_hamilton_jacobi(capsys):
     assert ends > 2 and forks >= 1 and loops == 0 and chain_ends == 2 and none == [0, 0]
 
 
+@pytest.mark.slow
 def test_level_set_parametrization(capsys):
     u, v, found_u, found_v, points, total, p = numbers("level_set_parametrization", capsys)
     assert abs(found_u - u) < 0.08 and abs(found_v - v) < 0.15 and 0 < points < 0.15 * total and p <= 0.02

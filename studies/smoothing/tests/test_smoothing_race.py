@@ -167,6 +167,7 @@ LINEAR: tuple[MethodName, ...] = ("none", "neighbour_mean", "geodesic_gaussian",
 CONVEX: tuple[MethodName, ...] = ("total_variation", "edge_weighted_variation", "generalised_variation")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*LINEAR, *CONVEX])
 def test_methods_follow_the_scale_of_the_map_and_keep_constants(name: MethodName) -> None:
     mesh, operator = BALL.mesh, fem(BALL.mesh)

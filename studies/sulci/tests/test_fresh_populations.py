@@ -46,6 +46,7 @@ def test_populations_without_a_common_subject() -> None:
         fresh_tests(differences, 2)
 
 
+@pytest.mark.slow
 def test_fresh_populations_leave_out_an_estimator_that_measures_too_few_pairs() -> None:
     rng = np.random.default_rng(0)
     whole = {side: rng.normal(100.0, 5.0, (9, 2)) for side in ("left", "right")}

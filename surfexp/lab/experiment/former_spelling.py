@@ -16,6 +16,7 @@ Known = Callable[[str, str], bool]
 SUMMARIES = ("all", "any", "mean", "min", "max", "ratio")
 AS_STATED = "as stated"
 WAY_OUT = "`surfexp upgrade FILE` rewrites a file"
+WEIGHTED = {"rof", "vectorial_rof", "tgv", "inpainting", "deblurring", "normal_filtering"}  # `w` is `weight`
 # beside the summary, in the order in which a claim is read
 ORDER = ("claim", "published", "quantity", "rows", "between", "because", "unconverged", "moved", "otherwise", "cause")
 
@@ -139,13 +140,15 @@ def _figure(value: Any, known: Known) -> Any:
 
 
 def _stage(kind: str, value: Any, known: Known) -> Any:
-    """{PLUGIN: {OPTION: VALUE}} is {name: PLUGIN, OPTION: VALUE}; an input {over: AXIS} is {dataset: NAME}."""
+    """{PLUGIN: {OPTION: VALUE}} is {name: PLUGIN, OPTION: VALUE}; an input {over: AXIS} is {dataset: NAME}; the weight was `w`."""
     if not isinstance(value, Mapping):
         return value
     if len(value) == 1:
         ((name, options),) = value.items()
         if name not in ("name", "inputs", "<<") and _is_options(options) and known(kind, name):
             value = rebuilt(value, {"name": name, **_spread(options)})
+    if "w" in value and value.get("name") in WEIGHTED:
+        value = rebuilt(value, [("weight" if key == "w" else key, item) for key, item in value.items()])
     if not isinstance(inputs := value.get("inputs"), Mapping):
         return value
     inner = rebuilt(inputs, [(role, _input(given, known)) for role, given in inputs.items()])

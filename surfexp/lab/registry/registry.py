@@ -90,7 +90,7 @@ def register(
     parameter of its name in `defaults_of`, the first function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.
     `metrics` declares what the results measure, beside what every result of the kind does (`METRICS` of its class).
-    `options` registers a function or class of the library as it stands: `register("model", "rof", options={"w":
+    `options` registers a function or class of the library as it stands: `register("model", "rof", options={"weight":
     Field(gt=0)})(ROF)`. Of its parameters these are options, each with its bounds; types and defaults are those of the
     signature. `names` says what an experiment calls a parameter where the function calls it otherwise: `names={"matrix":
     "distance_matrix"}`. `given` are parameters that the plugin always gives, `given={"method": "k_nearest"}`, and `summary`

@@ -22,14 +22,14 @@ class Deblurring:
     ----------
     width : float
         Standard deviation sqrt(2 time) of the blur in units of the edge length h.
-    w : float
+    weight : float
         mu sigma h, as in `ROF`.
     mu : float, optional
-        The published weight, in place of w.
+        The published weight, in place of `weight`.
     """
 
     width: float = 2.0
-    w: float = 0.9
+    weight: float = 0.9
     mu: float | None = None
 
     def fidelity(self, image: Image, operator: SurfaceOperator) -> HeatBlur:
@@ -42,7 +42,7 @@ class Deblurring:
         """
         check_positive("width", self.width)
         noisy = with_noise_level(image, operator) if self.mu is None else image
-        mu = weight_of(self.w, self.mu, noisy, operator)
+        mu = weight_of(self.weight, self.mu, noisy, operator)
         return HeatBlur(operator, image.values, mu, 0.5 * (self.width * operator.edge_length) ** 2)
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:

@@ -21,13 +21,13 @@ class Inpainting:
 
     Parameters
     ----------
-    w : float
+    weight : float
         mu sigma h, as in `ROF`.
     mu : float, optional
-        The published weight, in place of w; needed where the image has no noise.
+        The published weight, in place of `weight`; needed where the image has no noise.
     """
 
-    w: float = 0.9
+    weight: float = 0.9
     mu: float | None = None
 
     def fidelity(self, image: Image, operator: SurfaceOperator) -> SeparableQuadratic:
@@ -40,7 +40,7 @@ class Inpainting:
         """
         if image.known is None:
             raise ValueError(f"image {image.name!r} does not say which vertices are known, inpainting needs a hole")
-        mu = weight_of(self.w, self.mu, image, operator)
+        mu = weight_of(self.weight, self.mu, image, operator)
         return inpainting(operator.mass, image.values, image.known, mu)
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:

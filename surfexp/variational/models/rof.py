@@ -20,16 +20,16 @@ class ROF:
 
     Parameters
     ----------
-    w : float
-        Weight without unit, w = mu sigma h with the noise sigma of the image and the edge length h; the error is least
+    weight : float
+        Weight without unit, mu sigma h with the noise sigma of the image and the edge length h; the error is least
         near 1, the residual is as large as the noise near 0.55.
     mu : float, optional
-        The published weight, in 1 / (unit of the image * unit of length), in place of w.
+        The published weight, in 1 / (unit of the image * unit of length), in place of `weight`.
     by_channel : bool
         Denoise the channels one by one, as published, in place of the rotation-invariant |D phi|_F.
     """
 
-    w: float = 0.9
+    weight: float = 0.9
     mu: float | None = None
     by_channel: bool = False
 
@@ -39,10 +39,10 @@ class ROF:
         Raises
         ------
         ValueError
-            If a weight is not positive, or w is to be used for an image that is known to have no noise.
+            If a weight is not positive, or `weight` is to be used for an image that is known to have no noise.
         """
         noisy = with_noise_level(image, operator) if self.mu is None else image
-        return rof(operator.mass, image.values, weight_of(self.w, self.mu, noisy, operator))
+        return rof(operator.mass, image.values, weight_of(self.weight, self.mu, noisy, operator))
 
     def run(self, image: Image, operator: SurfaceOperator, method: Method) -> Solution:
         """Return the denoised image, with rmse and psnr where the clean one is known."""
@@ -75,20 +75,20 @@ def noise_notes(image: Image, noisy: Image) -> tuple[str, ...]:
     return (f"The noise of the map is not known: its standard deviation is estimated as {noisy.noise:.3g}{unit}.",)
 
 
-def weight_of(w: float, mu: float | None, image: Image, operator: SurfaceOperator) -> float:
-    """Return mu, or w / (sigma h) where it is None.
+def weight_of(weight: float, mu: float | None, image: Image, operator: SurfaceOperator) -> float:
+    """Return mu, or weight / (sigma h) where it is None.
 
     Raises
     ------
     ValueError
-        If a weight is not positive, or w is to be used and the noise of the image is not known.
+        If a weight is not positive, or `weight` is to be used and the noise of the image is not known.
     """
     if mu is not None:
         check_positive("mu", mu)
         return mu
-    check_positive("w", w)
+    check_positive("weight", weight)
     if image.noise <= 0:
         raise ValueError(
-            f"image {image.name!r} has noise {image.noise}, w = mu sigma h needs sigma > 0: give mu instead"
+            f"image {image.name!r} has noise {image.noise}, weight = mu sigma h needs sigma > 0: give mu instead"
         )
-    return w / (image.noise * operator.edge_length)
+    return weight / (image.noise * operator.edge_length)

@@ -25,16 +25,16 @@ class TGV:
 
     Parameters
     ----------
-    w : float
-        Dimensionless weight, w = mu sigma h, as in `ROF`.
+    weight : float
+        Dimensionless weight, mu sigma h, as in `ROF`.
     mu : float, optional
-        The weight itself, in 1 / (unit of the image * unit of length), in place of w.
+        The weight itself, in 1 / (unit of the image * unit of length), in place of `weight`.
     ratio : float
         Length in edge lengths h over which a slope may turn: small ones blur, large ones give staircasing, as total variation
         does.
     """
 
-    w: float = 0.9
+    weight: float = 0.9
     mu: float | None = None
     ratio: float = 2.0
 
@@ -48,7 +48,7 @@ class TGV:
         """
         check_positive("ratio", self.ratio)
         noisy = with_noise_level(image, operator) if self.mu is None else image
-        data = rof(operator.mass, image.values, weight_of(self.w, self.mu, noisy, operator))
+        data = rof(operator.mass, image.values, weight_of(self.weight, self.mu, noisy, operator))
         return GeneralisedVariation(data, operator, self.ratio * operator.edge_length)
 
     def run(self, image: Image, operator: SurfaceOperator, method: GeneralisedMethod) -> Solution:
