@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 from pydantic import BaseModel
 
@@ -48,6 +48,16 @@ class Plugin:
         """By role, the part of its result that the function takes."""
         return {role: item.part for role, item in self.inputs.items() if item.part}
 
+    @cached_property
+    def groups(self) -> dict[str, tuple[type, list[str]]]:
+        """By parameter that is a dataclass of results, its class and the roles that fill it."""
+        found: dict[str, tuple[type, list[str]]] = {}
+        hints = get_type_hints(self.function)
+        for role, item in self.inputs.items():
+            if item.group:
+                found.setdefault(item.group, (hints[item.group], []))[1].append(role)
+        return found
+
     @property
     def summary(self) -> str:
         """What it does in one line: what it was registered with, or the first line of the function's docstring."""
@@ -58,6 +68,8 @@ class Plugin:
         named = inputs | dict(self.options(**options))
         for role, part in self.parts.items():
             named[part] = getattr(named.pop(role), part)
+        for parameter, (group, roles) in self.groups.items():
+            named[parameter] = group(**{role: named.pop(role) for role in roles})
         for parameter, name in self.names.items():
             named[parameter] = named.pop(name)
         return self.function(**named, **self.given)
@@ -85,7 +97,8 @@ def register(
     """Register a function as plugin `name` of stage `kind`.
 
     A parameter annotated with the result type of a kind (or a list of it, or a dict of it by label or by `Member`) is an
-    input, named by its role; `mesh: TriangleMesh` takes the mesh of the role `surface`. Every other parameter is an option:
+    input, named by its role; `mesh: TriangleMesh` takes the mesh of the role `surface`, and a dataclass of results its fields.
+    Every other parameter is an option:
     `tolerance: Annotated[float, Field(gt=0, description="...")] = 1e-4`. An option without default has the one of the
     parameter of its name in `defaults_of`, the first function that has one, or else is required.
     `accepts` restricts, for a kind, which plugins may feed this one; it is checked before anything runs.

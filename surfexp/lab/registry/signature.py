@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
@@ -30,12 +30,14 @@ class Options(BaseModel):
 class Input:
     """One input of a plugin: the kind it asks for, how it takes results, and which part of a result, if not the whole.
 
-    It takes one, a list, or a dict by label or by member.
+    It takes one, a list, or a dict by label or by member. `group` is the parameter whose field it fills, if it does not
+    stand alone.
     """
 
     kind: str
     shape: str
     part: str = ""
+    group: str = ""
 
 
 def options_and_inputs(
@@ -54,7 +56,8 @@ def options_and_inputs(
         What the function is called in errors.
     function : callable
         A parameter whose annotation is the result type of a stage kind, or a list or dict of it, is an input; one that
-        is `mesh: TriangleMesh` takes the mesh of the surface, role "surface"; every other one is an option. Its bounds and
+        is `mesh: TriangleMesh` takes the mesh of the surface, role "surface"; the fields of a dataclass that holds results
+        alone are inputs; every other one is an option. Its bounds and
         description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
     defaults_of : sequence of callable
         Functions that hold the defaults of options without a default here, under the same name; the first that has one counts.
@@ -82,7 +85,7 @@ def options_and_inputs(
         vars(function).get("__init__", function), include_extras=True
     )  # of a class, its constructor's
     described = _described(inspect.getdoc(function) or "")
-    inputs, fields = dict[str, Input](), dict[str, Any]()
+    inputs, options = dict[str, Input](), dict[str, Any]()
     parameters = inspect.signature(function).parameters
     if missing := sorted({*(chosen or {}), *names, *given} - {*parameters}):
         raise UserError(
@@ -92,7 +95,7 @@ def options_and_inputs(
         if name in given:
             continue
         shown = names.get(name, name)
-        if shown in (*inputs, *fields):
+        if shown in (*inputs, *options):
             raise UserError(f"{where}: two parameters are called {shown!r}")
         if parameter.kind in (parameter.VAR_KEYWORD, parameter.VAR_POSITIONAL) or name not in hints:
             raise UserError(f"{where}: parameter {name!r} must be one input or option with its type, as in {NEW_FORM}")
@@ -103,6 +106,9 @@ def options_and_inputs(
             )
         if (found := _input(name, hint)) is not None:
             inputs[found.kind if found.part else shown] = found
+            continue
+        if grouped := _group(name, hint):
+            inputs |= grouped
             continue
         if chosen is not None and name not in chosen:
             if parameter.default is parameter.empty:
@@ -115,14 +121,14 @@ def options_and_inputs(
         if name in described:
             hint = Annotated[hint, Field(description=described[name])]
         if chosen is None:
-            fields[shown] = (hint, _default(where, name, parameter, defaults_of))
+            options[shown] = (hint, _default(where, name, parameter, defaults_of))
         else:
-            fields[shown] = _chosen_option(where, function, parameter, hint, chosen[name])
+            options[shown] = _chosen_option(where, function, parameter, hint, chosen[name])
     try:
-        return create_model(function.__name__, __base__=Options, **fields), inputs
+        return create_model(function.__name__, __base__=Options, **options), inputs
     except PydanticUserError as error:
         raise UserError(
-            f"{where}: {', '.join(fields)}: a parameter is a stage's result or a plain value ({error})"
+            f"{where}: {', '.join(options)}: a parameter is a stage's result or a plain value ({error})"
         ) from None
 
 
@@ -157,6 +163,15 @@ def _input(name: str, hint: Any) -> Input | None:
         return Input(kind_of(result), shape)
     except (AttributeError, KeyError):
         return None
+
+
+def _group(name: str, hint: Any) -> dict[str, Input]:
+    """The inputs that a dataclass holds, if it holds nothing else."""
+    if not (isinstance(hint, type) and is_dataclass(hint)):
+        return {}
+    hints = get_type_hints(hint)
+    found = {field.name: _input(field.name, hints[field.name]) for field in fields(hint)}
+    return {role: replace(item, group=name) for role, item in found.items() if item} if all(found.values()) else {}
 
 
 def _default(where: str, name: str, parameter: inspect.Parameter, defaults_of: Sequence[Callable[..., Any]]) -> Any:
