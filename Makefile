@@ -100,7 +100,7 @@ lock: # needs uv; writes no index address
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		pyproject.toml --extra dev -o requirements.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
-		pyproject.toml --extra dev --extra open3d --extra conic --extra print --extra bench --extra reliability --extra site -c requirements.lock -o requirements-optional.lock
+		pyproject.toml --extra dev --extra open3d --extra conic --extra print --extra bundle --extra bench --extra reliability --extra site -c requirements.lock -o requirements-optional.lock
 	uv pip compile --universal --generate-hashes --no-emit-index-url --no-header --no-annotate --python-version 3.11 \
 		--group release -o requirements-release.lock
 

@@ -64,6 +64,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "open": Entry("open", "Open the page of an experiment, or the overview of all, in the browser."),
         "diff": Entry("diff", "Compare two rows: the options that differ, and the metrics."),
         "export": Entry("export", "Write finished results as files for other programs."),
+        "rerun": Entry("rerun", "Run a bundle again and compare the results."),
         "ui": Entry("ui", "Start the MLflow dashboard on this machine."),
         "clean": Entry("clean", "Remove stored results that no plan names."),
         "verify": Entry("verify", "Check the hash of every stored result and name what is damaged."),
@@ -104,7 +105,7 @@ class Commands(click.Group):
         if not ctx.resilient_parsing and args[1:] != ["--help"]:
             if args[0] in SECTIONS["Surfaces and maps"]:
                 require_memory(LEAST_FOR_NUMERICS)
-            elif args[0] == "run":
+            elif args[0] in ("run", "rerun"):
                 require_memory(LEAST_FOR_RUNS)
         return super().resolve_command(ctx, args)
 

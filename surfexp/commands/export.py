@@ -9,14 +9,25 @@ import click
 from surfexp.commands import choices
 from surfexp.commands.click_command import results_option, shown
 from surfexp.commands.terminal import echo
+from surfexp.lab.errors import UserError
 
 LINES_LEFT_OUT = 10
 
 
-@click.command(**shown("export", "quickstart --to exported", "quickstart --kind solver --kind surface --to exported"))
+@click.command(
+    **shown(
+        "export",
+        "quickstart --to exported",
+        "quickstart --kind solver --kind surface --to exported",
+        "quickstart --bundle",
+    )
+)
 @click.argument("target", metavar="EXPERIMENT|RUN", shell_complete=choices.finished)
 @click.option(
-    "--to", "folder", type=click.Path(path_type=Path), default="export", help="folder of the files; made if not there"
+    "--to", "folder", type=click.Path(path_type=Path), help="folder of the files; made if not there  [default: export]"
+)
+@click.option(
+    "--bundle", is_flag=True, help="write one .zip that surfexp rerun runs again; --to names it (surfexp[bundle])"
 )
 @click.option("--all", "everything", is_flag=True, help="every stored stage, not only the rows and what they stand on")
 @click.option(
@@ -36,7 +47,8 @@ LINES_LEFT_OUT = 10
 @results_option
 def export(
     target: str,
-    folder: Path,
+    folder: Path | None,
+    bundle: bool,
     everything: bool,
     kinds: tuple[str, ...],
     matrix_market: bool,
@@ -54,6 +66,9 @@ def export(
     .shape.gii, labels .label.gii; eigenpairs, distances and solutions .npz; matrices SciPy's .npz; skeletons .vtk and
     .graphml; plots .svg too; all else .csv. Beside each FILE stands its certificate FILE.json; index.csv lists all files.
     """
+    if bundle:
+        return _bundled(results, target, folder, everything or bool(kinds))
+    folder = folder or Path("export")
     from rich.progress import track
 
     from surfexp.commands.console import Console
@@ -83,4 +98,28 @@ def export(
         echo(folder / row["file"])
     stages = len({row["key"] for row in export.rows})
     echo(f"{stages} of {len(nodes)} results in {len(export.rows)} files: {folder / 'index.csv'}", err=True)
+    return 0
+
+
+def _bundled(results: Path, target: str, file: Path | None, chosen: bool) -> int:
+    """Write the bundle of an experiment."""
+    import tempfile
+
+    from surfexp.commands.bundling.contents import write_contents
+    from surfexp.commands.bundling.crate import write_crate
+    from surfexp.commands.exporting.selection import find
+    from surfexp.extras import require_installed
+    from surfexp.io.replacing import check_writable
+
+    require_installed("surfexp export --bundle", "rocrate", "pyarrow")
+    plan, key = find(results, target)
+    if key or chosen:
+        raise UserError("a bundle is of a whole experiment: name that, without --all and --kind")
+    file = file or Path(f"{plan.settings.experiment}.crate.zip")
+    check_writable(file)
+    with tempfile.TemporaryDirectory(prefix=".bundle-", dir=results) as folder:
+        facts = write_contents(plan, results, Path(folder))
+        write_crate(Path(folder), file, facts)
+    echo(file)
+    echo(f"{len(plan.leaves)} rows in {file.stat().st_size / 1e6:.1f} MB; again: surfexp rerun {file}", err=True)
     return 0

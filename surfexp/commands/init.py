@@ -30,9 +30,9 @@ def init(experiment: str) -> None:
     if experiment not in (known := experiments()):
         raise unknown("experiment", experiment, known)
     texts = {
-        Path("Snakefile"): _template("Snakefile"),
+        Path("Snakefile"): template("Snakefile"),
         Path("config.yaml"): f"{CONFIGURATION}experiment: {experiment}\n",
-        Path("profiles/default/config.yaml"): _template("profile") + _executor(),
+        Path("profiles/default/config.yaml"): template("profile") + _executor(),
     }
     snakefile = Path("Snakefile")
     if snakefile.exists() and snakefile.read_text() != texts[snakefile]:
@@ -48,7 +48,8 @@ def init(experiment: str) -> None:
     echo("         snakemake -c2")
 
 
-def _template(name: str) -> str:
+def template(name: str) -> str:
+    """Return a file that is written, by its name among the templates."""
     return files("surfexp.commands").joinpath("templates", f"{name}.txt").read_text(encoding="utf-8")
 
 

@@ -29,7 +29,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
         if (top := {key: value for key, value in configuration.items() if key not in KINDS}) != before or plan is None:
             settings, before = settings_of(configuration), top
             plan, shown = plan or Plan(settings), settings.model_dump()
-            resolver = _Resolver(plan, settings.datasets)
+            resolver = Resolver(plan, settings.datasets)
         context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
         key = resolver.node(settings.target, context, ())
         leaf = Leaf(key, digest(flat_parameters(plan.nodes, key)), shown)
@@ -45,7 +45,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
 
 
 @dataclass
-class _Resolver:
+class Resolver:
     """Finds the stages of leaves that have their datasets in common.
 
     What was found is remembered by the configurations of those kinds that were looked at on the way: leaves of a sweep differ
@@ -86,13 +86,13 @@ class _Resolver:
         here = f"{kind}/{method.name}", context
         if here in path:
             raise UserError(f"cycle: {' -> '.join(name for name, _ in (*path[path.index(here) :], here))}")
-        options = _checked_options(method, configured)
+        options = checked_options(method, configured)
         check_known(f"input of {kind}/{method.name}", overrides, method.inputs)
         inputs = {
             role: self._input(method, role, context, dict(overrides.get(role) or {}), (*path, here))
             for role in method.inputs
         }
-        return self._add(method, options, inputs)
+        return self.add(method, options, inputs)
 
     def _input(
         self, method: Plugin, role: str, context: Context, override: Context, path: tuple[tuple[str, Context], ...]
@@ -115,7 +115,8 @@ class _Resolver:
         named = {member.label: key for member, key in keys.items()}
         return {"members": keys, "dict": named, "list": list(keys.values())}[wanted.shape]
 
-    def _add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
+    def add(self, method: Plugin, options: dict[str, Any], wired: dict[str, Any]) -> str:
+        """Add a stage to the plan by its checked options and the keys of its inputs; return its own key."""
         function, where = method.function.__qualname__, str(method.file)
         code, cache = code_digest(method.file, function), compiled_state(method.file)
         named = {name: options[name] for name in method.paths if options.get(name) is not None}
@@ -131,7 +132,8 @@ class _Resolver:
         return key
 
 
-def _checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
+def checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
+    """Return all options of a plugin, defaults included; UserError where one is unknown or outside its bounds."""
     where = f"{method.kind}/{method.name}"
     check_known(f"option of {where}", configured, method.options.model_fields)
     given = {name: value for name, value in configured.items() if value != "???"}
