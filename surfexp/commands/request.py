@@ -68,7 +68,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
 
     from surfexp.lab.composition.launch import launch
     from surfexp.lab.store.kinds import KINDS
-    from surfexp.report.combination import check_combinations
+    from surfexp.report.combination import check_combinations, leave_out_figures
     from surfexp.report.declared import check_names, leave_out_columns
 
     plans: list[Plan] = []
@@ -80,6 +80,8 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
             echo(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", err=True)
         check_names(plan)
         check_combinations(plan)
+        for line in leave_out_figures(plan):
+            echo(f"surfexp: {line}", err=True)
         # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment
         plans.append(joined(plans[-1], plan) if plans and plan.settings.objective else plan)
         action(plans[-1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import logging
 import shlex
 from collections.abc import Iterator
@@ -10,8 +11,10 @@ from pathlib import Path
 import pytest
 import yaml
 from hydra._internal.utils import get_args_parser
+from hydra.core.config_store import ConfigStore
 
 from surfexp.commands.command_line import main
+from surfexp.lab.composition.launch import prepare_hydra
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.hydra_flags import FLAGS, WITH_VALUE, parted
 
@@ -219,3 +222,11 @@ def test_what_is_removed_is_not_computed_with(own: Path, capsys: pytest.CaptureF
     (whole,) = plan_and_act(["experiment=own"], lambda plan: None)
     keys = [{leaf.key for leaf in plan.leaves} for plan in (removed, default, whole)]
     assert keys[0] == keys[1] and not keys[0] & keys[2]
+
+
+def test_what_plugins_publish_is_not_copied_whole_and_stays_as_it_is() -> None:
+    prepare_hydra()
+    published = ConfigStore.instance()
+    assert copy.deepcopy({"store": published})["store"] is published
+    published.load("solver/primal_dual.yaml").node["tolerance"] = "changed"
+    assert published.load("solver/primal_dual.yaml").node["tolerance"] != "changed"

@@ -87,6 +87,8 @@ def prepare_hydra() -> None:
     from hydra.core.plugins import Plugins
 
     configurations = ConfigStore.instance()
+    # it hands out copies of what it holds, so that Hydra, which copies it whole for each group, need not
+    ConfigStore.__deepcopy__ = lambda store, memo: store  # type: ignore[attr-defined]
     for (kind, name), method in open_catalogue(Path.cwd()).plugins.items():
         configurations.store(group=kind, name=name, node={"name": name, **method.defaults}, provider="surfexp")
     sys.modules["hydra_plugins.surfexp"] = sys.modules[__name__]  # Hydra instantiates plugins of that package only.
