@@ -40,7 +40,7 @@ def rerun(bundle: Path, folder: Path | None, trust: bool) -> int:
     place = folder or bundle.with_name(f"{name}-rerun")
     found = run_again(bundle, place, trusted)
     for package, (before, now) in found["versions"].items():
-        echo(f"version    {package} {now}, before {before}")
+        echo(f"version    {package} {now.replace('unknown', 'not installed')}, before {before}")
     others = [row for row in found["rows"] if row["state"] != "same"]
     others.sort(key=lambda row: row["state"] != "differs")
     for row in others[:LINES]:

@@ -136,6 +136,17 @@ def test_an_archive_without_a_list_or_a_plan_is_no_bundle(tmp_path: Path) -> Non
         opened(tmp_path / "a.zip")
     with pytest.raises(UserError, match=r"has no plan\.json"):
         opened(archive(tmp_path / "b.zip", {"bundle.json": b"{}"}))
+    with pytest.raises(UserError, match=r"has no bundle\.json"):
+        opened(archive(tmp_path / "c.zip", {"plan.json": b"{}"}))
+
+
+def test_a_bundle_of_another_version_is_told_in_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["rerun", str(archive(tmp_path / "a.zip", FILES))]) == 2
+    said = capsys.readouterr().err
+    assert "bundle.json of the bundle cannot be read" in said and said.count("\n") == 1
 
 
 def test_nothing_is_unpacked_over_files_that_are_there(tmp_path: Path) -> None:

@@ -14,10 +14,10 @@ from urllib.parse import unquote
 from surfexp.io.unpacked_sizes import check_unpacked
 from surfexp.lab.errors import UserError
 
-METADATA, PLAN = "ro-crate-metadata.json", "plan.json"
+METADATA, PLAN, FACTS = "ro-crate-metadata.json", "plan.json", "bundle.json"
 CODE, LONGEST_NAME, MOST_FILES, LARGEST_LIST = "plugins/", 240, 200_000, 256 << 20
 ROOMS = (CODE, "conf/experiment/", "inputs/", "published/")
-SINGLE = (METADATA, PLAN, "Snakefile", "config.yaml", "bundle.json", "README.md")
+SINGLE = (METADATA, PLAN, "Snakefile", "config.yaml", FACTS, "README.md")
 
 
 def opened(bundle: Path) -> list[str]:
@@ -56,8 +56,9 @@ def opened(bundle: Path) -> list[str]:
                         )
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError) as error:
         raise UserError(f"{bundle} is no bundle, or damaged: {' '.join(str(error).split())}") from None
-    if PLAN not in names:
-        raise UserError(f"{bundle} has no {PLAN}: it was not written by surfexp export --bundle")
+    for needed in (PLAN, FACTS):
+        if needed not in names:
+            raise UserError(f"{bundle} has no {needed}: it was not written by surfexp export --bundle")
     return sorted(names)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from surfexp.commands.bundling.agreement import Agreement, agreement, content_digest
 from surfexp.commands.bundling.contents import PUBLISHED
-from surfexp.commands.bundling.opening import CODE, PLAN, opened, unpack
+from surfexp.commands.bundling.opening import CODE, FACTS, PLAN, opened, unpack
 from surfexp.commands.execution import run
 from surfexp.commands.verdict_lines import verdicts_of
 from surfexp.lab.errors import UserError
@@ -57,7 +57,7 @@ def run_again(bundle: Path, folder: Path, trusted: Callable[[list[str]], bool]) 
         )
     unpack(bundle, names, folder)
     os.chdir(folder)
-    facts = json.loads(Path("bundle.json").read_text(encoding="utf-8"))
+    facts = _facts(Path(FACTS))
     open_catalogue(Path.cwd())
     before = _read(Path(PLAN))
     _check_packages(before, facts["versions"])
@@ -68,11 +68,22 @@ def run_again(bundle: Path, folder: Path, trusted: Callable[[list[str]], bool]) 
     found = {
         "rows": [_row(before, key, keys[key], one) for key, one in rows.items()],
         "counts": dict(Counter(one.state for one in rows.values())),
-        "verdicts": [[*pair, now] for pair, now in zip(facts["verdicts"], verdicts, strict=True)],
+        "verdicts": [[*pair, now] for pair, now in zip(facts["verdicts"], verdicts, strict=False)],
         "versions": {name: [of, now] for name, of in facts["versions"].items() if (now := package_version(name)) != of},
     }
     Path("rerun.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
     return found
+
+
+def _facts(path: Path) -> dict[str, Any]:
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+        return {
+            "versions": dict(facts["versions"]),
+            "verdicts": [(str(one), str(two)) for one, two in facts["verdicts"]],
+        }
+    except (KeyError, TypeError, ValueError, RecursionError):
+        raise UserError(f"{path} of the bundle cannot be read: install the version that wrote it") from None
 
 
 def _read(path: Path) -> Plan:
