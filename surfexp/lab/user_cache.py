@@ -12,6 +12,8 @@ from typing import Any
 
 import platformdirs
 
+from surfexp.io.replacing import replacing
+
 ENTRIES_KEPT = 5000
 
 
@@ -68,10 +70,8 @@ class Memory:
             return
         others = {key: value for key, value in self._read().items() if key not in self.used}
         entries = dict(list({**others, **self.used}.items())[-self.entries_kept :])
-        with contextlib.suppress(OSError):
-            temporary = folder / f".{self.name}.{os.getpid()}"
+        with contextlib.suppress(OSError, ValueError), replacing(folder / f"{self.name}.json") as temporary:
             temporary.write_text(json.dumps(entries))
-            temporary.replace(folder / f"{self.name}.json")
 
     def _read(self) -> dict[str, Any]:
         with contextlib.suppress(OSError, ValueError, TypeError):

@@ -6,7 +6,6 @@ no use when it is interrupted. So they are made once for a user, and a results f
 
 from __future__ import annotations
 
-import os
 import shutil
 import sqlite3
 import tempfile
@@ -16,6 +15,7 @@ from importlib.metadata import version
 from pathlib import Path
 from urllib.parse import quote
 
+from surfexp.io.replacing import replacing
 from surfexp.lab.user_cache import fault, user_cache
 
 SECONDS_TO_WAIT = 30.0
@@ -59,9 +59,8 @@ def prepare(database: Path) -> str:
             said = f"{database} {reason}: it is kept as {kept.name}, and runs are recorded in a new one"
         else:
             _set_journals_aside(database, _free_name(database))
-        temporary = database.with_name(f".{database.name}.{os.getpid()}")
-        shutil.copyfile(empty, temporary)
-        temporary.replace(database)
+        with replacing(database) as temporary:
+            shutil.copyfile(empty, temporary)
     return said
 
 
@@ -124,9 +123,9 @@ def _empty_database(folder: Path) -> Path:
     _make(made)
     if not keeps:
         return made
-    temporary = kept / f".{file.name}.{os.getpid()}"
-    shutil.copyfile(made, temporary)
-    return temporary.replace(file)
+    with replacing(file) as temporary:
+        shutil.copyfile(made, temporary)
+    return file
 
 
 def _make(database: Path) -> None:

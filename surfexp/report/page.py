@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections import Counter
 from collections.abc import Mapping
@@ -161,9 +160,8 @@ def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, An
 
 
 def _write(figure: Figure, file: Path) -> None:
-    temporary = file.with_name(f".{file.name}.{os.getpid()}")
-    temporary.write_bytes(figure.svg.encode() if file.suffix == ".svg" else encode_png(figure.pixels))
-    temporary.rename(file)
+    with store.replaced(file) as temporary:
+        temporary.write_bytes(figure.svg.encode() if file.suffix == ".svg" else encode_png(figure.pixels))
 
 
 def _suffix(figure: Figure) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import resource
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,6 +56,20 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     store.save(results, "assorted", KEY, result)
     return results
+
+
+@pytest.mark.parametrize("room", [0, 100, 1500])
+def test_a_result_without_room_leaves_nothing(stored: Path, tmp_path: Path, room: int) -> None:
+    result = store.load(stored, "assorted", KEY)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, before[1]))
+    try:
+        with pytest.raises(OSError, match=r"large|written"):
+            store.save(tmp_path, "assorted", KEY, result)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert not store.is_done(tmp_path, "assorted", KEY)
+    assert not [path for path in tmp_path.rglob("*") if path.is_file() and path.name != store.ARRAYS]
 
 
 def copy(stored: Path, folder: Path) -> Path:

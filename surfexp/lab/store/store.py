@@ -11,7 +11,7 @@ import hashlib
 import json
 import os
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -52,9 +52,19 @@ def note_on_older_keys(results: Path) -> str:
 def write_text(path: Path, text: str) -> None:
     """Write a file under a temporary name and rename it, so that nobody reads half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{HOST}.{os.getpid()}")
-    temporary.write_text(text)
-    temporary.rename(path)
+    with replaced(path) as temporary:
+        temporary.write_text(text)
+
+
+@contextlib.contextmanager
+def replaced(path: Path) -> Iterator[Path]:
+    """Yield a temporary name; what is written there takes the place of a file, or is removed where anything is raised."""
+    temporary = path.with_name(f".{HOST}.{os.getpid()}.{path.name}")
+    try:
+        yield temporary
+        temporary.rename(path)
+    finally:
+        temporary.unlink(missing_ok=True)
 
 
 def save(results: Path, kind: str, key: str, result: Any) -> None:
@@ -63,10 +73,9 @@ def save(results: Path, kind: str, key: str, result: Any) -> None:
     tree = encoded(result, "", arrays)
     folder = result_folder(results, kind, key)
     folder.mkdir(parents=True, exist_ok=True)
-    temporary = folder / f".arrays.{HOST}.{os.getpid()}.npz"
-    np.savez(temporary, **arrays)
-    record = {"arrays": _sha256(temporary), "key": key, "kind": kind, "result": tree}
-    temporary.rename(folder / ARRAYS)
+    with replaced(folder / ARRAYS) as temporary:
+        np.savez(temporary, **arrays)
+        record = {"arrays": _sha256(temporary), "key": key, "kind": kind, "result": tree}
     body = json.dumps(record, indent=1, sort_keys=True).removesuffix("\n}")
     write_text(folder / RECORD, body + _seal(body.encode()).decode())
 
