@@ -178,9 +178,7 @@ def read_gifti_labels(path: Path) -> LabelMap:
         raise ValueError("it holds no labels")
     # an array of another kind, such as a map, may stand before the labels
     first = next((array for array in arrays if array.intent == image_code(LABELS)), arrays[0])
-    keys = np.asarray(first.data)
-    keys = index_array(keys[:, 0] if keys.ndim == 2 and keys.shape[1] == 1 else keys, "its labels")
-    return LabelMap(_at_nodes(keys, nodes, -1), names)
+    return LabelMap(_at_nodes(index_array(first.data, "its labels"), nodes, -1), names)
 
 
 def image_code(intent: str) -> int:

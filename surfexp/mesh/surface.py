@@ -147,6 +147,16 @@ class Surface(Summarized):
             maps[name] = frozen(values, given)
         object.__setattr__(self, "scalars", maps)
 
+    @property
+    def vertices(self) -> Floats:
+        """(n, 3) float64 positions: those of `mesh`."""
+        return self.mesh.vertices
+
+    @property
+    def faces(self) -> Integers:
+        """(m, 3) int64 vertices of the triangles: those of `mesh`."""
+        return self.mesh.faces
+
     def deformed(self, mesh: TriangleMesh) -> Surface:
         """Return the surface with its vertices moved: of the same connectivity, but of no known shape and midline.
 

@@ -223,7 +223,9 @@ def _largest_entry(matrix: Any, name: str) -> float:
 
 def _sparse(matrix: Any, name: str) -> Any:
     if not issparse(matrix):
-        raise ValueError(f"{name} is a {type(matrix).__name__}, a sparse matrix is needed: it is factorised")
+        raise ValueError(
+            f"{name} is a {type(matrix).__name__}, a sparse matrix is needed, as scipy.sparse.csr_array({name}) of its entries"
+        )
     return matrix
 
 

@@ -95,6 +95,18 @@ def test_a_tolerance_that_bounds_nothing_is_the_users_mistake(
     assert "tolerance" in capsys.readouterr().err and not Path("result.vtk").exists()
 
 
+def test_an_interrupted_command_says_that_and_promises_nothing(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("surfexp.tasks.spectra.eigenpairs", interrupted)
+    assert main([*COMMANDS["modes"], "--to", "m.npz"]) == 130
+    said = capsys.readouterr().err
+    assert "interrupted" in said and "kept" not in said and not Path("m.npz").exists()
+
+
 def test_what_did_not_converge_ends_with_3_and_is_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from dataclasses import replace
 

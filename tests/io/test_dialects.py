@@ -114,8 +114,8 @@ PLYS = {
 @pytest.mark.parametrize("kind", PLYS)
 def test_dialects_of_ascii_ply(tmp_path: Path, kind: str) -> None:
     (tmp_path / "a.ply").write_bytes(PLYS[kind].encode())
-    vertices, faces, _ = read_mesh(tmp_path / "a.ply")
-    assert np.array_equal(vertices, V) and np.array_equal(faces, F)
+    vertices, faces, maps = read_mesh(tmp_path / "a.ply")
+    assert np.array_equal(vertices, V) and np.array_equal(faces, F) and not maps
 
 
 def stl_text(name: str) -> str:
@@ -188,6 +188,11 @@ def test_a_vertex_on_a_straight_side_stays_a_corner() -> None:
     for start in range(6):
         faces, _ = triangulate([np.roll(np.arange(6), start).tolist()], points)
         assert len(faces) == 4 and TriangleMesh(points, faces).areas.min() > 0.1
+    # the first ears that are cut of it make a triangle without area
+    x = np.array([6, 3, 1.5, 0, -9, -7.5, -6, -5, 0, 3])
+    y = np.array([0, 1, 3.5, 6, 2, 1, 0, -3, -9, -4.5])
+    faces, _ = triangulate([list(range(10))], points := np.column_stack([x, y, 0 * x]))
+    assert len(faces) == 8 and TriangleMesh(points, faces).areas.min() > 0.1
 
 
 def test_bent_and_crossing_polygons_are_said() -> None:

@@ -93,7 +93,21 @@ def test_collect_writes_a_dataset_and_lists_what_is_left_out(shapes: Path, capsy
     assert main(["collect", str(shapes), "--to", "mine"]) == 2 and "--force" in capsys.readouterr().err
 
 
-@pytest.mark.timeout(3600)
+FORMATS = (".off", ".obj", ".ply", ".stl", ".vtk", ".vtp", ".surf.gii")
+
+
+def test_a_folder_is_read_alike_by_collect_and_fingerprint(
+    working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (working_folder / "shapes").mkdir()
+    for number, suffix in enumerate(FORMATS):
+        write_mesh(working_folder / "shapes" / f"torus{number}{suffix}", torus(8 + number, 6).mesh)
+    assert main(["collect", "shapes", "--to", "mine"]) == 0
+    assert f"{len(FORMATS)} of {len(FORMATS)} files are items: torus {len(FORMATS)}" in capsys.readouterr().out
+    assert main(["fingerprint", "shapes", "-k", "2", "--to", "table.csv"]) == 0
+    assert len((working_folder / "table.csv").read_text().splitlines()) == 1 + len(FORMATS)
+
+
 def test_a_dataset_is_named_with_or_without_its_suffix_and_is_whole_or_not_there(
     shapes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -6,12 +6,14 @@ import warnings
 from pathlib import Path
 from types import SimpleNamespace
 
+import nibabel
 import numpy as np
 import pytest
 
 import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.io.hemisphere import hemisphere_of_file
+from surfexp.io.label_files import read_label_map
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import CoordinateTransform, SpatialFrame
 
@@ -78,6 +80,8 @@ def test_a_map_beside_a_surface_says_that_its_space_is_lost(working_folder: Path
     moved = SpatialFrame(transforms=(CoordinateTransform("a", "b", np.diag([2.0, 1, 1, 1])),))
     with pytest.warns(UserWarning, match="coordinate transforms"):
         sx.write("ball.ply", HEIGHT, sx.Surface(BALL, frame=moved))
+    with pytest.warns(UserWarning, match=r"volume geometry \(cras\)"):
+        sx.write("ball.surf.gii", sx.Surface(BALL, frame=SpatialFrame(volume={"cras": np.ones(3)})))
 
 
 @pytest.mark.parametrize(
@@ -147,7 +151,11 @@ def test_labels_are_written_with_the_names_of_their_keys(working_folder: Path, n
     }
 
 
-def test_labels_in_a_column_are_labels() -> None:
+def test_labels_in_a_column_are_labels(working_folder: Path) -> None:
+    keys = np.arange(len(HEIGHT), dtype=np.int32) % 3
+    array = nibabel.gifti.GiftiDataArray(keys[:, None], "NIFTI_INTENT_LABEL", datatype="NIFTI_TYPE_INT32")
+    nibabel.save(nibabel.gifti.GiftiImage(darrays=[array]), "column.label.gii")
+    assert np.array_equal(read_label_map("column.label.gii").keys, keys)
     column = LabelMap(np.arange(COUNT)[:, None], {})
     assert np.array_equal(column.keys, np.arange(COUNT))
     with pytest.raises(ValueError, match=r"shape \(81, 2\)"):

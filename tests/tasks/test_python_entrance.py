@@ -155,6 +155,11 @@ def test_a_constant_map_has_no_noise() -> None:
         sx.denoise(Surface(BALL), np.ones(len(HEIGHT)))
 
 
+def test_a_surface_has_its_arrays_as_meshes_of_others_do() -> None:
+    ball = sx.shape("icosphere", levels=2)
+    assert ball.vertices is ball.mesh.vertices and ball.faces is ball.mesh.faces
+
+
 def test_a_surface_by_hand_takes_arrays_as_functions_do() -> None:
     made = Surface((BALL.vertices, BALL.faces), scalars={"height": HEIGHT})
     assert np.array_equal(made.mesh.vertices, BALL.vertices) and np.array_equal(made.mesh.faces, BALL.faces)

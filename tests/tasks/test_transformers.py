@@ -96,6 +96,12 @@ def test_the_checks_of_scikit_learn_that_give_no_data(transformer) -> None:
         clone(transformer).set_params(n=0).fit(BODIES)
 
 
+@pytest.mark.parametrize("transformer", [sx.ShapeDNA(n=3), sx.NodalCounts(n=3)], ids=["ShapeDNA", "NodalCounts"])
+def test_no_surface_is_no_row(transformer) -> None:
+    width = transformer.fit_transform(BODIES).shape[1]
+    assert transformer.fit_transform([]).shape == (0, width)
+
+
 @pytest.mark.parametrize("count", [0, -3, 2.5, "7", None])
 def test_a_number_of_modes_that_is_none_is_refused_before_any_work(count: object) -> None:
     with pytest.raises(ValueError, match=re.escape(f"n = {count!r}")):
