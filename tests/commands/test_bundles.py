@@ -23,10 +23,12 @@ import pytest
 import surfexp as sx
 from surfexp.commands.bundling.agreement import agreement, content_digest, proved
 from surfexp.commands.bundling.opening import METADATA, fault_of, opened, unpack
+from surfexp.commands.bundling.rerun_bundle import check_paths
 from surfexp.commands.command_line import main
 from surfexp.commands.exporting.writers import arrays_of
 from surfexp.io import unpacked_sizes
 from surfexp.lab.errors import UserError
+from surfexp.lab.plan.plan import Node, Plan
 from surfexp.skeleton.feature import Feature
 from surfexp.variational.solution import Solution
 
@@ -156,6 +158,24 @@ def test_nothing_is_unpacked_over_files_that_are_there(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="is not empty"):
         unpack(bundle, opened(bundle), folder)
     assert (folder / "plan.json").read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("path", "inside"),
+    [("inputs/ab/ball.off", True), ("/etc/hostname", False), ("inputs/../../ball.off", False), ("inputs/link", False)],
+)
+def test_a_plan_names_no_file_outside_of_its_bundle(path: str, inside: bool, tmp_path: Path) -> None:
+    (tmp_path / "inputs").mkdir()
+    (tmp_path / "inputs" / "link").symlink_to("/etc/hostname")
+    node = Node(
+        "k", "surface", "file", "", "", "", {"path": path, "maps": {"a": path}}, {}, {"path": "0", "maps.a": "0"}
+    )
+    plan = Plan(None, {"k": node})  # type: ignore[arg-type]
+    if inside:
+        check_paths(plan, tmp_path)
+    else:
+        with pytest.raises(UserError, match=r"surface/file: path is .* outside of the bundle"):
+            check_paths(plan, tmp_path)
 
 
 def solution(low: float, high: float, **more: Any) -> Solution:

@@ -62,6 +62,7 @@ def run_again(bundle: Path, folder: Path, trusted: Callable[[list[str]], bool]) 
     before = _read(Path(PLAN))
     _check_packages(before, facts["versions"])
     plan, keys = replanned(before)
+    check_paths(plan, Path.cwd())
     run(plan)
     rows = {key: _agreement(before, key, keys[key]) for key in dict.fromkeys(leaf.key for leaf in before.leaves)}
     verdicts = [item.verdict for item in verdicts_of(plan, rows_of(plan, RESULTS.resolve()))]
@@ -104,6 +105,18 @@ def _check_packages(plan: Plan, versions: Mapping[str, str]) -> None:
             absent = [f"{one}=={of}" for one, of in versions.items() if package_version(one) == "unknown"]
             way_out = f"; the bundle was made with {', '.join(absent)}, not installed here" if absent else ""
             raise UserError(f"{error}{way_out}") from None
+
+
+def check_paths(plan: Plan, folder: Path) -> None:
+    """Refuse a plan whose options name files outside of a folder; UserError with the first."""
+    for node in plan.nodes.values():
+        for option in node.files:
+            name, _, key = option.partition(".")
+            path = str(node.options[name][key] if key else node.options[name])
+            if not (folder / path).resolve().is_relative_to(folder.resolve()):
+                raise UserError(
+                    f"{node.kind}/{node.plugin}: {option} is {path!r}, a file outside of the bundle: nothing was computed"
+                )
 
 
 def _agreement(plan: Plan, old: str, new: str) -> Agreement:
