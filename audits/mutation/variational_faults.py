@@ -202,10 +202,10 @@ VARIATIONAL_FAULTS = (
         (COAREA,),
     ),
     Fault(
-        "w = mu sigma h without h",
+        "weight = mu sigma h without h",
         "surfexp/variational/models/rof.py",
-        "return w / (image.noise * operator.edge_length)",
-        "return w / image.noise",
+        "return weight / (image.noise * operator.edge_length)",
+        "return weight / image.noise",
         ("tests/variational/test_models.py::test_rof_lowers_the_error", "tests/variational/test_invariance.py"),
     ),
     Fault(

@@ -20,7 +20,11 @@ _running: list[subprocess.Popen[bytes]] = []
 
 
 def end_on_signals() -> None:
-    """Let Ctrl-C, SIGTERM and a closed terminal end the run; the second of them ends it without any clearing up."""
+    """Let Ctrl-C, SIGTERM and a closed terminal end the run; the second of them ends it without any clearing up.
+
+    What a command before it in this process did counts no more.
+    """
+    _state.update(interrupted=False, driven=False)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is not signal.SIG_IGN:  # nohup, or a shell's background job
             signal.signal(number, _interrupt)

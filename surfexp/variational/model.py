@@ -49,5 +49,6 @@ def solver_of_models(method: Callable[..., Any]) -> Callable[..., Solution]:
     found = inspect.Signature([*parts, *keywords], return_annotation=Solution)
     solver.__signature__ = found  # type: ignore[attr-defined]
     solver.__annotations__ = {name: item.annotation for name, item in found.parameters.items()} | {"return": Solution}
-    solver.__name__, solver.__doc__ = method.__name__, method.__doc__
+    solver.__name__ = solver.__qualname__ = method.__name__
+    solver.__doc__ = method.__doc__
     return solver

@@ -14,7 +14,7 @@ from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan import remembered_plans as planned
 from surfexp.lab.plan import resolution
 from surfexp.lab.plan.plan import Plan, read_plan
-from surfexp.lab.plan.resolution import _Resolver, make_plan
+from surfexp.lab.plan.resolution import Resolver, make_plan
 from surfexp.lab.registry import catalogue, registry
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
@@ -67,13 +67,13 @@ def test_what_is_remembered_changes_nothing() -> None:
 
 def test_each_stage_is_resolved_once(monkeypatch: pytest.MonkeyPatch) -> None:
     resolved = []
-    original = _Resolver._add
+    original = Resolver.add
 
-    def counted(self: _Resolver, method: Any, *rest: Any) -> str:
+    def counted(self: Resolver, method: Any, *rest: Any) -> str:
         resolved.append(method.name)
         return original(self, method, *rest)
 
-    monkeypatch.setattr(_Resolver, "_add", counted)
+    monkeypatch.setattr(Resolver, "add", counted)
     configuration = sweep(5, 8)
     configuration["variants"] = configuration["variants"][:1]
     plan = make_plan(expand(configuration))
