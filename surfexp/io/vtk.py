@@ -22,6 +22,8 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 # numbers a point of the attributes that have a fixed width; they are no maps
 DIRECTIONS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "TENSORS6": 6}
 NUMBERS = ("GLOBAL_IDS", "PEDIGREE_IDS", "EDGE_FLAGS")
+# of a name in VTK's own reader
+LONGEST_WORD = 255
 CELLS = ("POLYGONS", "VERTICES", "LINES", "TRIANGLE_STRIPS", "CELLS")
 
 
@@ -35,7 +37,11 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
         lines.append(f"POINT_DATA {n}")
     channels = scalar_channels(scalars or {})
     for name, values in channels.items():
-        lines += [f"SCALARS {name_to_word(name)} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
+        if len(word := name_to_word(name)) > LONGEST_WORD:
+            raise ValueError(
+                f"map name {name[:20]!r}... has {len(word)} characters, .vtk holds {LONGEST_WORD}: rename the map"
+            )
+        lines += [f"SCALARS {word} double 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 

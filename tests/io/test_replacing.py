@@ -94,6 +94,14 @@ def test_a_name_that_cannot_be_read_again_is_refused(tmp_path: Path, suffix: str
         sx.write(tmp_path / f"ball{suffix}", {name: HEIGHT}, BALL)
 
 
+def test_a_name_is_as_long_as_vtk_reads_it(tmp_path: Path) -> None:
+    sx.write(tmp_path / "ball.vtk", {"x" * 255: HEIGHT}, BALL)
+    assert list(sx.read(tmp_path / "ball.vtk").scalars) == ["x" * 255]
+    for name in ("x" * 256, "ü" * 50):
+        with pytest.raises(ValueError, match=r"\.vtk holds 255: rename the map"):
+            sx.write(tmp_path / "ball.vtk", {name: HEIGHT}, BALL)
+
+
 def test_a_map_called_as_a_coordinate_is_refused_in_ply(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="its own x"):
         sx.write(tmp_path / "ball.ply", {"x": HEIGHT}, BALL)
