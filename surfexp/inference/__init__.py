@@ -1,0 +1,1 @@
+"""Tests at every vertex of a surface: permutations, clusters, threshold-free enhancement, corrections for many tests."""
