@@ -148,7 +148,7 @@ def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     page = results / name / "report.html"
     folder = "" if plan.settings.results == "results" else f" --results {shlex.quote(plan.settings.results)}"
     tail.append(f"report     {page if page.exists() else 'not written'}")
-    dashboard = f"dashboard  surfexp ui{folder}"
+    dashboard = dashboard_line(results, folder)
     lines = unconverged(plan, results.resolve(), groups)
     doubtful += lines
     if console.is_terminal:
@@ -185,3 +185,8 @@ def _show(plan: Plan) -> None:
     total = sum(unique.values())
     console.print(f"{len(plan.leaves)} configurations: {plan.requested} stages without sharing, {total} with sharing,")
     console.print(f"{sum(missing.values())} to compute, {total - sum(missing.values())} done")
+
+
+def dashboard_line(results: Path, folder: str) -> str:
+    """Say how the dashboard is opened, where runs could be recorded."""
+    return f"dashboard  surfexp ui{folder}" if (results / "mlflow.db").is_file() else "dashboard  not written"

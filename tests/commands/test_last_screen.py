@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -11,6 +12,7 @@ import pytest
 from rich.console import Console
 
 from surfexp.commands.last_screen import print_last_screen
+from surfexp.commands.request import dashboard_line
 from surfexp.commands.verdict_lines import verdicts_of
 from surfexp.commands.views import print_tables
 from surfexp.lab.plan.plan import Leaf, Plan
@@ -110,3 +112,9 @@ def test_a_failed_row_says_so_in_its_line() -> None:
     lines = printed([group], 80, 24)
     assert next(line for line in lines if line.endswith("failed")).startswith("split_bregman")
     assert not np.any([line.endswith("converged") for line in lines])
+
+
+def test_a_dashboard_is_named_where_there_is_one(tmp_path: Path) -> None:
+    assert dashboard_line(tmp_path, "") == "dashboard  not written"
+    (tmp_path / "mlflow.db").touch()
+    assert dashboard_line(tmp_path, " --results here") == "dashboard  surfexp ui --results here"
