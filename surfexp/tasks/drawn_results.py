@@ -16,6 +16,7 @@ from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.distances import ModeAlignment
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.null_maps import NullMaps
+from surfexp.tasks.tested_maps import PermutationTest
 from surfexp.variational.fitted_noise import FittedNoise
 
 # eigenfunctions and null maps that a picture shows
@@ -47,6 +48,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
         return [MapRow("level of the noise", [result.levels])]
     if isinstance(result, NullMaps):
         return [MapRow(f"null map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
+    if isinstance(result, PermutationTest):
+        return _tested(result)
     if isinstance(result, DenoisedMap):
         return _before_and_after(result, surface)
     if isinstance(result, ModeAlignment):
@@ -64,6 +67,18 @@ def _mode(name: str, values: Floats) -> MapRow:
     """An eigenfunction in units of its root mean square, with its nodal lines."""
     scale = float(np.sqrt(np.nanmean(values**2))) or 1.0
     return MapRow(name, [values / scale], MODE_LIMITS, DIVERGING, (0.0,), bar=MODE_BAR)
+
+
+def _tested(result: PermutationTest) -> list[MapRow]:
+    """t, and the corrected p of its enhancement with a line where it is the level."""
+    most = float(np.nanmax(np.abs(result.t))) or 1.0
+    least = 1.0 / len(result.null["tfce"])
+    line = -float(np.log10(result.level))
+    limits = (0.0, max(-float(np.log10(least)), line))
+    return [
+        MapRow("t", [result.t], (-most, most), DIVERGING),
+        MapRow("family-wise p of TFCE", [-np.log10(result.p_tfce)], limits, None, (line,), bar="-log10 p"),
+    ]
 
 
 def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:

@@ -1,0 +1,210 @@
+"""The test at every vertex: its short forms, its mask, its table, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.mesh.label_map import LabelMap
+
+BALL = sx.shape("icosphere", levels=2)
+N = len(BALL.mesh.vertices)
+HEIGHT = BALL.mesh.vertices[:, 2]
+NOISE = np.random.default_rng(0).standard_normal((N, 10))
+EFFECT = 2.5 * (HEIGHT > 0.6)[:, None]
+GROUPS = np.array(["old", "old", "young", "old", "young", "young", "old", "young", "old", "young"])
+PAIRS = np.array([0, 1, 0, 2, 1, 2, 3, 3, 4, 4])
+
+
+def same(one: sx.tasks.tested_maps.PermutationTest, other: sx.tasks.tested_maps.PermutationTest) -> None:
+    for name, values in one.maps.items():
+        np.testing.assert_allclose(values, other.maps[name], rtol=1e-9, err_msg=name)
+
+
+def test_an_effect_is_found_where_it_is() -> None:
+    found = sx.permutation_test(BALL, NOISE + EFFECT, count=2000)
+    inside = EFFECT[:, 0] > 0
+    assert found.facts["exact"] and found.facts["rearrangements"] == "all 1,024 sign flips that differ"
+    assert (found.p_tfce[inside] < 0.05).mean() > 0.9 and (found.p_tfce[~inside] < 0.05).mean() < 0.2
+    assert found.facts["least p"] == 2 / 1024 == found.p_tfce.min()
+    (region,) = found.regions
+    assert region.vertices == (found.p_tfce <= 0.05).sum() and inside[region.peak] and region.t == np.abs(found.t).max()
+    assert region.area == pytest.approx(BALL.mesh.vertex_areas[found.p_tfce <= 0.05].sum())
+    assert region.place == tuple(BALL.mesh.vertices[region.peak])
+    members = np.abs(found.t) >= found.facts["threshold"]
+    assert sum(one.vertices for one in found.clusters) == members.sum()
+    assert (found.p_extent[~members] == 1.0).all() and found.p_extent[members].min() == found.clusters[0].p_extent
+    assert len(found.table()["p_mass"]) == len(found.clusters) and "p_mass" not in found.table("regions")
+    # false discovery rates are under the family-wise p-values of the same statistic
+    assert (found.q_t >= 2 / 1024).all() and (found.q_tfce[inside] <= 0.05).mean() > 0.9
+
+
+def test_groups_are_the_design_that_they_stand_for() -> None:
+    data = NOISE + EFFECT * (GROUPS == "old")
+    dummies = np.column_stack([GROUPS == "old", GROUPS == "young"])
+    short = sx.permutation_test(BALL, data, groups=GROUPS, count=300)
+    same(short, sx.permutation_test(BALL, data, dummies, [1, -1], count=300))
+    assert (
+        short.facts["rearrangements"] == "all 252 permutations that differ"
+        and short.facts["tested"] == "old less young"
+    )
+    assert np.nanmax(short.t) > 4.0
+    reversed_names = np.where(GROUPS == "old", "first", "second")
+    same(short, sx.permutation_test(BALL, data, groups=reversed_names, count=300))
+
+
+def test_pairs_are_the_mean_of_their_differences() -> None:
+    found = sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS)
+    differences = NOISE[:, [0, 1, 3, 6, 8]] - NOISE[:, [2, 4, 5, 7, 9]]
+    same(found, sx.permutation_test(BALL, differences))
+    # the same test as a model with a column for each pair, permuted within pairs
+    model = np.column_stack([GROUPS == "old", *(k == PAIRS for k in range(5))]).astype(float)
+    permuted = sx.permutation_test(BALL, NOISE, model, [1, 0, 0, 0, 0, 0], blocks=PAIRS)
+    assert permuted.facts["rearrangements"] == "all 32 permutations that differ"
+    np.testing.assert_allclose(permuted.t, found.t, rtol=1e-9)
+    np.testing.assert_allclose(permuted.p_tfce, found.p_tfce, rtol=1e-9)
+
+
+def test_covariates_are_regressed_out() -> None:
+    age = np.random.default_rng(1).uniform(20, 80, 10)
+    found = sx.permutation_test(BALL, NOISE, groups=GROUPS, covariates=age, count=100)
+    moved = sx.permutation_test(
+        BALL, NOISE + 0.5 * age * (1.0 + HEIGHT[:, None]), groups=GROUPS, covariates=age, count=100
+    )
+    np.testing.assert_allclose(moved.t, found.t, rtol=1e-6)
+    np.testing.assert_allclose(moved.p_tfce, found.p_tfce)
+    assert found.facts["degrees of freedom"] == 7
+    mean = sx.permutation_test(BALL, NOISE, covariates=age, count=100)
+    centred = np.column_stack([np.ones(10), age - age.mean()])
+    same(mean, sx.permutation_test(BALL, NOISE, centred, [1, 0], count=100))
+
+
+def test_blocks_bound_what_is_exchanged() -> None:
+    families = np.array([0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
+    found = sx.permutation_test(BALL, NOISE, groups=GROUPS, blocks=families, count=200)
+    # 3 old of 5, times 2 old of 5
+    assert found.facts["rearrangements"] == "all 100 permutations that differ"
+    whole = sx.permutation_test(BALL, NOISE, blocks=PAIRS, exchange="whole")
+    assert whole.facts["rearrangements"] == "all 32 sign flips that differ"
+
+
+def test_the_mask_is_where_all_maps_are_known_and_nothing_outside_takes_part() -> None:
+    holes, outside = NOISE + EFFECT, HEIGHT < -0.5
+    holes[outside, 3] = np.nan
+    found = sx.permutation_test(BALL, holes, count=100)
+    assert all(np.isnan(values[outside]).all() for values in found.maps.values())
+    assert any("these are the mask" in note for note in found.notes)
+    masked = sx.permutation_test(
+        replace(BALL, mask=~outside), np.where(outside[:, None], 1e6, NOISE + EFFECT), count=100
+    )
+    same(found, masked)
+    with pytest.raises(ValueError, match="inside the mask: narrow the mask"):
+        sx.permutation_test(replace(BALL, mask=HEIGHT < 0.9), holes)
+
+
+def test_two_hemispheres_are_one_surface_of_two_components() -> None:
+    mesh = BALL.mesh
+    both = np.vstack([mesh.vertices, mesh.vertices + 3.0]), np.vstack([mesh.faces, mesh.faces + N])
+    left, right = NOISE + EFFECT, np.random.default_rng(5).standard_normal((N, 10))
+    found = sx.permutation_test(both, np.vstack([left, right]), count=2000)
+    apart = [sx.permutation_test(BALL, half, count=2000) for half in (left, right)]
+    np.testing.assert_allclose(found.tfce, np.concatenate([one.tfce for one in apart]), rtol=1e-9)
+    largest = np.maximum(*(one.null["tfce"] for one in apart))
+    np.testing.assert_allclose(found.null["tfce"], largest, rtol=1e-9)
+    assert (found.p_tfce[:N] >= apart[0].p_tfce).all() and found.facts["exact"]
+
+
+def test_neither_threads_nor_the_unit_of_length_change_anything() -> None:
+    first = sx.permutation_test(BALL, NOISE + EFFECT, count=200, threads=1)
+    assert (sx.permutation_test(BALL, NOISE + EFFECT, count=200, threads=2).p_tfce == first.p_tfce).all()
+    assert (sx.permutation_test(BALL, NOISE + EFFECT, count=200, seed=1).p_tfce != first.p_tfce).any()
+    for unit in (1e-100, 1e3, 1e100):
+        other = sx.permutation_test((unit * BALL.mesh.vertices, BALL.mesh.faces), NOISE + EFFECT, count=200)
+        np.testing.assert_allclose(other.p_tfce, first.p_tfce)
+        np.testing.assert_allclose(other.tfce / unit**2, first.tfce, rtol=1e-9)
+        assert other.clusters[0].area == pytest.approx(unit**2 * first.clusters[0].area)
+    scaled = sx.permutation_test(BALL, 1e200 * (NOISE + EFFECT), count=200)
+    np.testing.assert_allclose(scaled.p_mass, first.p_mass)
+
+
+def test_one_side() -> None:
+    both = sx.permutation_test(BALL, NOISE - EFFECT)
+    one = sx.permutation_test(BALL, NOISE - EFFECT, two_sided=False)
+    other = sx.permutation_test(BALL, EFFECT - NOISE, two_sided=False)
+    assert both.p_tfce.min() < 0.01 < one.p_tfce.min() and other.facts["least p"] == 1 / 1024
+    np.testing.assert_allclose(other.p_tfce.min(), both.p_tfce.min() / 2)
+    assert (one.p_t[one.t <= 0] == 1.0).all()
+
+
+def test_parcels_of_clusters() -> None:
+    table = LabelMap(np.where(HEIGHT > 0.0, np.where(BALL.mesh.vertices[:, 0] > 0, 1, 2), 0), {1: "front", 2: "back"})
+    found = sx.permutation_test(BALL, NOISE + EFFECT, labels=table, count=200)
+    shares = found.regions[0].parcels
+    assert set(shares) == {"front", "back"} and sum(shares.values()) == pytest.approx(1.0, abs=0.1)
+    assert list(shares.values()) == sorted(shares.values(), reverse=True)
+    assert found.table("regions")["parcels"][0].count("%") == 2
+    carried = replace(BALL, labels={"halves": table})
+    assert sx.permutation_test(carried, NOISE + EFFECT, labels="halves", count=200).regions[0].parcels == shares
+
+
+def test_maps_by_name_are_columns() -> None:
+    named = replace(BALL, scalars={f"subject {k}": column for k, column in enumerate(NOISE.T)})
+    same(sx.permutation_test(named, list(named.scalars), count=100), sx.permutation_test(BALL, NOISE, count=100))
+
+
+def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
+    found = sx.permutation_test(BALL, NOISE[:, :4])
+    assert found.facts["least p"] == 0.125 and found.notes[0].startswith("No p can be under 0.125")
+
+
+@pytest.mark.parametrize(
+    ("given", "line"),
+    [
+        ({"maps": NOISE[:, :1]}, "at least 2 subjects"),
+        ({"maps": []}, "at least 2 subjects"),
+        ({"maps": NOISE[:5]}, "the surface has 162 vertices"),
+        ({"groups": GROUPS[:4]}, "one label for each of 10 maps"),
+        ({"groups": np.arange(10)}, "exactly 2 are needed"),
+        ({"pairs": PAIRS}, "pairs need groups"),
+        ({"groups": GROUPS, "pairs": np.arange(10)}, "pair 0 has the maps old: one old and one young are needed"),
+        ({"design": np.ones((10, 2))}, "give a contrast of 2 numbers"),
+        ({"design": np.ones((10, 2)), "contrast": [1, 0]}, "cannot be estimated"),
+        ({"design": np.ones(9)}, "one row for each of 10 maps"),
+        ({"design": np.ones(10), "groups": GROUPS}, "a design and groups are given"),
+        ({"contrast": [1]}, "without a design"),
+        ({"covariates": np.full(10, np.nan)}, "leave these maps out"),
+        ({"exchange": "whole"}, "give blocks"),
+        ({"exchange": "none"}, "exchange = 'none', choose one of within, whole"),
+        ({"rearrange": "permute"}, "permuting cannot test a mean"),
+        ({"count": 1}, "count = 1, 2 to"),
+        ({"forming_p": 0.7}, "below 0.5"),
+        ({"level": 2}, "level = 2"),
+        ({"labels": "none"}, "labels = 'none', choose one of"),
+        ({"extent_power": -1}, "extent_power"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(given: dict, line: str) -> None:
+    with pytest.raises(ValueError, match=line) as caught:
+        sx.permutation_test(BALL, **{"maps": NOISE} | given)
+    assert "\n" not in str(caught.value)
+
+
+def test_it_is_drawn_with_a_line_at_the_level_and_written() -> None:
+    from surfexp.tasks.shown import shown_surfaces
+
+    found = sx.permutation_test(BALL, NOISE + EFFECT, count=200)
+    (t,), (p,) = shown_surfaces(BALL, found)
+    np.testing.assert_array_equal(t.values, found.t)
+    np.testing.assert_allclose(p.values, -np.log10(found.p_tfce))
+    assert len(p.contours) and t.scale.limits[0] == -t.scale.limits[1]
+
+
+def test_all_maps_are_written_and_read(working_folder: object) -> None:
+    found = sx.permutation_test(BALL, NOISE, count=50)
+    sx.write("found.npz", found.maps, BALL)
+    with np.load("found.npz") as again:
+        assert set(found.maps) <= set(again.files)
+        np.testing.assert_array_equal(again["p_tfce"], found.p_tfce)
