@@ -36,6 +36,7 @@ COMMANDS = {
     "repair": ["repair", "ball.ply"],
     "distance": ["distance", "ball.ply", "ball.ply", "-n", "3"],
     "align": ["align", "ball.ply", "ball.ply", "-k", "3"],
+    "test": ["test", "ball.ply", "map.csv", "map.csv"],
     "fingerprint": ["fingerprint", "ball.ply", "-k", "3"],
 }
 
@@ -52,7 +53,12 @@ def test_a_target_that_cannot_be_written_is_refused_at_once(
         monkeypatch.setattr(f"surfexp.tasks.{function}", never)
     for function in ("skeletons.reeb_graph", "skeletons.geodesic", "skeletons.mean_curvature", "pictures.plot"):
         monkeypatch.setattr(f"surfexp.tasks.{function}", never)
-    for function in ("distances.distance", "distances.align", "fingerprints.fingerprint"):
+    for function in (
+        "distances.distance",
+        "distances.align",
+        "fingerprints.fingerprint",
+        "permutation_testing.permutation_test",
+    ):
         monkeypatch.setattr(f"surfexp.tasks.{function}", never)
     assert main([*COMMANDS[name], "--to", target]) == 2
     said = capsys.readouterr().err

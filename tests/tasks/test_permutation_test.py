@@ -6,9 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.stats import false_discovery_control
+from scipy.stats import t as student
 
 import surfexp as sx
+from surfexp.inference.linear_model import contrast_model
+from surfexp.inference.permutation_inference import Statistics, null_distributions
+from surfexp.inference.rearrangements import sign_flips
+from surfexp.inference.vertex_graph import vertex_graph
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface_part import surface_part
+from surfexp.mesh.union_find import components as components_of
 
 BALL = sx.shape("icosphere", levels=2)
 N = len(BALL.mesh.vertices)
@@ -16,7 +24,12 @@ HEIGHT = BALL.mesh.vertices[:, 2]
 NOISE = np.random.default_rng(0).standard_normal((N, 10))
 EFFECT = 2.5 * (HEIGHT > 0.6)[:, None]
 GROUPS = np.array(["old", "old", "young", "old", "young", "young", "old", "young", "old", "young"])
-PAIRS = np.array([0, 1, 0, 2, 1, 2, 3, 3, 4, 4])
+PAIRS = np.array([0, 1, 1, 2, 0, 2, 3, 3, 4, 4])
+
+
+def components(edges: np.ndarray, inside: np.ndarray) -> np.ndarray:
+    """Number of the component of each vertex inside, -1 outside."""
+    return np.where(inside, components_of(edges[inside[edges].all(axis=1)], len(inside)), -1)
 
 
 def same(one: sx.tasks.tested_maps.PermutationTest, other: sx.tasks.tested_maps.PermutationTest) -> None:
@@ -38,8 +51,47 @@ def test_an_effect_is_found_where_it_is() -> None:
     assert sum(one.vertices for one in found.clusters) == members.sum()
     assert (found.p_extent[~members] == 1.0).all() and found.p_extent[members].min() == found.clusters[0].p_extent
     assert len(found.table()["p_mass"]) == len(found.clusters) and "p_mass" not in found.table("regions")
-    # false discovery rates are under the family-wise p-values of the same statistic
-    assert (found.q_t >= 2 / 1024).all() and (found.q_tfce[inside] <= 0.05).mean() > 0.9
+    assert found.facts["threshold"] == pytest.approx(student.isf(0.0005, 9))
+
+
+def test_the_table_and_the_corrections_are_those_of_the_maps() -> None:
+    """On an irregular surface with a mask, whose vertices have other numbers than those of the part."""
+    points = BALL.mesh.vertices * [1.0, 1.4, 2.0]
+    mask, parcels = (
+        (HEIGHT > -0.4) & (np.arange(N) > 5),
+        LabelMap((points[:, 0] > 0.3).astype(int), {0: "left", 1: "right"}),
+    )
+    body, effect = sx.Surface((points, BALL.mesh.faces), mask=mask), 1.2 * np.sin(3.0 * HEIGHT)[:, None]
+    found = sx.permutation_test(body, NOISE + effect, forming_p=0.05, labels=parcels, level=0.3)
+    kept = np.flatnonzero(np.isfinite(found.t))
+    assert kept[0] > 0 and len(found.clusters) > 3 and len(found.regions) > 1
+    part = surface_part(body.mesh, mask)
+    t, areas, edges = found.t[kept], part.mesh.vertex_areas, part.mesh.edges
+    for rows, beyond in (
+        (found.clusters, np.abs(t) >= found.facts["threshold"]),
+        (found.regions, found.p_tfce[kept] <= 0.3),
+    ):
+        labels = components(edges, beyond & (t > 0)) + 1000 * (components(edges, beyond & (t <= 0)) + 1)
+        sets = [np.flatnonzero(labels == one) for one in np.unique(labels[beyond])]
+        sets.sort(key=lambda inside: -(np.abs(t) * areas)[inside].sum())
+        assert [one.vertices for one in rows] == [len(inside) for inside in sets]
+        for row, inside in zip(rows, sets, strict=True):
+            peak = inside[np.abs(t[inside]).argmax()]
+            assert row.peak == kept[peak] and row.t == t[peak] and row.place == tuple(points[kept[peak]])
+            assert row.area == pytest.approx(areas[inside].sum())
+            assert row.mass == pytest.approx((np.abs(t) * areas)[inside].sum())
+            assert row.p_t == found.p_t[kept[inside]].min() and row.p_tfce == found.p_tfce[kept[inside]].min()
+            share = areas[inside][points[kept[inside], 0] > 0.3].sum() / areas[inside].sum()
+            assert row.parcels.get("right", 0.0) == pytest.approx(share)
+            if rows is found.clusters:
+                for name, size in (("extent", row.area), ("mass", row.mass)):
+                    p = (found.null[name] >= size * (1 - 1e-9)).mean()
+                    assert getattr(row, f"p_{name}") == found.maps[f"p_{name}"][kept[peak]] == pytest.approx(p)
+    for name, q in (("t", found.q_t), ("tfce", found.q_tfce)):
+        model = contrast_model((NOISE + effect)[kept].T, np.ones((10, 1)), np.ones(1))
+        flips = sign_flips(np.arange(10), 1024, np.random.default_rng(0))
+        nulls = null_distributions(model, flips, Statistics(vertex_graph(part.mesh), 2.0))
+        np.testing.assert_allclose(q[kept], false_discovery_control(getattr(nulls, f"p_{name}")))
 
 
 def test_groups_are_the_design_that_they_stand_for() -> None:
@@ -58,7 +110,7 @@ def test_groups_are_the_design_that_they_stand_for() -> None:
 
 def test_pairs_are_the_mean_of_their_differences() -> None:
     found = sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS)
-    differences = NOISE[:, [0, 1, 3, 6, 8]] - NOISE[:, [2, 4, 5, 7, 9]]
+    differences = NOISE[:, [0, 1, 3, 6, 8]] - NOISE[:, [4, 2, 5, 7, 9]]
     same(found, sx.permutation_test(BALL, differences))
     # the same test as a model with a column for each pair, permuted within pairs
     model = np.column_stack([GROUPS == "old", *(k == PAIRS for k in range(5))]).astype(float)
@@ -199,7 +251,8 @@ def test_it_is_drawn_with_a_line_at_the_level_and_written() -> None:
     (t,), (p,) = shown_surfaces(BALL, found)
     np.testing.assert_array_equal(t.values, found.t)
     np.testing.assert_allclose(p.values, -np.log10(found.p_tfce))
-    assert len(p.contours) and t.scale.limits[0] == -t.scale.limits[1]
+    (line,) = p.contours
+    assert line.levels == pytest.approx((-np.log10(0.05),)) and t.scale.limits[0] == -t.scale.limits[1]
 
 
 def test_all_maps_are_written_and_read(working_folder: object) -> None:

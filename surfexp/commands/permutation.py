@@ -1,0 +1,194 @@
+"""`surfexp test`: maps of subjects tested at every vertex."""
+
+from __future__ import annotations
+
+import csv
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from surfexp.commands.certificate import Inputs
+from surfexp.commands.click_command import shown
+from surfexp.commands.surface_arguments import (
+    finish,
+    map_of,
+    opened,
+    progress_line,
+    ready_map,
+    result_option,
+    shown_labels,
+    surface_options,
+)
+from surfexp.commands.terminal import echo
+
+if TYPE_CHECKING:
+    from surfexp.contract.arrays import Floats
+    from surfexp.tasks.tested_maps import PermutationTest
+
+EXAMPLES = (
+    "lh.white all.mgh --to test.npz",
+    "lh.white *.thickness.mgh --subjects participants.tsv --groups sex --covariates age --to test.func.gii",
+)
+
+
+@click.command(**shown("test", *EXAMPLES))
+@click.argument("path", metavar="SURFACE", type=click.Path())
+@click.argument("map_names", metavar="MAP...", nargs=-1, required=True, type=click.Path())
+@click.option("--subjects", type=click.Path(), metavar="FILE", help="table with a row for each map: .csv or .tsv")
+@click.option("--groups", metavar="COLUMN", help="the group that is named first less the other; without it the mean")
+@click.option("--pairs", metavar="COLUMN", help="with --groups: which two maps belong together")
+@click.option("--covariates", metavar="COLUMN,...", help="numbers that are regressed out")
+@click.option("--blocks", metavar="COLUMN", help="maps are rearranged within their block only")
+@click.option("--design", type=click.Path(), metavar="FILE", help="a linear model instead: .csv, a row for each map")
+@click.option("--contrast", metavar="NUMBER,...", help="of the columns of the design")
+@click.option("--count", default=5000, help="rearrangements")
+@click.option("--forming-p", default=0.001, help="uncorrected p from which on vertices form clusters")
+@click.option("--one-sided", is_flag=True, help="test for positive contrasts only")
+@click.option("--level", default=0.05, help="of the regions that are listed")
+@click.option("--labels", metavar="FILE", help="parcels of the table: .annot, .label.gii, .dlabel.nii")
+@click.option("--seed", default=0, help="of the random rearrangements")
+@click.option("--threads", type=int, help="all cores if not given")
+@click.option("--table", type=click.Path(path_type=Path), metavar="FILE", help="write the clusters as .csv")
+@surface_options
+@result_option()
+def test(
+    path: str,
+    map_names: tuple[str, ...],
+    subjects: str | None,
+    groups: str | None,
+    pairs: str | None,
+    covariates: str | None,
+    blocks: str | None,
+    design: str | None,
+    contrast: str | None,
+    count: int,
+    forming_p: float,
+    one_sided: bool,
+    level: float,
+    labels: str | None,
+    seed: int,
+    threads: int | None,
+    table: Path | None,
+    target: Path,
+    **given: Any,
+) -> int:
+    """Test maps of subjects at every vertex, corrected for all of them.
+
+    Each MAP is a file with the maps of one or several subjects, or a map that the surface carries. The result has t, exact
+    threshold-free enhancement (TFCE), and family-wise p-values by max t, cluster extent and mass, and TFCE.
+    """
+    import numpy as np
+
+    from surfexp.tasks.permutation_testing import permutation_test
+
+    surface, files = opened(path, **given)
+    values = np.column_stack([map_of(surface, name, files, given["hemisphere"]) for name in map_names])
+    options: dict[str, Any] = {"count": count, "forming_p": forming_p, "two_sided": not one_sided, "level": level}
+    options |= {"seed": seed}
+    asked = _of_subjects(subjects, files, groups, pairs, covariates, blocks) | _of_design(design, contrast, files)
+    parcels = shown_labels(surface, labels, files, given["hemisphere"]) if labels else None
+    if labels and parcels is None:
+        raise ValueError(f"--labels {labels} is no file of labels, give .annot, .label.gii or .dlabel.nii")
+    ready_map(target, files, surface, values, count=8)
+    _ready_table(table, files)
+    started = time.perf_counter()
+    with progress_line("test") as progress:
+        found = permutation_test(
+            surface, values, **asked, **options, labels=parcels, threads=threads, progress=progress
+        )
+    facts = found.facts | {"seconds": time.perf_counter() - started}
+    _say(found)
+    if table is not None:
+        _write_table(table, found)
+    return finish(target, found.maps, surface, "permutation test", options, files, facts, found.notes)
+
+
+def _of_subjects(
+    subjects: str | None,
+    files: Inputs,
+    groups: str | None,
+    pairs: str | None,
+    covariates: str | None,
+    blocks: str | None,
+) -> dict[str, Any]:
+    """What the columns of the table say."""
+    named = {"groups": groups, "pairs": pairs, "covariates": covariates, "blocks": blocks}
+    asked = {name: column for name, column in named.items() if column}
+    if not asked:
+        return {}
+    if subjects is None:
+        raise ValueError(f"--{next(iter(asked))} names a column: give --subjects FILE")
+    from surfexp.io.subject_table import read_subjects
+    from surfexp.mesh.given_numbers import one_of
+
+    files.add(subjects)
+    columns = read_subjects(subjects)
+    answer: dict[str, Any] = {}
+    for name, column in asked.items():
+        if name == "covariates":
+            parts = [one_of(part.strip(), "--covariates", columns) for part in column.split(",")]
+            answer[name] = [[_number(word, part) for word in columns[part]] for part in parts]
+            answer[name] = list(zip(*answer[name], strict=True))
+        else:
+            answer[name] = columns[one_of(column, f"--{name}", columns)]
+    return answer
+
+
+def _of_design(design: str | None, contrast: str | None, files: Inputs) -> dict[str, Any]:
+    """The matrix of a file and the numbers of the contrast."""
+    asked: dict[str, Any] = {}
+    if design is not None:
+        from surfexp.io.map_files import read_maps, side_by_side
+
+        files.add(design)
+        asked["design"] = side_by_side(read_maps(design), design)
+    if contrast is not None:
+        asked["contrast"] = [_number(word, "--contrast") for word in contrast.split(",")]
+    return asked
+
+
+def _number(word: str, where: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        raise ValueError(f"{where} has {word!r}, a number is needed") from None
+
+
+def _ready_table(table: Path | None, files: Inputs) -> None:
+    if table is None:
+        return
+    if table.suffix.lower() != ".csv":
+        raise ValueError(f"--table {table} has an unknown format, choose .csv")
+    from surfexp.io.replacing import check_writable
+
+    check_writable(table)
+    files.refuse_to_overwrite(table)
+
+
+def _write_table(table: Path, found: PermutationTest) -> None:
+    from surfexp.io.csv_cells import cells
+    from surfexp.io.replacing import replacing
+
+    columns = found.table("clusters")
+    with replacing(table) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(cells(row) for row in zip(*columns.values(), strict=True))
+
+
+def _say(found: PermutationTest) -> None:
+    """One line for each region of TFCE."""
+    for one in found.regions:
+        parcel = f", {next(iter(one.parcels))}" if one.parcels else ""
+        peak = f"t {one.t:.2f} at vertex {one.peak}{parcel}, p {one.p_tfce:.3g}"
+        echo(f"region of {one.vertices} vertices, area {one.area:.4g}: {peak}")
+    if not found.regions:
+        echo(f"no vertex has a family-wise p of TFCE up to {found.level:g}; the least is {_least(found.p_tfce):.3g}")
+
+
+def _least(values: Floats) -> float:
+    import numpy as np
+
+    return float(np.nanmin(values))

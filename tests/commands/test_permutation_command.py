@@ -1,0 +1,111 @@
+"""`surfexp test`: files and a table of subjects in, maps and a table of clusters out, as the function gives them."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import surfexp as sx
+from surfexp.commands.command_line import main
+from surfexp.io.map_files import read_maps
+from surfexp.io.subject_table import read_subjects
+from surfexp.mesh.label_map import LabelMap
+
+BALL = sx.shape("icosphere", levels=2)
+HEIGHT = BALL.mesh.vertices[:, 2]
+SEX = ["f", "f", "m", "m", "f", "m", "m", "f"]
+AGE = [23.0, 35.0, 41.0, 52.0, 60.0, 33.0, 47.0, 29.0]
+DATA = np.random.default_rng(0).standard_normal((162, 8)) + 4.0 * np.outer(HEIGHT > 0.6, np.array(SEX) == "f")
+
+
+@pytest.fixture
+def folder(working_folder: Path) -> Path:
+    sx.write("ball.surf.gii", BALL)
+    for k, column in enumerate(DATA.T):
+        sx.write(f"s{k}.npy", column)
+    sx.write("all.npz", {f"s{k}": column for k, column in enumerate(DATA.T)})
+    rows = ["id\tsex\tage\tpair", *(f"sub-{k}\t{SEX[k]}\t{AGE[k]}\t{pair}" for k, pair in enumerate("ABABCCDD"))]
+    Path("subjects.tsv").write_text("\n".join(rows) + "\n")
+    sx.write("halves.label.gii", LabelMap((HEIGHT > 0).astype(int), {0: "south", 1: "north"}), BALL)
+    return working_folder
+
+
+def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--subjects", "subjects.tsv", "--groups", "sex", "--covariates", "age", "--count", "200", "--seed", "3"]
+    more = ["--labels", "halves.label.gii", "--table", "clusters.csv", "--to", "found.npz"]
+    assert main(["test", "ball.surf.gii", *(f"s{k}.npy" for k in range(8)), *options, *more]) == 0
+    surface = sx.read("ball.surf.gii")
+    wanted = sx.permutation_test(surface, DATA, groups=SEX, covariates=AGE, count=200, seed=3)
+    with np.load("found.npz") as found:
+        for name, values in wanted.maps.items():
+            np.testing.assert_array_equal(found[name], values)
+    certificate = json.loads(Path("found.npz.json").read_text())
+    assert certificate["tested"] == "f less m" and certificate["options"]["seed"] == 3
+    assert {"subjects.tsv", "s0.npy", "halves.label.gii"} <= set(certificate["inputs"])
+    with Path("clusters.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == len(wanted.clusters) > 0 and rows[0]["parcels"].startswith("north")
+    assert [float(row["p_mass"]) for row in rows] == [one.p_mass for one in wanted.clusters]
+    said = capsys.readouterr().out
+    assert said.count("region of") == len(wanted.regions) and ", north, p " in said
+
+
+def test_one_file_of_all_maps_and_a_design(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    design = np.column_stack([np.array(SEX) == "f", np.array(SEX) == "m"]).astype(float)
+    np.savetxt("design.csv", design, delimiter=",")
+    call = ["test", "ball.surf.gii", "all.npz", "--design", "design.csv", "--contrast", "1,-1", "--one-sided"]
+    assert main([*call, "--to", "found.func.gii"]) == 0
+    wanted = sx.permutation_test(BALL, DATA, design, [1, -1], two_sided=False)
+    certificate = json.loads(Path("found.func.gii.json").read_text())
+    assert certificate["rearrangements"] == wanted.facts["rearrangements"] == "all 70 permutations that differ"
+    assert certificate["exact"] is True and certificate["options"]["two_sided"] is False
+    found = read_maps("found.func.gii")
+    np.testing.assert_allclose(found["p_tfce"], wanted.p_tfce, rtol=1e-6)
+    assert main(["test", "ball.surf.gii", "all.npz", "--level", "0.001", "--to", "mean.npz"]) == 0
+    least = np.nanmin(sx.permutation_test(BALL, DATA).p_tfce)
+    assert f"no vertex has a family-wise p of TFCE up to 0.001; the least is {least:.3g}" in capsys.readouterr().out
+
+
+def test_pairs_of_a_table(folder: Path) -> None:
+    call = ["test", "ball.surf.gii", "all.npz", "--subjects", "subjects.tsv", "--groups", "sex", "--pairs", "pair"]
+    assert main([*call, "--to", "found.npz"]) == 0
+    assert json.loads(Path("found.npz.json").read_text())["tested"] == "f less m in pairs"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["--groups", "sex"], "--groups names a column: give --subjects FILE"),
+        (["--subjects", "subjects.tsv", "--groups", "sexe"], "--groups = 'sexe', choose one of id, sex, age, pair"),
+        (["--subjects", "subjects.tsv", "--covariates", "sex"], "sex has 'f', a number is needed"),
+        (["--subjects", "none.tsv", "--groups", "sex"], "none.tsv: no such file"),
+        (["--contrast", "1,x"], "--contrast has 'x', a number is needed"),
+        (["--labels", "all.npz"], "is no file of labels"),
+        (["--table", "clusters.xls"], "choose .csv"),
+        (["--table", "subjects.csv/a.csv"], "subjects.csv"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(
+    folder: Path, arguments: list[str], line: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["test", "ball.surf.gii", "all.npz", *arguments, "--to", "found.npz"]) == 2
+    said = capsys.readouterr().err.strip()
+    assert line in said and len(said.splitlines()) == 1 and not Path("found.npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("id,age\n", "has 1 rows"),
+        ("id,id\n1,2\n", "two columns have the name 'id'"),
+        ("id,age\na,1\nb\n", "row 3 has 1 cells, 2 are needed"),
+    ],
+)
+def test_tables_of_subjects_that_are_none(working_folder: Path, text: str, line: str) -> None:
+    Path("table.csv").write_text(text)
+    with pytest.raises(ValueError, match=line):
+        read_subjects("table.csv")
