@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from surfexp.experiments import run as run
     from surfexp.linalg.ldlt import ldlt as ldlt
     from surfexp.mesh.surface import Surface as Surface
+    from surfexp.tasks.comparison_of_maps import compare_maps as compare_maps
     from surfexp.tasks.denoising import denoise as denoise
     from surfexp.tasks.denoising import smooth as smooth
     from surfexp.tasks.denoising_path import denoise_path as denoise_path

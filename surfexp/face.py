@@ -9,6 +9,7 @@ FACE = {
     "Surface": "surfexp.mesh.surface",
     "align": "surfexp.tasks.distances",
     "check": "surfexp.tasks.repairing",
+    "compare_maps": "surfexp.tasks.comparison_of_maps",
     "denoise": "surfexp.tasks.denoising",
     "denoise_path": "surfexp.tasks.denoising_path",
     "distance": "surfexp.tasks.distances",

@@ -29,6 +29,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "denoise": Entry("map_commands", "Remove the noise of a map by the filters that promise the least error."),
         "noise": Entry("noise", "Say what noise a map has: level, outliers, correlation."),
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
+        "nulls": Entry("nulls", "Make null maps of a map, and tell its correlation with another from chance."),
         "test": Entry("permutation", "Test maps of subjects at every vertex, corrected for all of them."),
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
         "skeleton": Entry("surface_commands", "Find the Reeb graph of a map on a surface."),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_array
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.nulls.eigenstrapping import group_powers
 from surfexp.nulls.variogram import VariogramPairs
 
@@ -34,6 +34,30 @@ def power_error(modes: Floats, mass: csr_array, values: Floats, nulls: Floats) -
     wanted = group_powers(modes, mass, values[:, None])[1:]
     found = group_powers(modes, mass, filled)[1:]
     return np.asarray(np.abs(found - wanted).sum(axis=0) / wanted.sum())
+
+
+def rest_correlation(modes: Floats, mass: csr_array, values: Floats, edges: Integers) -> float:
+    """Return what permuting loses: the covariance of neighbours in what modes leave out, over the variance of the map.
+
+    A null map whose rest is permuted is so much rougher than its map. On Gaussian fields a test at 5 % rejects 5 to 6 % up to
+    .04, 7 % at .06, 10 % at .16 and 13 % at .24.
+
+    Parameters
+    ----------
+    modes : (n, k) float64
+        Orthonormal in the mass.
+    mass : (n, n) csr_array
+    values : (n,) float64
+        Not constant.
+    edges : (e, 2) int64
+
+    Returns
+    -------
+    float
+        At most 1; about 0 where the rest is white, below where neighbours differ more than by chance.
+    """
+    rest = values - modes @ (modes.T @ (mass @ values))
+    return float((rest[edges[:, 0]] * rest[edges[:, 1]]).mean() / values.var())
 
 
 def variogram_error(pairs: VariogramPairs, values: Floats, nulls: Floats) -> Floats:

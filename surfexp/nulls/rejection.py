@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm as normal
 from scipy.stats import t as student
 
 from surfexp.contract.arrays import Floats
@@ -100,6 +101,38 @@ def parametric_p_values(observed: Floats, count: int) -> Floats:
     with np.errstate(divide="ignore"):
         ratio = np.abs(observed) * np.sqrt((count - 2) / (1.0 - observed**2))
     return np.asarray(2.0 * student.sf(ratio, count - 2))
+
+
+def effective_interval(observed: float, null: Floats) -> tuple[float, float, float]:
+    """Return the ends of a 95 % confidence interval of a correlation, and of how many independent observations it is.
+
+    Correlations of m independent pairs without a relation have the variance 1 / (m - 1). The variance of null correlations
+    about 0 gives m; the interval is Fisher's, tanh(artanh r +- 1.96 / sqrt(m - 3)).
+
+    Parameters
+    ----------
+    observed : float
+    null : (r,) float64
+        Correlations of null maps; NaN does not count.
+
+    Returns
+    -------
+    float
+    float
+    float
+        m. The interval is -1 to 1 where m is 3 or less.
+
+    References
+    ----------
+    Clifford, Richardson, Hemon: Assessing the significance of the correlation between two spatial processes (1989).
+    """
+    with np.errstate(divide="ignore"):
+        count = float(1.0 + 1.0 / np.nanmean(null**2))
+        centre = np.arctanh(np.clip(observed, -1.0, 1.0))
+    if not count > 3.0:
+        return -1.0, 1.0, count
+    reach = normal.isf(0.025) / np.sqrt(count - 3.0)
+    return float(np.tanh(centre - reach)), float(np.tanh(centre + reach)), count
 
 
 def crossed_interval(rejected: NDArray[np.bool_], seed: int = 0) -> tuple[float, float, float]:

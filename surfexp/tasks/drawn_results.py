@@ -12,6 +12,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.tasks.comparison_of_maps import MapComparison
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.distances import ModeAlignment
 from surfexp.tasks.map_row import MapRow
@@ -46,6 +47,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
         return [MapRow("", [None], skeleton=result)]
     if isinstance(result, FittedNoise):
         return [MapRow("level of the noise", [result.levels])]
+    if isinstance(result, MapComparison):
+        return _of_result(result.surrogates, surface)
     if isinstance(result, NullMaps):
         return [MapRow(f"null map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
     if isinstance(result, PermutationTest):

@@ -15,7 +15,7 @@ from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.nulls.eigenstrapping import eigenstrapped, group_powers
-from surfexp.nulls.kept import power_error, variogram_error
+from surfexp.nulls.kept import power_error, rest_correlation, variogram_error
 from surfexp.nulls.neighbourhoods import nearest_along_surface
 from surfexp.nulls.variogram import variogram_pairs
 from surfexp.nulls.variogram_matching import VariogramMatching
@@ -32,6 +32,8 @@ LARGEST_SEED = 2**128 - 1
 FRACTIONS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 REACH = 0.25
 TOLERANCE = 1e-10
+# share of the variance that neighbours have in common in what modes leave out, from which on null maps are too rough
+MOST_LOST = 0.05
 # a component with a smaller share of the vertices of the largest is an island
 ISLAND = 0.05
 
@@ -94,8 +96,10 @@ def null_maps(
     -------
     NullMaps
         `values`, and the certificate: share_in_modes (of the map's variance), power_error (of groups, 0 where
-        the modes hold all; the largest of components) and complete, or variogram_error; errors are relative, medians over
-        null maps. Notes name islands, components with less than a twentieth of the vertices of the largest, which are NaN.
+        the modes hold all; the largest of components), rest_correlation (of neighbours, that permuting the residual
+        loses, over the map's variance) and complete, or variogram_error; errors are relative, medians over null maps.
+        Notes say where that loss is over .05. They name islands, components with less than a twentieth of the vertices
+        of the largest, which are NaN.
 
     Raises
     ------
@@ -153,7 +157,7 @@ def _by_modes(
 ) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
     """Each component by modes of its own: what is turned in one has no share in another."""
     nulls = np.empty((len(inside), count))
-    held, variance, kept, complete = 0.0, 0.0, 0.0, True
+    held, variance, kept, lost, complete = 0.0, 0.0, 0.0, -np.inf, True
     notes: tuple[str, ...] = ()
     for component in range(mesh.component_count):
         one = surface_part(mesh, mesh.component_labels == component)
@@ -168,8 +172,16 @@ def _by_modes(
         held += float(group_powers(system.vectors, mass, values[:, None])[1:].sum())
         variance += float(centred @ (mass @ centred))
         kept = max(kept, float(np.median(power_error(system.vectors, mass, values, found))))
+        lost = max(lost, rest_correlation(system.vectors, mass, values, one.mesh.edges))
         complete &= system.complete
-    certificate = {"share_in_modes": held / variance, "power_error": kept, "modes": modes, "complete": complete}
+    certificate = {"share_in_modes": held / variance, "power_error": kept, "rest_correlation": lost}
+    certificate |= {"modes": modes, "complete": complete}
+    if lost > MOST_LOST:
+        notes += (
+            f"{modes} modes leave out {1.0 - held / variance:.0%} of the map's variance, in which neighbours correlate "
+            f"({lost:.2f} of the variance): permuted, it makes null maps too rough, and tests reject too often. Take more "
+            "modes, or method='variogram'.",
+        )
     return nulls, certificate, notes
 
 

@@ -36,6 +36,7 @@ COMMANDS = {
     "repair": ["repair", "ball.ply"],
     "distance": ["distance", "ball.ply", "ball.ply", "-n", "3"],
     "align": ["align", "ball.ply", "ball.ply", "-k", "3"],
+    "nulls": ["nulls", "ball.ply", "map.csv", "--count", "3"],
     "test": ["test", "ball.ply", "map.csv", "map.csv"],
     "fingerprint": ["fingerprint", "ball.ply", "-k", "3"],
 }

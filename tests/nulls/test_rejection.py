@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import pearsonr
 
-from surfexp.nulls.rejection import correlations, crossed_interval, p_values, parametric_p_values
+from surfexp.nulls.rejection import correlations, crossed_interval, effective_interval, p_values, parametric_p_values
 
 RANDOM = np.random.default_rng(0)
 MAPS, PARTNERS = RANDOM.standard_normal((60, 4)) + 3.0, RANDOM.standard_normal((60, 5)) - 2.0
@@ -47,6 +47,17 @@ def test_the_parametric_test_is_pearsons() -> None:
     found = parametric_p_values(correlations(MAPS, PARTNERS)[1], 60)
     np.testing.assert_allclose(found, [pearsonr(MAPS[:, 1], column).pvalue for column in PARTNERS.T])
     assert parametric_p_values(np.array([1.0]), 60)[0] < 1e-100
+
+
+def test_the_interval_of_independent_pairs_is_fishers() -> None:
+    wanted = pearsonr(MAPS[:, 1], PARTNERS[:, 2]).confidence_interval()
+    observed = float(correlations(MAPS[:, [1]], PARTNERS[:, [2]])[0, 0])
+    # of 60 independent pairs null correlations have the variance 1 / 59
+    null = np.array([1.0, -1.0, 1.0, np.nan]) / np.sqrt(59)
+    low, high, count = effective_interval(observed, null)
+    assert (low, high) == pytest.approx((wanted.low, wanted.high)) and count == pytest.approx(60.0)
+    assert effective_interval(0.9, np.array([0.9, -0.9]))[:2] == (-1.0, 1.0)
+    assert effective_interval(1.0, null)[:2] == (1.0, 1.0)
 
 
 def test_the_interval_of_pairs_that_share_maps() -> None:

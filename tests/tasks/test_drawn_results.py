@@ -70,6 +70,7 @@ def test_a_skeleton_is_drawn_with_its_nodes() -> None:
         lambda one: sx.segment(one, "height"),
         lambda one: sx.noise(one, "height"),
         lambda one: sx.null_maps(one, "height", 2, seed=0),
+        lambda one: sx.compare_maps(one, "height", one.mesh.vertices[:, 0], count=9, modes=25),
         lambda one: sx.permutation_test(one, np.random.default_rng(0).standard_normal((len(one.mesh.vertices), 4))),
         lambda one: sx.reeb_graph(one, "height"),
         lambda one: sx.align(one, one, 2),

@@ -7,6 +7,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.nulls.fields import gaussian_fields
 from surfexp.operators.assembly import mass_matrix
 from surfexp.operators.fem import fem
 
@@ -50,6 +51,22 @@ def test_variograms_are_matched() -> None:
         return float(((values[ends[:, 0]] - values[ends[:, 1]]) ** 2).mean() / values.var())
 
     assert steps(smooth.values) < 0.2 * steps(rough.values)
+
+
+@pytest.mark.parametrize(("width", "told"), [(0.02, False), (0.4, True), (2.0, False)])
+def test_a_rest_that_is_smooth_is_told(width: float, told: bool) -> None:
+    """Of white noise permuting loses nothing; of a field that few modes hold it loses the correlation of neighbours."""
+    values = gaussian_fields(fem(BALL.mesh), width, 1, seed=1)[:, 0]
+    nulls = sx.null_maps(BALL, values, 200, modes=16)
+    ends = BALL.mesh.edges
+
+    def covariance(maps: np.ndarray) -> np.ndarray:
+        centred = maps - maps.mean(axis=0)
+        return np.asarray((centred[ends[:, 0]] * centred[ends[:, 1]]).mean(axis=0) / maps.var(axis=0))
+
+    lost = float(covariance(values[:, None])[0] - covariance(nulls.values).mean())
+    assert nulls.certificate["rest_correlation"] == pytest.approx(lost, abs=0.04)
+    assert any("too rough" in note for note in nulls.notes) == told == (lost > 0.05)
 
 
 def test_the_mask_is_kept() -> None:
