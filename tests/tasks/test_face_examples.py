@@ -157,3 +157,20 @@ def test_spectrum_of_a_solid(printed: list[str]) -> None:
 def test_a_page_that_proves_itself(printed: list[str]) -> None:
     assert [line.partition(":")[0] for line in printed] == ["modes.html", "step.html"]
     assert all(0.2 < float(line.split()[1]) < 1.0 for line in printed)
+
+
+@pytest.mark.slow
+def test_where_groups_differ(printed: list[str]) -> None:
+    *regions, last = printed
+    held, beyond = numbers([last])
+    assert regions and all(numbers([line])[-1] <= 0.05 for line in regions)
+    assert held > 60 and beyond < 20 and Path("where_groups_differ.png").exists()
+
+
+@pytest.mark.slow
+def test_do_two_maps_correlate(printed: list[str]) -> None:
+    r, low, high, p, observations = numbers(printed[:1])
+    assert low < r < high < 0 and p < 0.01 and 50 < observations < 1000
+    assert printed[1].startswith("Variograms: 400 modes hold")
+    _, chance, naive = numbers(printed[2:])
+    assert chance > 0.05 > 1e-4 > naive
