@@ -42,7 +42,7 @@ def enhanced_by_steps(
     """The sum over thresholds step, 2 step, ..., as it is commonly computed."""
     found = np.zeros(len(values))
     for sign in (1.0, -1.0):
-        for height in step * np.arange(1, int((sign * values).max() / step) + 1):
+        for height in step * np.arange(1, int((sign * values).max() / step) + 2):
             labels = components(edges, sign * values >= height)
             inside = labels >= 0
             area = np.bincount(labels[inside], areas[inside])[labels[inside]]

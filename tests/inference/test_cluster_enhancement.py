@@ -60,10 +60,30 @@ def test_step_sums_come_to_it_by_the_first_order_of_their_step() -> None:
     errors = []
     for step in (0.4, 0.2, 0.1, 0.05, 0.025):
         summed = enhanced_by_steps(values, BALL.edges, BALL.vertex_areas, 0.5, 2.0, step)
+        np.testing.assert_allclose(enhanced(values, GRAPH, extent_power=0.5, step=step), summed, rtol=1e-9, atol=1e-12)
         errors.append(np.abs(summed - exact).max() / np.abs(exact).max())
     assert errors[0] > 0.02 and errors[-1] < 0.01
     rate = np.polyfit(np.log([0.4, 0.2, 0.1, 0.05, 0.025]), np.log(errors), 1)[0]
     assert 0.8 < rate < 1.2
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.data(), meshes(), POWERS, st.sampled_from([0.5, 0.3, 4.0]))
+def test_a_sum_over_steps_is_its_definition(
+    data: st.DataObject, mesh: TriangleMesh, powers: tuple[float, float], step: float
+) -> None:
+    """Also where values lie on steps."""
+    values = np.nan_to_num(data.draw(maps_with_ties(len(mesh.vertices))))
+    areas = mesh.vertex_areas + 0.1
+    graph = graph_of_edges(mesh.edges, areas)
+    found = enhanced(values, graph, extent_power=powers[0], height_power=powers[1], step=step)
+    wanted = enhanced_by_steps(values, mesh.edges, areas, *powers, step)
+    np.testing.assert_allclose(found, wanted, rtol=1e-10, atol=1e-12)
+
+
+def test_a_step_of_0_is_refused() -> None:
+    with pytest.raises(ValueError, match="above 0"):
+        enhanced(np.ones(642), GRAPH, step=0.0)
 
 
 @pytest.mark.parametrize(("extent", "height"), [(1.0, 2.0), (0.5, 2.0)])
