@@ -194,6 +194,13 @@ SMALL = {
     ("surface", "slivers"): {"inputs": {"original": {"surface": SPHERE}}},
     ("statistic", "missing_pairs"): {"counts": [10]},
     ("statistic", "null_rejections"): REJECTIONS,
+    ("statistic", "step_decisions"): {
+        "maps": 6,
+        "flips": 20,
+        "height": 2.0,
+        "radius": 0.8,
+        "inputs": {"image": {"image": {"name": "gaussian_fields", "length": 0.6, "count": 12}}},
+    },
     ("statistic", "rejections_by_length"): {"inputs": {"statistics": {"dataset": "levels", "statistic": REJECTIONS}}},
     ("image", "gaussian_fields"): {"length": 0.6, "ratio": 2.0, "count": 3},
     ("statistic", "missing_by_kind"): {

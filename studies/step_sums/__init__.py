@@ -1,0 +1,1 @@
+"""What the step of threshold-free enhancement decides."""
