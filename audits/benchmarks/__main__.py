@@ -47,7 +47,7 @@ SECTIONS = {
         "assembly",
     ),
     "Sparse factorisation": ("factorisation",),
-    "Null models": ("nulls",),
+    "Null models": ("nulls", "permutations"),
     "Skeletons": ("skeleton",),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),

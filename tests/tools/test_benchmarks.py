@@ -36,6 +36,7 @@ GROUPS = (
     "brain_modes",
     "hierarchy",
     "nulls",
+    "permutations",
     "waiting",
     "whole_calls",
     "commands",
