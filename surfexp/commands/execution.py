@@ -233,7 +233,7 @@ def _told(what: str) -> Iterator[None]:
         if os.environ.get("SURFEXP_DEBUG"):
             traceback.print_exc()
         reason = " ".join(str(error).split())[:200]
-        _warn([f"{what} ({type(error).__name__}: {reason}); the results are whole, the same command tries again"])
+        _warn([f"{what} ({type(error).__name__}: {reason}); results are kept, the same command tries again"])
 
 
 def _state(path: Path, plan: Plan, results: Path) -> str:

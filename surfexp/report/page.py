@@ -11,6 +11,7 @@ from typing import Any
 
 from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
+from surfexp.io.replacing import replacing
 from surfexp.lab.errors import DamagedResult
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
@@ -160,7 +161,7 @@ def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, An
 
 
 def _write(figure: Figure, file: Path) -> None:
-    with store.replaced(file) as temporary:
+    with replacing(file) as temporary:
         temporary.write_bytes(figure.svg.encode() if file.suffix == ".svg" else encode_png(figure.pixels))
 
 

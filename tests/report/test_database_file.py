@@ -221,6 +221,6 @@ def test_neither_the_report_nor_mlflow_stops_a_run(
         patch.setattr(part, lambda *_: 1 / 0)
         execution.finish(path, plan)
     (line,) = [line for line in capsys.readouterr().err.splitlines() if line.startswith("surfexp:")]
-    assert "(ZeroDivisionError: division by zero); the results are whole, the same command tries again" in line
+    assert "(ZeroDivisionError: division by zero); results are kept, the same command tries again" in line
     execution.finish(path, plan)
     assert "surfexp:" not in capsys.readouterr().err and (tmp_path / "mlflow.db").exists()

@@ -52,13 +52,17 @@ def note_on_older_keys(results: Path) -> str:
 def write_text(path: Path, text: str) -> None:
     """Write a file under a temporary name and rename it, so that nobody reads half of it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with replaced(path) as temporary:
+    with _replaced(path) as temporary:
         temporary.write_text(text)
 
 
 @contextlib.contextmanager
-def replaced(path: Path) -> Iterator[Path]:
-    """Yield a temporary name; what is written there takes the place of a file, or is removed where anything is raised."""
+def _replaced(path: Path) -> Iterator[Path]:
+    """Yield a temporary name; what is written there takes the place of a file, or is removed where anything is raised.
+
+    Unlike `surfexp.io.replacing` without a flush to the disk, which a plan of 10,000 stages would wait for: a result that a
+    power cut damages is known by its digests and computed again.
+    """
     temporary = path.with_name(f".{HOST}.{os.getpid()}.{path.name}")
     try:
         yield temporary
@@ -73,7 +77,7 @@ def save(results: Path, kind: str, key: str, result: Any) -> None:
     tree = encoded(result, "", arrays)
     folder = result_folder(results, kind, key)
     folder.mkdir(parents=True, exist_ok=True)
-    with replaced(folder / ARRAYS) as temporary:
+    with _replaced(folder / ARRAYS) as temporary:
         np.savez(temporary, **arrays)
         record = {"arrays": _sha256(temporary), "key": key, "kind": kind, "result": tree}
     body = json.dumps(record, indent=1, sort_keys=True).removesuffix("\n}")

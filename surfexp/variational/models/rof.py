@@ -51,13 +51,7 @@ class ROF:
         separate = self.by_channel and len(fidelity.shape) > 1
         solution = solve_by_channel(fidelity, operator, method) if separate else method(fidelity, operator)
         metrics = solution.metrics | restoration_metrics(image, operator, solution.values)
-        notes = solution.notes
-        if self.mu is None and (noisy := with_noise_level(image, operator)) is not image:
-            unit = f" {image.unit}" if image.unit else ""
-            notes += (
-                f"The noise of the map is not known: its standard deviation is estimated as {noisy.noise:.3g}{unit}.",
-            )
-        return replace(solution, metrics=metrics, notes=notes)
+        return replace(solution, metrics=metrics, notes=solution.notes + noise_notes(image, noisy))
 
 
 def with_noise_level(image: Image, operator: SurfaceOperator) -> Image:
