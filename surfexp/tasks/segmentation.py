@@ -56,8 +56,8 @@ class Segmentation(Drawable):
         By how much the field whose level set the regions are exceeds the bound, as a share of what the best threshold of
         the map leaves open: at most the tolerance where `converged`.
     labelling_gap : float
-        The same for the regions themselves: 0 is proved least, 1 no better than a threshold. Edges cannot follow a
-        boundary exactly, so that it stays well above 0 on a coarse mesh, however good the regions are.
+        The same for the regions themselves, on the same scale: 0 is proved least. Edges cannot follow a boundary exactly, so
+        that it stays well above 0 on a coarse mesh, however good the regions are.
     converged : bool
         Whether the relaxed problem reached its tolerance and the means came to rest.
     perimeter : float

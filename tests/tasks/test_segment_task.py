@@ -157,12 +157,15 @@ def test_units_over_hundreds_of_decades_change_no_label_and_no_proof(parts, scal
 
 
 def test_a_labelling_that_meets_its_bound_is_proved_optimal() -> None:
-    """Also where a threshold is as good, so that the spread is 0."""
-    assert labelling_gap(-3.0, -3.0, -3.0) == 0.0
-    assert labelling_gap(-3.0, -3.0 - 1e-13, -3.0) == 0.0
-    assert labelling_gap(-2.0, -3.0, -1.0) == 0.5 and labelling_gap(-1.0, -3.0, -1.0) == 1.0
+    """Also where a threshold is as good, so that nothing was left to gain: gap and labelling gap have one scale."""
+    assert labelling_gap(-3.0, -3.0, 1.0) == 0.0
+    assert labelling_gap(-3.0, -3.0 - 1e-13, 1e-13) == 0.0
+    assert labelling_gap(-2.0, -3.0, 2.0) == 0.5
     clean = sx.segment(SPHERE, np.where(Z > 0.1, 1.0, 0.0), smoothness=0.01)
     assert clean.labelling_gap < 1.0
+    ball = sx.shape("icosphere", levels=4)
+    found = sx.segment(ball, np.where(ball.mesh.vertices[:, 2] > 0.0, 1.0, 0.0))
+    assert found.energy - found.lower_bound < 1e-9 * abs(found.energy) and found.labelling_gap <= 1e-4
 
 
 def test_a_constant_map_has_no_regions() -> None:

@@ -81,7 +81,7 @@ class ConvexChanVese:
         assert solution is not None  # noqa: S101, narrows a type
         solution = replace(solution, iterations=iterations, notes=(*solution.notes, *notes))
         solution, labelling = self._no_worse(solution, fidelity, labelling, trivial, operator)
-        return self._result(updates.judge(solution), labelling, trivial, solved, image, operator)
+        return self._result(updates.judge(solution), labelling, fidelity, solved, image, operator)
 
     def check(self, image: Image, operator: SurfaceOperator) -> None:
         """Raise ValueError if a parameter is not positive, or the image is constant or has several channels."""
@@ -186,22 +186,24 @@ class ConvexChanVese:
         self,
         solution: Solution,
         labelling: Labelling,
-        trivial: Labelling,
+        fidelity: SeparableQuadratic,
         means: tuple[float, float],
         image: Image,
         operator: SurfaceOperator,
     ) -> Solution:
+        assert fidelity.trivial_energy is not None  # noqa: S101, narrows a type
         mass, region = operator.mass, labelling.region
         metrics = {
             "c1": means[0],
             "c2": means[1],
             "iterations": float(solution.iterations),
             "brighter_share": float(mass @ region / mass.sum()),
-            "trivial_energy": trivial.energy,
+            "trivial_energy": fidelity.trivial_energy,
             "labelling_energy": labelling.energy,
         }
         if solution.lower_bound is not None:
-            metrics["labelling_gap"] = labelling_gap(labelling.energy, solution.lower_bound, trivial.energy)
+            scale = fidelity.gap_scale(labelling.energy, solution.lower_bound)
+            metrics["labelling_gap"] = labelling_gap(labelling.energy, solution.lower_bound, scale)
         solution = replace(solution, segmentation=region.astype(np.float64))
         if ((solution.values > labelling.threshold) == region).all():
             metrics["threshold"] = labelling.threshold
@@ -211,15 +213,10 @@ class ConvexChanVese:
         return replace(solution, metrics=solution.metrics | metrics | segmentation_metrics(image, operator, region))
 
 
-def labelling_gap(energy: float, lower_bound: float, trivial: float) -> float:
-    """Return (energy - lower bound) / (trivial - lower bound): 0 where energy and bound are equal to rounding.
-
-    Then the labelling is proved optimal, also where the best trivial one is, so that nothing was left to gain.
-    """
+def labelling_gap(energy: float, lower_bound: float, scale: float) -> float:
+    """Return (energy - lower bound) / scale, the scale of the relative gap: 0 where energy and bound are equal to rounding."""
     gap = energy - lower_bound
-    if gap <= SAME * max(abs(energy), abs(lower_bound)):
-        return 0.0
-    return gap / (trivial - lower_bound)
+    return 0.0 if gap <= SAME * max(abs(energy), abs(lower_bound)) else gap / scale
 
 
 def _averages(values: Floats, mass: Floats, region: Mask) -> tuple[float, float]:
