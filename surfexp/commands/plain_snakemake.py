@@ -80,8 +80,8 @@ def words_of(config: Mapping[str, Any], above: str = "") -> Iterator[str]:
 
     Examples
     --------
-    >>> list(words_of({"experiment": "rof_cup", "model": {"smoothness": 0.3}, "figures": []}))
-    ['experiment=rof_cup', 'model.smoothness=0.3', 'figures=[]']
+    >>> list(words_of({"experiment": "rof_cup", "model": {"weight": 0.5}, "figures": []}))
+    ['experiment=rof_cup', 'model.weight=0.5', 'figures=[]']
     >>> list(words_of({"surface": {"name": "icosphere", "levels": 3}}))
     ['surface=icosphere', 'surface.levels=3']
     """

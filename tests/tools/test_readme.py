@@ -1,27 +1,32 @@
-"""Every run and plan that README and guide show can be planned as pasted; every link leads somewhere."""
+"""Every run and plan that README and docs show can be planned as pasted; every link leads somewhere."""
 
 from __future__ import annotations
 
+import ast
 import re
 import shlex
 from pathlib import Path
 
 import pytest
+import yaml
 
 import surfexp as sx
 from surfexp.commands.command_line import main
+from surfexp.commands.plain_snakemake import words_of
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "guide.md")
-STARTS = ("surfexp run ", "surfexp plan ")
+DOCUMENTED = (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+STARTS = re.compile(r"(surfexp run |surfexp plan |snakemake .*--config )")
 # of a folder that `surfexp collect` wrote, of a plugin that the page shows, a search, a cluster: seen elsewhere
 ELSEWHERE = ("datasets", "scaled", "hydra/sweeper", "profile=")
-LINES = [
+LINES = {
     line.partition("  #")[0].strip()
-    for page in PAGES
-    for line in page.read_text(encoding="utf-8").splitlines()
-    if line.startswith(STARTS) and not any(word in line for word in ELSEWHERE)
-]
+    for page in DOCUMENTED
+    for line in page.read_text(encoding="utf-8").replace("\\\n", "").splitlines()
+    if STARTS.match(line) and not any(word in line for word in ELSEWHERE)
+}
+MODULE_CONFIG = re.compile(r"^ +config:\n +(\{.*\})$", re.MULTILINE)
 
 
 @pytest.fixture
@@ -37,10 +42,20 @@ def files(working_folder: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize("line", sorted(LINES))
 def test_it_can_be_planned(line: str, files: None, capsys: pytest.CaptureFixture[str]) -> None:
-    _, _, *arguments = shlex.split(line)
-    assert main(["plan", *arguments]) == 0, capsys.readouterr().err
+    words = shlex.split(STARTS.sub("", line, count=1))
+    if line.startswith("snakemake"):  # which reads the values as YAML
+        pairs = (word.partition("=") for word in words)
+        words = list(words_of({name: yaml.safe_load(value) for name, _, value in pairs}))
+    assert main(["plan", *words]) == 0, capsys.readouterr().err
+
+
+def test_the_module_of_the_page_on_snakemake_can_be_planned(
+    working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (shown,) = MODULE_CONFIG.findall((ROOT / "docs" / "snakemake.md").read_text(encoding="utf-8"))
+    assert main(["plan", *words_of(ast.literal_eval(shown))]) == 0, capsys.readouterr().err
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
