@@ -135,7 +135,7 @@ def _profile(name: str) -> Path:
     for folder in (Path(name), shipped / name.removeprefix("profiles/")):
         if any(folder.glob("config*.yaml")):
             return folder.resolve()
-    raise unknown("profile", name, [f"profiles/{path.name}" for path in shipped.iterdir() if path.is_dir()])
+    raise unknown("profile", name, [f"profiles/{path.parent.name}" for path in shipped.glob("*/config*.yaml")])
 
 
 def before_snakemake(plan: Plan, results: Path) -> None:

@@ -119,3 +119,7 @@ def test_a_profile_is_found_from_anywhere_or_refused(tmp_path: Path, monkeypatch
     for name in ("profiles/slrum", "elsewhere/slurm", str(tmp_path)):
         with pytest.raises(UserError, match="unknown profile"):
             execution._profile(name)
+    (tmp_path / "__pycache__").mkdir()
+    monkeypatch.setattr(execution, "package_folder", lambda _: tmp_path)
+    with pytest.raises(UserError, match=r"choose from: profiles/mine$"):
+        execution._profile("zzz")
