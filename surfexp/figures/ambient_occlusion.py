@@ -37,27 +37,26 @@ def ambient_occlusion(depth: Floats, normals: Floats, radius: float, nearest: fl
     shifts = np.rint(reach[None, :, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)[:, None, :])
     # nothing is far behind everything, where it hides no sky
     far = np.where(np.isfinite(depth), depth, FAR)
-    return _occlusion(far, normals, shifts.astype(np.int64), radius)
+    whole = shifts.astype(np.int64)
+    # a rim of nothing, so that no step leaves the picture; the columns of a row are then taken several at once
+    rim = int(np.abs(whole).max())
+    return _occlusion(far, np.pad(far, rim, constant_values=FAR), rim, normals, whole, radius)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _occlusion(depth: Floats, normals: Floats, shifts: Integers, radius: float) -> Floats:
+def _occlusion(depth: Floats, around: Floats, rim: int, normals: Floats, shifts: Integers, radius: float) -> Floats:
     height, width = depth.shape
     result = np.zeros((height, width))
     reach = radius * radius
-    # a rim of nothing, so that no step leaves the picture; the columns of a row are then taken several at once
-    rim = np.abs(shifts).max()
-    around = np.full((height + 2 * rim, width + 2 * rim), FAR)
-    around[rim : rim + height, rim : rim + width] = depth
     highest, total = np.zeros(width), np.zeros(width)
     for row in range(height):
         here = depth[row]
         if here.min() == FAR:
             continue
         nx, ny, nz = normals[row, :, 0].copy(), normals[row, :, 1].copy(), normals[row, :, 2].copy()
-        total[:] = 0.0
+        total.fill(0.0)
         for direction in range(shifts.shape[0]):
-            highest[:] = 0.0
+            highest.fill(0.0)
             for step in range(shifts.shape[1]):
                 dx, dy = float(shifts[direction, step, 0]), float(shifts[direction, step, 1])
                 start = rim + shifts[direction, step, 0]

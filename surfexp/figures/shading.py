@@ -128,7 +128,7 @@ def _shade(
             if t < 0:
                 continue
             i, j = row // factor, column // factor
-            color[:] = 0.0
+            color.fill(0.0)
             x = y = z = 0.0
             nearest = np.argmax(barycentric[row, column]) if flat else -1
             for k in range(3):
@@ -144,10 +144,11 @@ def _shade(
             length = turn[t] * np.sqrt(x * x + y * y + z * z)
             # opposite normals cancel at a needle; it is lit from the front
             x, y, z = (x / length, y / length, z / length) if length != 0.0 else (0.0, 0.0, 1.0)
-            if np.isnan(color[0] + color[1] + color[2]):
-                color[:] = table[last + 1]
-            elif coloring.shape[1] == 1:
-                color[:] = table[min(max(int(np.floor(color[0] * (last + 1))), 0), last)]
+            is_unknown = np.isnan(color[0] + color[1] + color[2])
+            if is_unknown or coloring.shape[1] == 1:
+                place = last + 1 if is_unknown else min(max(int(np.floor(color[0] * (last + 1))), 0), last)
+                for channel in range(3):
+                    color[channel] = table[place, channel]
             received = share * (1.0 + strength * (illumination(x, y, z) - 1.0))
             tint = BACK_SHARE if turn[t] < 0.0 else 0.0
             for channel in range(3):

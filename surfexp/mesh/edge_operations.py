@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.vertex_star import (
@@ -23,44 +24,63 @@ from surfexp.mesh.vertex_star import (
 )
 
 
+def half_edges_by_length(vertices: Floats, faces: Integers, low: float, high: float) -> Integers:
+    """Half-edges 3 f + k with a length within [low, high], shortest first."""
+    lengths = _half_edge_lengths(vertices, faces)
+    chosen = np.flatnonzero((lengths >= low) & (lengths <= high))
+    return chosen[np.argsort(lengths[chosen], kind="stable")]
+
+
 @njit(cache=True, nogil=True)
-def half_edges_by_length(vertices: Floats, faces: Integers, low: float, high: float) -> tuple[Integers, Floats]:
-    """Half-edges 3 f + k with a length within [low, high], shortest first, and their lengths."""
+def _half_edge_lengths(vertices: Floats, faces: Integers) -> Floats:
     lengths = np.empty(faces.size)
     for f in range(len(faces)):
         for k in range(3):
             side = difference(vertices, faces[f, k], faces[f, (k + 1) % 3])
             lengths[3 * f + k] = np.sqrt(dot(side, side))
-    chosen = np.flatnonzero((lengths >= low) & (lengths <= high))
-    order = chosen[np.argsort(lengths[chosen], kind="mergesort")]
-    return order, lengths[order]
+    return lengths
 
 
-@njit(cache=True, nogil=True)
 def split_edges(vertices: Floats, faces: Integers, longest: float, limit: int) -> tuple[Floats, Integers]:
     """Halve edges longer than `longest`, the longest first, at most `limit` of them."""
     n, m = len(vertices), len(faces)
+    order = half_edges_by_length(vertices, faces, longest, np.inf)
+    new_vertices = np.concatenate([vertices, np.empty((m, 3))])
+    new_faces = np.concatenate([faces, np.empty((2 * m, 3), np.int64)])
+    n, m = _split(faces, n, order[::-1].copy(), limit, new_vertices, new_faces)
+    return new_vertices[:n].copy(), new_faces[:m].copy()
+
+
+@njit(cache=True, nogil=True)
+def _split(
+    faces: Integers, n: int, order: Integers, limit: int, new_vertices: Floats, new_faces: Integers
+) -> tuple[int, int]:
+    """Write the halves behind the n vertices and the faces there were; return how many there are."""
+    most, m = n + limit, len(faces)
     start, star = vertex_stars(faces, n)
-    order = half_edges_by_length(vertices, faces, longest, np.inf)[0]
     locked = np.zeros(m, np.bool_)
-    new_vertices, new_faces = np.empty((n + m, 3)), np.empty((3 * m, 3), np.int64)
-    new_vertices[:n], new_faces[:m] = vertices, faces
-    for half_edge in order[::-1]:
+    for half_edge in order:
         f, k = half_edge // 3, half_edge % 3
         a, b, c = faces[f, k], faces[f, (k + 1) % 3], faces[f, (k + 2) % 3]
         g, d = across(faces, start, star, f, a, b)
-        if n - len(vertices) >= limit or locked[f] or (g >= 0 and (locked[g] or a > b)):
+        if n >= most or locked[f] or (g >= 0 and (locked[g] or a > b)):
             continue
-        new_vertices[n] = 0.5 * (vertices[a] + vertices[b])
-        new_faces[f] = a, n, c
-        new_faces[m] = n, b, c
+        for axis in range(3):
+            new_vertices[n, axis] = 0.5 * (new_vertices[a, axis] + new_vertices[b, axis])
+        _write(new_faces, f, a, n, c)
+        _write(new_faces, m, n, b, c)
         locked[f], m = True, m + 1
         if g >= 0:
-            new_faces[g] = b, n, d
-            new_faces[m] = n, a, d
+            _write(new_faces, g, b, n, d)
+            _write(new_faces, m, n, a, d)
             locked[g], m = True, m + 1
         n += 1
-    return new_vertices[:n].copy(), new_faces[:m].copy()
+    return n, m
+
+
+@njit(cache=True, nogil=True)
+def _write(faces: Integers, f: int, a: int, b: int, c: int) -> None:
+    faces[f, 0], faces[f, 1], faces[f, 2] = a, b, c
 
 
 @njit(cache=True, nogil=True)
@@ -104,11 +124,22 @@ def _collapse_is_safe(
     return True
 
 
-@njit(cache=True, nogil=True)
 def collapse_edges(
     vertices: Floats, faces: Integers, shortest: float, longest: float, limit: int
 ) -> tuple[Floats, Integers]:
     """Contract edges shorter than `shortest`, the shortest first, at most `limit`, making none over `longest`."""
+    order = half_edges_by_length(vertices, faces, 0.0, shortest)
+    target, moved, removed = _collapse(vertices, faces, order, longest, limit)
+    stays = target == np.arange(len(vertices))
+    number = np.cumsum(stays) - 1
+    return moved[stays], number[target[faces[~removed]]]
+
+
+@njit(cache=True, nogil=True)
+def _collapse(
+    vertices: Floats, faces: Integers, order: Integers, longest: float, limit: int
+) -> tuple[Integers, Floats, NDArray[np.bool_]]:
+    """The vertex that each one becomes, where they move, and the faces that go."""
     n = len(vertices)
     start, star = vertex_stars(faces, n)
     boundary = np.zeros(n, np.bool_)
@@ -117,13 +148,13 @@ def collapse_edges(
     locked, removed = np.zeros(len(faces), np.bool_), np.zeros(len(faces), np.bool_)
     valence = start[1:] - start[:-1]
     target, moved, done = np.arange(n), vertices.copy(), 0
-    for half_edge in half_edges_by_length(vertices, faces, 0.0, shortest)[0]:
+    for half_edge in order:
         f, k = half_edge // 3, half_edge % 3
         a, b, c = faces[f, k], faces[f, (k + 1) % 3], faces[f, (k + 2) % 3]
         g, d = across(faces, start, star, f, a, b)
         if done >= limit or (g >= 0 and (a > b or (boundary[a] and boundary[b]))):
             continue
-        if locked[star[start[a] : start[a + 1]]].any() or locked[star[start[b] : start[b + 1]]].any():
+        if _any_locked(locked, start, star, a) or _any_locked(locked, start, star, b):
             continue
         if valence[c] <= 3 or (g >= 0 and valence[d] <= 3):
             continue
@@ -139,19 +170,23 @@ def collapse_edges(
         if not _collapse_is_safe(vertices, faces, start, star, a, b, point, longest):
             continue
         target[b], moved[a, 0], moved[a, 1], moved[a, 2] = a, point[0], point[1], point[2]
-        locked[star[start[a] : start[a + 1]]] = True
-        locked[star[start[b] : start[b + 1]]] = True
+        for end in (a, b):
+            for at in range(start[end], start[end + 1]):
+                locked[star[at]] = True
         removed[f], done = True, done + 1
         valence[c] -= 1
         if g >= 0:
             removed[g] = True
             valence[d] -= 1
-    number = np.cumsum(target == np.arange(n)) - 1
-    kept = faces[~removed]
-    for i in range(len(kept)):
-        for k in range(3):
-            kept[i, k] = number[target[kept[i, k]]]
-    return moved[target == np.arange(n)], kept
+    return target, moved, removed
+
+
+@njit(cache=True, nogil=True)
+def _any_locked(locked: NDArray[np.bool_], start: Integers, star: Integers, vertex: int) -> bool:
+    found = False
+    for at in range(start[vertex], start[vertex + 1]):
+        found = found or locked[star[at]]
+    return found
 
 
 @njit(cache=True, nogil=True)
@@ -180,8 +215,8 @@ def flip_edges(vertices: Floats, faces: Integers) -> tuple[Integers, int]:
             mean = one[0] + two[0], one[1] + two[1], one[2] + two[2]
             if min(cosine(normal(vertices, a, d, c), mean), cosine(normal(vertices, d, b, c), mean)) < 0.5:
                 continue
-            flipped[f] = a, d, c
-            flipped[g] = d, b, c
+            _write(flipped, f, a, d, c)
+            _write(flipped, g, d, b, c)
             locked[f] = locked[g] = gained[c] = gained[d] = True
             spare[a], spare[b] = spare[a] - 1, spare[b] - 1
             count += 1

@@ -76,6 +76,6 @@ def boundary_edges(faces: Integers, vertex_count: int) -> Integers:
         for k in range(3):
             a, b = faces[f, k], faces[f, (k + 1) % 3]
             if across(faces, start, star, f, a, b)[0] < 0:
-                edges[count] = a, b
+                edges[count, 0], edges[count, 1] = a, b
                 count += 1
     return edges[:count].copy()
