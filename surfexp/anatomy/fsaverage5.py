@@ -4,26 +4,27 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 from surfexp.contract.arrays import Floats
 from surfexp.extras import MissingExtra, missing_line
 from surfexp.io.gifti import read_gifti_arrays
+from surfexp.mesh.both_hemispheres import joined
 from surfexp.mesh.shape_metrics import with_metrics
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-Hemisphere = Literal["left", "right"]
+Hemisphere = Literal["left", "right", "both"]
 SHEETS = {"pial": "pial", "white": "white", "inflated": "infl", "sphere": "sphere"}
 MAPS = {"sulc": "sulc", "curv": "curv", "thickness": "thick", "area": "area"}
 
 
 def fsaverage5(hemisphere: Hemisphere = "left", sheet: str = "pial") -> Surface:
-    """One hemisphere of fsaverage5 (Fischl et al. 1999): 10,242 vertices, closed, genus 0, in mm.
+    """One hemisphere of fsaverage5 (Fischl et al. 1999), 10,242 vertices, closed, genus 0, in mm; or both as one surface.
 
     Parameters
     ----------
-    hemisphere : "left" or "right"
+    hemisphere : "left", "right" or "both"
     sheet : "pial", "white", "inflated" or "sphere"
         All four share their faces, so maps carry over.
 
@@ -38,10 +39,12 @@ def fsaverage5(hemisphere: Hemisphere = "left", sheet: str = "pial") -> Surface:
     ValueError
         If hemisphere or sheet is unknown, or nilearn's files are not there.
     """
-    if hemisphere not in ("left", "right"):
-        raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left or right")
+    if hemisphere not in get_args(Hemisphere):
+        raise ValueError(f"hemisphere {hemisphere!r} is unknown, choose left, right or both")
     if sheet not in SHEETS:
         raise ValueError(f"sheet {sheet!r} of fsaverage5 is unknown, choose one of {', '.join(SHEETS)}")
+    if hemisphere == "both":
+        return joined(fsaverage5("left", sheet), fsaverage5("right", sheet), f"fsaverage5 {sheet}")
     vertices, faces = read_gifti_arrays(_packaged(f"{SHEETS[sheet]}_{hemisphere}"))
     scalars = {name: _map(f"{stem}_{hemisphere}") for name, stem in MAPS.items()}
     name = f"fsaverage5 {sheet}, {hemisphere}"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.anatomy.conte69 import SIDES
 from surfexp.anatomy.data_packages import BRAINSPACE, RUN
-from surfexp.anatomy.fsaverage5 import Hemisphere, fsaverage5
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.freesurfer import read_volume_map
 from surfexp.mesh.masked_surface import cut_to_mask
@@ -33,7 +34,7 @@ def resting_run(hemisphere: str) -> tuple[Floats, Floats]:
     return series, np.loadtxt(BRAINSPACE.file(f"{RUN}_confounds.txt"))
 
 
-def resting_fsaverage5(hemisphere: Hemisphere = "left", sheet: str = "white") -> Surface:
+def resting_fsaverage5(hemisphere: Literal["left", "right"] = "left", sheet: str = "white") -> Surface:
     """Return fsaverage5 where a run at rest varies and the cortex has a thickness, in mm; needs brainspace.
 
     Raises

@@ -99,7 +99,7 @@ def test(
             surface, values, **asked, **options, labels=parcels, threads=threads, progress=progress
         )
     facts = found.facts | {"seconds": time.perf_counter() - started}
-    _say(found)
+    _say(found, surface.right is not None)
     if table is not None:
         _write_table(table, found)
     return finish(target, found.maps, surface, "permutation test", options, files, facts, found.notes)
@@ -178,11 +178,12 @@ def _write_table(table: Path, found: PermutationTest) -> None:
         writer.writerows(cells(row) for row in zip(*columns.values(), strict=True))
 
 
-def _say(found: PermutationTest) -> None:
+def _say(found: PermutationTest, both: bool) -> None:
     """One line for each region of TFCE."""
     for one in found.regions:
         parcel = f", {next(iter(one.parcels))}" if one.parcels else ""
-        peak = f"t {one.t:.2f} at vertex {one.peak}{parcel}, p {one.p_tfce:.3g}"
+        side = f"{one.hemisphere} hemisphere, " if both else ""
+        peak = f"{side}t {one.t:.2f} at vertex {one.peak}{parcel}, p {one.p_tfce:.3g}"
         echo(f"region of {one.vertices} vertices, area {one.area:.4g}: {peak}")
     if not found.regions:
         echo(f"no vertex has a family-wise p of TFCE up to {found.level:g}; the least is {_least(found.p_tfce):.3g}")

@@ -23,10 +23,12 @@ if TYPE_CHECKING:
 
 Command = Callable[..., Any]
 NOT_CERTIFIED = 3
+BOTH_HELP = "Both hemispheres are one surface: write LEFT+RIGHT for each file, as lh.white+rh.white lh.sulc+rh.sulc."
 
 
 def surface_options(command: Command) -> Command:
-    """Add the options of a surface: mask, maps, labels, unit, repair."""
+    """Add the options of a surface: mask, maps, labels, unit, repair, and to its help how both hemispheres are written."""
+    command.__doc__ = f"{command.__doc__}\n\n    {BOTH_HELP}"
     inside = "part to work on: .label, labels (FILE or FILE:NAME,NAME), or a map that is 0 outside"
     repaired = "repair a defective mesh and say how, instead of refusing it"
     options: list[Callable[[Command], Command]] = [
@@ -111,12 +113,44 @@ def opened(
     named = dict(item.partition("=")[::2] for item in maps)
     if "" in named.values():
         raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
-    masks = [str(mask) if Path(str(mask)).is_file() else str(mask).partition(":")[0]] if mask else []
-    files = Inputs(path, *named.values(), *masks)
-    surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
+    pair = both_of(path)
+    if isinstance(pair, str):
+        masks = [_file_of(mask)] if mask else []
+        files = Inputs(path, *named.values(), *masks)
+        surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
+    else:
+        if hemisphere is not None:
+            raise ValueError(f"--hemisphere {hemisphere} names one side, {path} is both: leave it out")
+        pairs = {name: both_of(file) for name, file in named.items()}
+        inside = both_of(mask) if mask else None
+        files = Inputs(*pair.values())
+        for one in (*pairs.values(), *([inside] if inside else [])):
+            add_files(files, one)
+        surface = read(**pair, maps=pairs, mask=inside, unit=unit, repair=repair)
     for note in surface.notes:
         echo(f"{path}: {note}", err=True)
     return surface, files
+
+
+def both_of(given: str) -> str | dict[str, str]:
+    """Return LEFT+RIGHT as a pair of hemispheres, anything else as it is: the name of one file may have a + too."""
+    cuts = [k for k, letter in enumerate(given) if letter == "+"]
+    if not cuts or Path(given).is_file():
+        return given
+    halves = [(given[:k], given[k + 1 :]) for k in cuts]
+    left, right = next((pair for pair in halves if all(Path(_file_of(half)).is_file() for half in pair)), halves[0])
+    return {"left": left, "right": right}
+
+
+def add_files(files: Inputs, given: str | dict[str, str]) -> None:
+    """Add a file, or those of a pair, to the inputs."""
+    for one in [given] if isinstance(given, str) else given.values():
+        files.add(_file_of(one))
+
+
+def _file_of(given: str) -> str:
+    """The file of a mask, which may name labels behind a colon."""
+    return given if Path(given).is_file() else given.partition(":")[0]
 
 
 def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Floats:
@@ -149,6 +183,11 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
         return surface.labels[given]
     if given in surface.scalars or not given.lower().endswith(LABEL_FILES):
         return None
+    if surface.right is not None:
+        from surfexp.tasks.both_files import labels_of_both
+
+        add_files(files, pair := both_of(given))
+        return labels_of_both(surface, pair)
     files.add(given)
     if side is None:
         check_same_side("labels", given, surface.hemisphere)
@@ -173,16 +212,23 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
     ValueError
         If there is neither, the file cannot be read, or it is of the other hemisphere.
     """
-    from surfexp.io.hemisphere import check_same_side
+    from surfexp.io.hemisphere import check_same_side, holds_both
     from surfexp.io.map_files import read_maps
 
     if given in surface.scalars:
         return {given: surface.scalars[given]}
+    if surface.right is not None and (holds_both(Path(given)) or "+" in given):
+        from surfexp.tasks.both_files import maps_of_both
+
+        add_files(files, pair := both_of(given))
+        return maps_of_both(surface, pair)
     if surface.scalars and not Path(given).exists():
         known = sorted(surface.scalars)
         near = get_close_matches(given, known, 1)
         hint = f"did you mean {near[0]!r}?" if near else f"it carries {', '.join(known)}"
         raise ValueError(f"{given} is no file, and no map that {surface.name} carries; {hint}")
+    if surface.right is not None:
+        raise ValueError(f"{given} is one file, the surface is both hemispheres: write LEFT+RIGHT")
     files.add(given)
     if side is None:
         check_same_side("map", given, surface.hemisphere)
@@ -220,8 +266,11 @@ def ready(target: Path, files: Inputs, check: Callable[..., None], **wanted: Any
     ValueError
         Naming what is wrong with the target.
     """
+    from surfexp.io.hemisphere import written_files
+
     check(target, **wanted)
-    files.refuse_to_overwrite(target)
+    for file in written_files(target, wanted.get("hemisphere") or ""):
+        files.refuse_to_overwrite(file)
 
 
 def ready_map(target: Path, files: Inputs, surface: Surface, *maps: Any, **wanted: Any) -> None:
@@ -270,6 +319,7 @@ def finish(
     int
         3 where the certificate says that something did not converge or is not proved complete, else 0.
     """
+    from surfexp.io.hemisphere import written_files
     from surfexp.tasks.written_files import written
 
     notes = (*notes, *written(target, result, surface))
@@ -278,7 +328,8 @@ def finish(
     for note in notes:
         echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
-    echo(f"{target}: {shown} (certificate: {certificate.name})")
+    places = written_files(target, surface.hemisphere if surface is not None else "")
+    echo(f"{' and '.join(map(str, places))}: {shown} (certificate: {certificate.name})")
     return NOT_CERTIFIED if facts.get("converged") is False or facts.get("complete") is False else 0
 
 

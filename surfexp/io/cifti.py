@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.foreign import parsing
@@ -54,8 +55,10 @@ def read_cifti_labels(path: Path, hemisphere: str) -> dict[str, LabelMap]:
     return {str(name): LabelMap(row, table) for name, row, table in zip(axis.name, rows, tables, strict=True)}
 
 
-def write_cifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str) -> None:
+def write_cifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str | NDArray[np.str_]) -> None:
     """Write maps of one hemisphere as .dscalar.nii in single precision; vertices that are NaN in all maps are left out.
+
+    Of both hemispheres `hemisphere` says that of each vertex.
 
     Raises
     ------
@@ -65,12 +68,18 @@ def write_cifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str) -> No
     from nibabel import cifti2
 
     values = np.stack(list(maps.values())).astype(np.float32)
-    inside = np.isfinite(values).any(axis=0)
+    inside: NDArray[np.bool_] = np.asarray(np.isfinite(values).any(axis=0))
     if not inside.any():
         raise ValueError("no map has a finite value")
-    model = cifti2.BrainModelAxis.from_mask(inside, name=_structure(hemisphere))
-    header = cifti2.Cifti2Header.from_axes((cifti2.ScalarAxis(list(maps)), model))
-    cifti2.Cifti2Image(values[:, inside], header).to_filename(path)
+    sides = [hemisphere] if isinstance(hemisphere, str) else [side for side in STRUCTURES if (hemisphere == side).any()]
+    rows = [np.flatnonzero(np.broadcast_to(np.asarray(hemisphere) == side, len(inside))) for side in sides]
+    models = [
+        cifti2.BrainModelAxis.from_mask(inside[own], name=_structure(side))
+        for side, own in zip(sides, rows, strict=True)
+    ]
+    header = cifti2.Cifti2Header.from_axes((cifti2.ScalarAxis(list(maps)), sum(models[1:], models[0])))
+    columns = np.concatenate([own[inside[own]] for own in rows])
+    cifti2.Cifti2Image(values[:, columns], header).to_filename(path)
 
 
 def _rows(path: Path, hemisphere: str) -> tuple[Any, Floats]:

@@ -42,6 +42,36 @@ def hemisphere_of_name(name: str) -> str:
     return sides.pop() if len(sides) == 1 else ""
 
 
+def without_side(name: str) -> str:
+    """Return a name without what says its side: thickness for lh.thickness, sub-1_pial for sub-1_hemi-L_pial."""
+    found = NAMED_SIDE.search(name)
+    if found is None:
+        return name
+    head, tail = name[: found.start()].removesuffix("hemi-"), name[found.end() :]
+    return tail[1:] if not head else f"{head[:-1]}{tail}"
+
+
+def common_name(left: str, right: str) -> str:
+    """Return what the names of two hemispheres have in common, or both of them."""
+    names = {without_side(left), without_side(right)}
+    return names.pop() if len(names) == 1 else f"{left} and {right}"
+
+
+def holds_both(path: Path) -> bool:
+    """Whether one file of the format holds maps of both hemispheres, and says which are which."""
+    return is_cifti(path) or path.suffix.lower() == ".npz"
+
+
+def files_of_sides(path: Path) -> dict[str, Path]:
+    """Return where each hemisphere is written to where a format holds one: lh.NAME and rh.NAME."""
+    return {side: path.with_name(f"{side[0]}h.{path.name}") for side in ("left", "right")}
+
+
+def written_files(path: Path, hemisphere: str) -> tuple[Path, ...]:
+    """Return the files that maps of a hemisphere, or of both, are written to."""
+    return tuple(files_of_sides(path).values()) if hemisphere == "both" and not holds_both(path) else (path,)
+
+
 def holds_hemisphere(path: Path) -> bool:
     """Whether the format of a file has room for the hemisphere."""
     return is_gifti(path) or is_cifti(path) or path.suffix.lower() in INSIDE
@@ -57,8 +87,23 @@ def check_named_side(path: Path, hemisphere: str) -> None:
     """
     named = hemisphere_of_name(path.name)
     if hemisphere and named and named != hemisphere:
+        whose = "both" if hemisphere == "both" else f"the {hemisphere}"
         raise ValueError(
-            f"{path} is named as the {named} hemisphere, what is written is of the {hemisphere}: choose another name"
+            f"{path} is named as the {named} hemisphere, what is written is of {whose}: choose another name"
+        )
+
+
+def check_given_side(what: str, file: Path | str, side: str) -> None:
+    """Refuse a file that is given as one hemisphere and says that it is the other.
+
+    Raises
+    ------
+    ValueError
+        If it does, or it cannot be read.
+    """
+    if hemisphere_of_file(file) not in ("", side):
+        raise ValueError(
+            f"{what} {file} is given as {side}, it is of the other hemisphere: give the file of the {side} one"
         )
 
 

@@ -13,17 +13,18 @@ from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
-from surfexp.io.hemisphere import check_named_side
+from surfexp.io.hemisphere import check_named_side, holds_both
 from surfexp.io.label_files import read_label_map
 from surfexp.io.map_names import check_map_names
 from surfexp.io.map_shapes import check_map_shapes, scalar_channels
 from surfexp.io.medial_wall import is_outside, outside_names
-from surfexp.io.npz import HEMISPHERE, read_arrays, write_arrays
+from surfexp.io.npz import read_rows, write_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_maps
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import BOTH
 
 TEXT = (".csv", ".txt", ".dat")
 VOLUMES = (".mgh", ".mgz")
@@ -72,11 +73,7 @@ def name_of_map(path: Path | str) -> str:
 def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
     suffix = path.suffix.lower()
     if suffix in (".npy", ".npz"):
-        return {
-            name: real_array(array, f"array {name!r}")
-            for name, array in read_arrays(path).items()
-            if name != HEMISPHERE or array.dtype.kind != "U"
-        }
+        return {name: real_array(array, f"array {name!r}") for name, array in read_rows(path, hemisphere).items()}
     if suffix in TEXT:
         return read_table(path)
     if is_cifti(path):
@@ -219,8 +216,10 @@ def holds_names(path: Path | str) -> bool:
     return path.suffix.lower() in (".npz", *TEXT) or is_cifti(path) or is_gifti(path)
 
 
-def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") -> None:
+def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str | NDArray[np.str_] = "") -> None:
     """Write maps of one length as .shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or as curvature.
+
+    Of both hemispheres .dscalar.nii and .npz hold maps; `hemisphere` is then that of each vertex.
 
     Raises
     ------
@@ -230,7 +229,9 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
     """
     path = Path(path)
     channels = max((values.shape[1] for values in maps.values() if values.ndim == 2), default=1)
-    check_map_target(path, len(maps), channels, hemisphere)
+    check_map_target(path, len(maps), channels, hemisphere if isinstance(hemisphere, str) else BOTH)
+    if not isinstance(hemisphere, str) and not holds_both(path):
+        raise ValueError(f"{path} holds one hemisphere, the maps are of both: choose .dscalar.nii or .npz")
     check_map_names(maps)
     lengths = {len(values) for values in maps.values()}
     # an archive also holds results whose arrays are no maps
@@ -245,7 +246,7 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str = "") 
         elif is_cifti(path):
             write_cifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
         elif is_gifti(path):
-            write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
+            write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), str(hemisphere))
         elif suffix == ".npy":
             np.save(temporary, next(iter(maps.values())))
         elif suffix in VOLUMES:
@@ -266,7 +267,7 @@ def check_map_target(
         Number of maps.
     channels : int
         The most channels that one has.
-    hemisphere : {"", "left", "right"}, optional
+    hemisphere : {"", "left", "right", "both"}, optional
         Of the maps; None if it is not known yet.
     unknown : bool
         Whether they are NaN somewhere.

@@ -54,6 +54,30 @@ def read_npz_mesh(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
     return *checked_geometry(vertices, faces), maps
 
 
+def read_rows(path: Path, hemisphere: str = "") -> dict[str, NDArray[np.generic]]:
+    """Return the arrays of an archive without what says the hemisphere; where it is said of each row, the rows of one.
+
+    Parameters
+    ----------
+    path : Path
+    hemisphere : {"", "left", "right"}
+        Without it all rows.
+
+    Raises
+    ------
+    ValueError
+        As `read_arrays`.
+    """
+    arrays = read_arrays(path)
+    if HEMISPHERE not in arrays or arrays[HEMISPHERE].dtype.kind != "U":
+        return arrays
+    said = arrays.pop(HEMISPHERE)
+    if not hemisphere or not said.ndim:
+        return arrays
+    rows = said == hemisphere
+    return {name: array[rows] if array.shape[:1] == said.shape else array for name, array in arrays.items()}
+
+
 def hemisphere_of_npz(path: Path) -> str:
     """Return "left" or "right" where the array "hemisphere" says so, else nothing.
 
@@ -79,17 +103,19 @@ def write_npz_mesh(path: Path, mesh: TriangleMesh, maps: dict[str, Floats], hemi
     write_arrays(path, {"vertices": mesh.vertices, "faces": mesh.faces, **scalar_channels(maps)}, hemisphere)
 
 
-def write_arrays(path: Path, arrays: Mapping[str, NDArray[np.generic]], hemisphere: str = "") -> None:
-    """Write arrays under their names, compressed, and the hemisphere as the array of that name.
+def write_arrays(
+    path: Path, arrays: Mapping[str, NDArray[np.generic]], hemisphere: str | NDArray[np.str_] = ""
+) -> None:
+    """Write arrays under their names, compressed, and the hemisphere, or that of each row, as the array of that name.
 
     Raises
     ------
     ValueError
         If an array has that name, or one that ends in .npy.
     """
-    if hemisphere and HEMISPHERE in arrays:
+    if len(hemisphere) and HEMISPHERE in arrays:
         raise ValueError(f"a map is called {HEMISPHERE!r}, the name of what says left or right: rename it")
-    kept = {**arrays, **({HEMISPHERE: np.array(hemisphere)} if hemisphere else {})}
+    kept = {**arrays, **({HEMISPHERE: np.array(hemisphere)} if len(hemisphere) else {})}
     if reserved := [name for name in kept if name.endswith(".npy")]:
         raise ValueError(f"map name {reserved[0]!r} ends as the files in an archive do: rename the map")
     # numpy's own function has parameters that could be names of maps

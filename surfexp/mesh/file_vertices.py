@@ -55,6 +55,21 @@ class FileVertices:
         """
         return values[self.standing]
 
+    def of(self, inside: NDArray[np.bool_]) -> FileVertices:
+        """Return those of some components of the mesh, as a file of their own.
+
+        Parameters
+        ----------
+        inside : (p,) bool
+            Which vertices of the mesh are kept.
+
+        Returns
+        -------
+        FileVertices
+        """
+        owned = inside[self.standing]
+        return FileVertices((np.cumsum(owned) - 1)[self.origin[inside]], (np.cumsum(inside) - 1)[self.standing[owned]])
+
     def then(self, later: FileVertices) -> FileVertices:
         """Return the vertices of the file beside those of the mesh after one more repair.
 

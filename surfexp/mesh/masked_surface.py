@@ -45,5 +45,6 @@ def cut_to_mask(surface: Surface, mask: ArrayLike | None) -> Surface:
         mask=None,
         part=part,
         file=None,
+        right=None if surface.right is None else surface.right[kept],
         notes=(*surface.notes, said, *part.notes),
     )

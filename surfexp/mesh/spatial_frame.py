@@ -60,3 +60,32 @@ class SpatialFrame:
         lost = ["FreeSurfer's volume geometry (cras)"] if self.volume and format_name != "FreeSurfer" else []
         lost += ["coordinate transforms"] if moved and format_name != "GIFTI" else []
         return f"{' and '.join(lost)} of the input cannot be held by this format and are left out." if lost else ""
+
+
+def common_frame(first: SpatialFrame, second: SpatialFrame) -> tuple[SpatialFrame, tuple[str, ...]]:
+    """Return what two files say alike of the space of their vertices, and in words what they say otherwise.
+
+    Parameters
+    ----------
+    first, second : SpatialFrame
+
+    Returns
+    -------
+    SpatialFrame
+    tuple of str
+    """
+    same_volume = first.volume.keys() == second.volume.keys() and all(
+        np.array_equal(value, second.volume[key]) for key, value in first.volume.items()
+    )
+    same_transforms = len(first.transforms) == len(second.transforms) and all(
+        (a.source, a.target) == (b.source, b.target) and np.array_equal(a.matrix, b.matrix)
+        for a, b in zip(first.transforms, second.transforms, strict=False)
+    )
+    lost = [] if same_volume else ["volume geometry"]
+    lost += [] if same_transforms else ["coordinate transforms"]
+    common = SpatialFrame(
+        first.volume if same_volume else {},
+        first.transforms if same_transforms else (),
+        {key: value for key, value in first.metadata.items() if second.metadata.get(key) == value},
+    )
+    return common, (f"The hemispheres differ in {' and '.join(lost)}: left out.",) if lost else ()

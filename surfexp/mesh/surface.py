@@ -21,6 +21,7 @@ from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 HEMISPHERES = ("left", "right")
+BOTH = "both"
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +71,8 @@ class Surface(Summarized):
         Ground truth, where there is some.
     mask : (n,) bool, or numbers of which 0 and NaN are outside, optional
         The part that methods work on, such as the cortex without its medial wall; None is all of it.
-    hemisphere : {"", "left", "right"}
-        Where the file said so.
+    hemisphere : {"", "left", "right", "both"}
+        Where the file said so; "both" where `right` is given.
     labels : dict of str to LabelMap
         Parcellations by name.
     part : SurfacePart, optional
@@ -80,11 +81,14 @@ class Surface(Summarized):
         Where the vertices lie, as the file says it; written again where a format holds it.
     file : FileVertices, optional
         The vertices of its file, where repair has merged or split some. Results are written on these.
+    right : (n,) bool, optional
+        Of a surface that is both hemispheres: which vertices are of the right one. No face joins the two.
 
     Raises
     ------
     ValueError
-        If the mesh is none, a map, labels, a mask or a truth is not one number a vertex, or vertices lie off the shape.
+        If the mesh is none, a map, labels, a mask or a truth is not one number a vertex, vertices lie off the shape, or a
+        hemisphere is said that `right` contradicts.
 
     Examples
     --------
@@ -111,6 +115,7 @@ class Surface(Summarized):
     part: SurfacePart | None = None
     frame: SpatialFrame = field(default_factory=SpatialFrame)
     file: FileVertices | None = None
+    right: NDArray[np.bool_] | None = None
     METRICS: ClassVar[dict[str, Metric]] = {
         "vertices": Metric("number of vertices"),
         "faces": Metric("number of faces"),
@@ -127,8 +132,11 @@ class Surface(Summarized):
         if not isinstance(self.mesh, TriangleMesh):
             raise ValueError(f"mesh is a {type(self.mesh).__name__}, a TriangleMesh or (vertices, faces) is needed")
         n = len(self.mesh.vertices)
+        if self.right is not None:
+            object.__setattr__(self, "right", frozen(mask_array(self.right, n, "right"), self.right))
+            object.__setattr__(self, "hemisphere", self.hemisphere or BOTH)
         if self.hemisphere != "":
-            one_of(self.hemisphere, "hemisphere", HEMISPHERES)
+            one_of(self.hemisphere, "hemisphere", HEMISPHERES if self.right is None else (BOTH,))
         for name, numbers in (("labels", self.truth.labels), ("origin", self.truth.origin)):
             if numbers is not None and np.shape(numbers) != (n,):
                 raise ValueError(f"true {name} have shape {np.shape(numbers)}, the mesh has {n} vertices")
@@ -156,6 +164,37 @@ class Surface(Summarized):
     def faces(self) -> Integers:
         """(m, 3) int64 vertices of the triangles: those of `mesh`."""
         return self.mesh.faces
+
+    def hemispheres(self) -> dict[str, Surface]:
+        """Return the two hemispheres, each as a surface of its own with its maps, labels and mask.
+
+        Returns
+        -------
+        dict of str to Surface
+            "left" and "right"; of a surface that is not both, itself under the hemisphere that it says.
+        """
+        if self.right is None:
+            return {self.hemisphere: self}
+        return {side: self._half(side, self.right == (side == "right")) for side in HEMISPHERES}
+
+    def _half(self, side: str, inside: NDArray[np.bool_]) -> Surface:
+        number = np.cumsum(inside) - 1
+        faces = self.mesh.faces[inside[self.mesh.faces].all(axis=1)]
+        return replace(
+            self,
+            mesh=TriangleMesh(self.mesh.vertices[inside], number[faces]),
+            scalars={name: values[inside] for name, values in self.scalars.items()},
+            coordinates=None if self.coordinates is None else self.coordinates[inside],
+            metrics={},
+            shape=None,
+            truth=Truth(),
+            mask=None if self.mask is None else self.mask[inside],
+            hemisphere=side,
+            labels={name: replace(table, keys=table.keys[inside]) for name, table in self.labels.items()},
+            part=None,
+            file=None if self.file is None else self.file.of(inside),
+            right=None,
+        )
 
     def deformed(self, mesh: TriangleMesh) -> Surface:
         """Return the surface with its vertices moved: of the same connectivity, but of no known shape and midline.

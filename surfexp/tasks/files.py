@@ -2,43 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats
-from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
-from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask, read_named_labels
-from surfexp.io.map_shapes import scalar_channels
-from surfexp.io.reading import read_mesh_file
-from surfexp.mesh.given_arrays import mask_array
-from surfexp.mesh.given_numbers import one_of
-from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.tasks.repaired_surface import repaired
-from surfexp.tasks.soundness import sound_part
-
-PathLike = str | Path
+from surfexp.mesh.surface import Surface
+from surfexp.tasks.both_files import read_both
+from surfexp.tasks.surface_file import PathLike, read_surface
 
 
 def read(
-    path: PathLike,
+    path: PathLike | None = None,
     *,
-    maps: Mapping[str, PathLike] | PathLike | Sequence[PathLike] | None = None,
-    labels: Mapping[str, PathLike] | PathLike | Sequence[PathLike] | None = None,
-    mask: PathLike | np.ndarray | None = None,
+    left: PathLike | None = None,
+    right: PathLike | None = None,
+    maps: Mapping[str, Any] | PathLike | Sequence[Any] | None = None,
+    labels: Mapping[str, Any] | PathLike | Sequence[Any] | None = None,
+    mask: PathLike | np.ndarray | Mapping[str, Any] | None = None,
     unit: str = "",
     hemisphere: str = "",
     repair: bool = False,
 ) -> Surface:
-    """Read a surface with its maps, labels and mask.
+    """Read a surface, or both hemispheres as one surface, with its maps, labels and mask.
+
+    With `left` and `right`, each map, the labels and the mask are a pair {"left": file, "right": file}, or one file that holds
+    both: .dscalar.nii, .dlabel.nii, .npz. The left vertices stand first, and what has one name has one label.
 
     Parameters
     ----------
     path : path
         OFF, OBJ, PLY, STL, VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
+    left, right : path, optional
+        The two hemispheres, in place of `path`.
     maps : path, list of paths, or dict of name to path, optional
         GIFTI, CIFTI-2, .mgh/.mgz, FreeSurfer curvature, .npy/.npz, .csv, text. A map without a name is called as its file. A
         file with several maps gives each its own name.
@@ -73,81 +69,12 @@ def read(
     >>> sx.write("height.csv", sx.shape("icosphere", levels=2).mesh.vertices[:, 2])
     >>> list(sx.read("ball.ply", maps="height.csv").scalars)
     ['height']
+    >>> brain = sx.read(left="ball.ply", right="ball.ply", maps={"height": {"left": "height.csv", "right": "height.csv"}})
+    >>> brain.hemisphere, len(brain.scalars["height"]), int(brain.right.sum())
+    ('both', 324, 162)
     """
-    if hemisphere != "":
-        one_of(hemisphere, "hemisphere", HEMISPHERES)
-    file_read = read_mesh_file(Path(path))
-    vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
-    count = len(vertices)
-    map_files, label_files = by_name(maps, "maps"), by_name(labels, "labels")
-    files: list[tuple[str, PathLike]] = [("surface", path)]
-    files += [(f"map {name!r}", file) for name, file in map_files.items()]
-    files += [(f"labels {name!r}", file) for name, file in label_files.items()]
-    files += [("mask", str(mask).partition(":")[0])] if isinstance(mask, str | Path) else []
-    side = hemisphere or common_hemisphere(files)
-    notes = (*file_read.notes, *_overridden(hemisphere, path))
-    for name, file in map_files.items():
-        scalars |= _named(name, read_maps(file, side), count, file)
-    tables = {name: read_named_labels(file, side) for name, file in label_files.items()}
-    for name, table in tables.items():
-        if len(table.keys) != count:
-            raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
-    if isinstance(mask, str | Path):
-        notes = (*notes, *mask_notes(mask, side))
-        mask = read_mask(mask, count, side)
-    inside = None if mask is None else mask_array(mask, count)
-    surface = Surface(
-        TriangleMesh(vertices, faces),
-        Path(path).stem,
-        unit,
-        scalars,
-        mask=inside,
-        hemisphere=side,
-        labels=tables,
-        notes=notes,
-        frame=file_read.frame,
-    )
-    try:
-        return sound_part(surface, str(path), repair="")
-    except ValueError:
-        if not repair:
-            raise
-    return sound_part(repaired(surface), str(path), repair="")
-
-
-def by_name(given: Any, what: str) -> dict[str, PathLike]:
-    """Return files by name: as given, or each by the name of its file.
-
-    Raises
-    ------
-    ValueError
-        If two files have one name, or something is no path.
-    """
-    if given is None:
-        return {}
-    files = given if isinstance(given, Mapping) else [given] if isinstance(given, str | Path) else given
-    wrong = None if isinstance(files, Iterable) else files
-    for file in files.values() if isinstance(files, Mapping) else files if wrong is None else ():
-        wrong = file if wrong is None and not isinstance(file, str | Path) else wrong
-    if wrong is not None:
-        raise ValueError(f"{what} has a {type(wrong).__name__}: give a path, a list of paths, or paths by name")
-    if isinstance(files, Mapping):
-        return {str(name): file for name, file in files.items()}
-    names = [name_of_map(file) for file in files]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        raise ValueError(f"two files of {what} are called {twice!r}: give each a name, as {{'a': path, 'b': path}}")
-    return dict(zip(names, files, strict=True))
-
-
-def _overridden(hemisphere: str, path: PathLike) -> tuple[str, ...]:
-    found = hemisphere_of_file(path) if hemisphere else ""
-    return (f"{path} says {found}; it is taken as {hemisphere}, as given.",) if found not in ("", hemisphere) else ()
-
-
-def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> dict[str, Floats]:
-    for values in maps.values():
-        if len(values) != count:
-            raise ValueError(f"map {file} has {len(values)} values, the surface has {count} vertices")
-    named = {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
-    return scalar_channels(named)
+    if left is not None or right is not None or path is None:
+        if path is not None or hemisphere:
+            raise ValueError("left and right name both hemispheres: give them alone, or path")
+        return read_both(left, right, maps, labels, mask, unit, repair)
+    return read_surface(path, maps=maps, labels=labels, mask=mask, unit=unit, hemisphere=hemisphere, repair=repair)

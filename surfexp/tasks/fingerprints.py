@@ -21,8 +21,9 @@ from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.mesh.given_numbers import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.lowest_pairs import lowest_pairs
-from surfexp.tasks.files import PathLike, read
+from surfexp.tasks.files import read
 from surfexp.tasks.inputs import part_for
+from surfexp.tasks.surface_file import PathLike
 
 CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
 # FreeSurfer's segmentation volume: in a subject's folder, and as fMRIPrep writes it among BIDS derivatives

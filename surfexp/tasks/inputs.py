@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,15 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.mesh.both_hemispheres import joined, of_both
 from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.length_scale import scaled
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
-MapLike = str | ArrayLike
+MapLike = str | ArrayLike | Mapping[str, ArrayLike]
 # of trimesh, nilearn, LaPy and Open3D
 ATTRIBUTES = (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles"))
 
@@ -30,7 +32,8 @@ def as_surface(given: SurfaceLike) -> Surface:
     Parameters
     ----------
     given : Surface, TriangleMesh, (vertices, faces), an object with `vertices` and `faces`, or a path
-        Trimesh's, Open3D's, LaPy's (`v`, `t`) and nilearn's (`coordinates`, `faces`) meshes have such attributes.
+        Trimesh's, Open3D's, LaPy's (`v`, `t`) and nilearn's (`coordinates`, `faces`) meshes have such attributes. A mapping
+        of "left" and "right" to any of these, nilearn's PolyMesh and its SurfaceImage, with its map, are both hemispheres.
 
     Raises
     ------
@@ -43,8 +46,30 @@ def as_surface(given: SurfaceLike) -> Surface:
         from surfexp.tasks.files import read
 
         return read(given)
+    if (parts := _sides(given, "mesh")) is not None:
+        return _of_sides(parts, _sides(given, "data"))
     mesh = given if isinstance(given, TriangleMesh) else TriangleMesh(*arrays_of(given))
     return sound_part(Surface(mesh), "surface")
+
+
+def _sides(given: Any, what: str) -> Mapping[str, Any] | None:
+    """Return what a mapping, or nilearn's PolyMesh, PolyData or SurfaceImage, has for each hemisphere, or None."""
+    held = getattr(given, what, None)
+    parts = given if isinstance(given, Mapping) else getattr(held if hasattr(held, "parts") else given, "parts", None)
+    return parts if isinstance(parts, Mapping) and parts and set(parts) <= set(HEMISPHERES) else None
+
+
+def _of_sides(parts: Mapping[str, Any], values: Mapping[str, Any] | None) -> Surface:
+    """Return the surface of one or both hemispheres; the map of an image is called "map"."""
+    surfaces = {}
+    for side, part in parts.items():
+        one = as_surface(part)
+        if values is not None and values is not parts:
+            one = replace(one, scalars=scalar_channels({"map": real_array(values[side], "map")}))
+        surfaces[side] = replace(one, hemisphere=one.hemisphere or side)
+    if len(surfaces) == 1:
+        return next(iter(surfaces.values()))
+    return sound_part(joined(surfaces["left"], surfaces["right"]), "surface")
 
 
 def is_mesh(given: Any) -> bool:
@@ -104,12 +129,28 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
             known = ", ".join(surface.scalars) or "none"
             raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")
         return surface.scalars[given]
-    array = real_array(given, "map")
+    array = _map_of_sides(surface, given)
     if surface.file is not None and array.shape[:1] == surface.file.standing.shape:
         array = np.asarray(surface.file.onto_mesh(array), dtype=np.float64)
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
     return array.copy() if array is given else array
+
+
+def _map_of_sides(surface: Surface, given: Any) -> Floats:
+    """Return an array, or the parts of a map of both hemispheres as one array."""
+    parts = _sides(given, "data")
+    if parts is None:
+        return real_array(given, "map")
+    if surface.right is None:
+        if surface.hemisphere not in parts:
+            raise ValueError(f"map has {' and '.join(parts)}, the surface is of hemisphere {surface.hemisphere!r}")
+        return real_array(parts[surface.hemisphere], "map")
+    missing = [side for side in HEMISPHERES if side not in parts]
+    if missing:
+        raise ValueError(f"map has no {missing[0]} hemisphere, the surface is both: give both")
+    left, right = (real_array(parts[side], f"map, {side}") for side in HEMISPHERES)
+    return np.asarray(of_both(surface, left, right), dtype=np.float64)
 
 
 def as_single_map(surface: Surface, given: MapLike) -> Floats:

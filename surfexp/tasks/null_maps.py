@@ -37,6 +37,8 @@ MOST_LOST = 0.05
 # a component with a smaller share of the vertices of the largest is an island
 ISLAND = 0.05
 
+APART = "Null maps of the two hemispheres are drawn apart: what their maps have in common is not kept."
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class NullMaps(Drawable):
@@ -132,6 +134,7 @@ def null_maps(
         raise ValueError(f"the map is constant at {inside[0]:g}: null models need one that varies")
     own = own_unit(inside)
     made, certificate, notes = chosen(owner, part.mesh, own.normalised(inside), count, modes, seed)
+    notes += (APART,) if owner.right is not None else ()
     return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes + islands + notes)
 
 

@@ -54,7 +54,7 @@ def permutation_test(
     threshold-free cluster enhancement (TFCE): the integral over all thresholds, without a step. Signs are flipped where a mean
     is tested, which assumes errors that are symmetric about 0; else maps are permuted, which assumes that they can be
     exchanged (Freedman and Lane). All rearrangements that differ are taken where they are no more than `count`: p-values are
-    then exact. Two hemispheres can be one surface of two components.
+    then exact. Both hemispheres are tested at once where they are one surface, as `read` gives it with left and right.
 
     Parameters
     ----------

@@ -92,7 +92,7 @@ def plot(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces); or a list of them
-        Several stand side by side, at one scale: both hemispheres in four pictures.
+        Several stand side by side, at one scale. So do the hemispheres of a surface that is both, in four pictures.
     values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend. A list has one for each of
         several surfaces, or of one surface a row for each; so has a dict, with their names. Eigenpairs are rows of

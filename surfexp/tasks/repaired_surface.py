@@ -55,4 +55,5 @@ def repaired(surface: Surface, largest_component: bool = False, renumber: bool =
         part=None,
         notes=(*surface.notes, *changes),
         file=file,
+        right=None if surface.right is None else surface.right[origin],
     )

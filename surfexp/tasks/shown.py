@@ -19,10 +19,11 @@ from surfexp.figures.labelling import Labelling, border_lines, labelling
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
+from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import length_scale
-from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
@@ -80,18 +81,23 @@ def shown_surfaces(
         skeleton = None if skeleton is None else skeleton.in_length(1.0 / scale)
     rows: Rows = []
     given_rows = rows_of_maps(values, surfaces)
+    in_one = skeleton is not None or any(made.skeleton is not None for made in given_rows)
+    shown = surfaces if in_one else apart(surfaces)
     for made in given_rows:
         row = []
-        for owner, one in zip(surfaces, made.maps, strict=True):
+        maps, outlined = list(made.maps), [borders] * len(surfaces)
+        if not in_one:
+            maps, outlined = _maps_apart(surfaces, maps), _maps_apart(surfaces, outlined)
+        for owner, one, border in zip(shown, maps, outlined, strict=True):
             called = label or made.bar or made.name or (one if isinstance(one, str) else "")
             base = _coloured(owner, one)
             if base.is_scalar:
                 base = replace(
                     base, scale=_scale(base, owner, called, unit, colormap or made.colormap, limits or made.limits)
                 )
-            lines = _lines(owner, base, levels or made.levels, borders, skeleton or made.skeleton)
+            drawn = _lines(owner, base, levels or made.levels, border, skeleton or made.skeleton)
             row += [
-                replace(base, view=_direction(view, owner), contours=lines, title=_title(view, owner, surfaces))
+                replace(base, view=_direction(view, owner), contours=drawn, title=_title(view, owner, shown))
                 for view in chosen or _default_views(owner)
             ]
         if len(given_rows) > 1 and made.name:
@@ -103,9 +109,37 @@ def shown_surfaces(
     return rows
 
 
+def apart(surfaces: Sequence[Surface]) -> list[Surface]:
+    """Return surfaces that are both hemispheres as two, and others as they are."""
+    return [one for surface in surfaces for one in surface.hemispheres().values()]
+
+
+def _maps_apart(owners: Sequence[Surface], given: Sequence[Any]) -> list[Any]:
+    """Return a map, or labels, of each surface for each of its hemispheres."""
+    return [one for owner, values in zip(owners, given, strict=True) for one in _map_apart(owner, values)]
+
+
+def _map_apart(owner: Surface, given: Any) -> list[Any]:
+    """Return a map, or labels, of a surface for each of its hemispheres; a name stays."""
+    if owner.right is None:
+        return [given]
+    if given is None or (isinstance(given, str) and (given in owner.scalars or given in owner.labels)):
+        return [given, given]
+    rows = [vertices_of(owner, side) for side in HEMISPHERES]
+    table = getattr(given, "label_map", given)
+    if isinstance(table, LabelMap):
+        keys = _fitting(table.keys, owner)
+        return [replace(table, keys=keys[own]) for own in rows]
+    array = np.asarray(getattr(given, "values", given))
+    if array.dtype.kind in "biu" and array.ndim == 1:
+        _fitting(array, owner)
+        return [array[own] for own in rows]
+    return [as_map(owner, getattr(given, "values", given))[own] for own in rows]
+
+
 def sides(surface: Surface) -> dict[str, tuple[float, float]]:
     """Return the lateral and medial direction of a hemisphere; none of another surface."""
-    return {name: _direction(name, surface) for name in HEMISPHERE_VIEWS} if surface.hemisphere else {}
+    return {name: _direction(name, surface) for name in HEMISPHERE_VIEWS} if surface.hemisphere in HEMISPHERES else {}
 
 
 def is_several(given: Any) -> bool:
@@ -196,12 +230,12 @@ def _checked_view(given: Any) -> View:
 
 
 def _default_views(owner: Surface) -> tuple[View, ...]:
-    return HEMISPHERE_VIEWS if owner.hemisphere else ("oblique",)
+    return HEMISPHERE_VIEWS if owner.hemisphere in HEMISPHERES else ("oblique",)
 
 
 def _direction(view: View, owner: Surface) -> tuple[float, float]:
     """Return azimuth and elevation; the side of a hemisphere is what its file says, not where it lies."""
-    if owner.hemisphere and view in HEMISPHERE_VIEWS:
+    if owner.hemisphere in HEMISPHERES and view in HEMISPHERE_VIEWS:
         return VIEWS["left" if (owner.hemisphere == "left") == (view == "lateral") else "right"]
     return viewing_direction(view, owner.mesh)
 

@@ -37,6 +37,11 @@ def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surf
     """
     if surface in _SOUND:
         return surface
+    if surface.right is not None:
+        for side, one in surface.hemispheres().items():
+            sound_part(one, f"{name}, {side}", repair)
+        _SOUND.add(surface)
+        return surface
     mesh = surface.mesh
     usable = usable_vertices(mesh)
     inside = usable if surface.mask is None else usable & surface.mask

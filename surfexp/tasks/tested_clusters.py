@@ -8,6 +8,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.inference.clusters import Clusters, clusters_where
 from surfexp.inference.corrections import false_discovery_rate, family_wise
 from surfexp.inference.permutation_inference import NullDistributions, Statistics
+from surfexp.mesh.both_hemispheres import side_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
@@ -68,6 +69,7 @@ def tested_maps(
                     t=float(found.t[sets.peaks[k]]),
                     p_t=float(p_t[inside].min()),
                     p_tfce=float(p_tfce[inside].min()),
+                    hemisphere=side_of(owner, peak),
                     parcels=_shares(parcels, part.vertices[inside], statistics.graph.areas[inside]),
                     **{f"p_{name}": float(values[k]) for name, values in p.items()},
                 )

@@ -36,6 +36,7 @@ class TestedCluster:
         Family-wise, of the whole cluster; NaN for a region that no threshold has formed.
     parcels : dict of str to float
         Share of the area in each parcel, largest first, where labels are given.
+    hemisphere : {"", "left", "right"}
     """
 
     __test__ = False
@@ -51,6 +52,7 @@ class TestedCluster:
     p_extent: float = float("nan")
     p_mass: float = float("nan")
     parcels: dict[str, float] = field(default_factory=dict)
+    hemisphere: str = ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -137,6 +139,8 @@ class PermutationTest(Drawable):
         columns |= {name: [getattr(row, name) for row in rows] for name in ("t", "p_t", "p_tfce")}
         if which == "clusters":
             columns |= {name: [getattr(row, name) for row in rows] for name in ("p_extent", "p_mass")}
+        if any(row.hemisphere for row in rows):
+            columns = {"hemisphere": [row.hemisphere for row in rows], **columns}
         if any(row.parcels for row in rows):
             columns["parcels"] = [
                 ", ".join(f"{name} {share:.0%}" for name, share in row.parcels.items()) for row in rows

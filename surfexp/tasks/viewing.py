@@ -15,11 +15,12 @@ from surfexp.figures.color_bar import fitted_scales
 from surfexp.figures.contours import Contours
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
+from surfexp.mesh.surface import HEMISPHERES
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import SurfaceLike, as_surface
 from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of
-from surfexp.tasks.shown import is_several, shown_surfaces, sides
+from surfexp.tasks.shown import apart, is_several, shown_surfaces, sides
 from surfexp.viewer.page import viewer_page
 from surfexp.viewer.scene import Drawn, Field, Scene, Step
 
@@ -141,10 +142,12 @@ def view(
     (<TurningView: 1 panels of 1 surfaces>, True)
     """
     several = is_several(surface)
-    owners = [as_surface(one) for one in (surface if several else [surface])]
-    hemispheres = all(owner.hemisphere for owner in owners)
+    given = [as_surface(one) for one in (surface if several else [surface])]
+    in_one = skeleton is not None or isinstance(values, Skeleton)
+    owners = given if in_one else apart(given)
+    hemispheres = all(owner.hemisphere in HEMISPHERES for owner in owners)
     rows = shown_surfaces(
-        owners if several else owners[0],
+        given if several else given[0],
         values,
         views=views or ("lateral" if hemispheres else "oblique"),
         colormap=colormap,

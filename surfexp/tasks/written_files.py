@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.hemisphere import check_named_side, hemisphere_of_name, holds_hemisphere
+from surfexp.io.hemisphere import check_named_side, files_of_sides, hemisphere_of_name, holds_both, holds_hemisphere
 from surfexp.io.label_files import write_label_map
 from surfexp.io.map_files import check_map_target, write_maps
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import WITH_MAPS, check_mesh_target, format_of, write_mesh
+from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_arrays import map_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
@@ -33,7 +34,8 @@ SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
 def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> None:
     """Write a surface, a map, labels, or a result; the suffix decides the format.
 
-    What the format cannot hold (maps, mask, labels, hemisphere, the space of the vertices) is named in a warning.
+    What the format cannot hold (maps, mask, labels, hemisphere, the space of the vertices) is named in a warning. Maps of both
+    hemispheres are one file as .dscalar.nii or .npz; everything else becomes two, lh.NAME and rh.NAME.
 
     Parameters
     ----------
@@ -76,6 +78,9 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         if is_mesh(what) and what is not surface:
             raise ValueError("two surfaces are given: give write(path, surface), or write(path, map, surface)")
         surface = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
+    both = what if isinstance(what, Surface) else surface
+    if both is not None and both.right is not None and (is_mesh(what) or not holds_both(target)):
+        return _written_apart(target, what, both)
     if is_mesh(what):
         owner = what if isinstance(what, Surface) else Surface(TriangleMesh(*arrays_of(what)))
         if not len(owner.mesh.faces):
@@ -97,13 +102,13 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
         arrays["vectors"] = _on_file(arrays["vectors"], surface)
         with replacing(target) as temporary:
-            write_arrays(temporary, arrays, side)
+            write_arrays(temporary, arrays, _side_of_rows(surface))
         return unsaid
     maps = maps_of(what)
     for name, values in maps.items():
         _check_rows(len(values), surface, f"map {name!r}")
     if target.suffix.lower() not in SURFACES_WITH_MAPS:
-        write_maps(target, {name: _on_file(values, surface) for name, values in maps.items()}, side)
+        write_maps(target, {name: _on_file(values, surface) for name, values in maps.items()}, _side_of_rows(surface))
         return unsaid
     if surface is None:
         raise ValueError(
@@ -112,6 +117,40 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     beside = {name: as_map(surface, values) for name, values in maps.items()}
     write_mesh(target, surface.mesh, beside, surface.frame, side)
     return left_out(target, replace(surface, scalars={}, mask=None, labels={}))
+
+
+def _written_apart(target: Path, what: Any, both: Surface) -> tuple[str, ...]:
+    """Write each hemisphere to a file of its own."""
+    check_named_side(target, both.hemisphere)
+    table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
+    said: list[str] = []
+    for side, one in both.hemispheres().items():
+        own = vertices_of(both, side)
+        if is_mesh(what):
+            part: Any = one
+        elif table is not None and (target.name.endswith(LABEL_SUFFIXES) or isinstance(what, LabelMap)):
+            _check_rows(len(table.keys), both, "labels")
+            part = replace(table, keys=_on_mesh(table.keys, both)[own])
+        else:
+            part = maps_of(what)
+            for name, values in part.items():
+                _check_rows(len(values), both, f"map {name!r}")
+            part = {name: _on_mesh(values, both)[own] for name, values in part.items()}
+        said += written(files_of_sides(target)[side], part, one)
+    return tuple(dict.fromkeys(said))
+
+
+def _on_mesh(values: NDArray[Any], surface: Surface) -> NDArray[Any]:
+    """Return rows of the file of a surface as rows of its mesh."""
+    file = surface.file
+    return values if file is None or len(values) == len(file.origin) else file.onto_mesh(values)
+
+
+def _side_of_rows(surface: Surface | None) -> str | NDArray[np.str_]:
+    """The hemisphere of a surface; of both that of each row of its file."""
+    if surface is None or surface.right is None:
+        return "" if surface is None else surface.hemisphere
+    return np.where(_on_file(surface.right, surface), "right", "left")
 
 
 def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
@@ -186,7 +225,7 @@ def check_target(
     path : path
     count, channels : int
         Of the maps.
-    hemisphere : {"", "left", "right"}, optional
+    hemisphere : {"", "left", "right", "both"}, optional
         Of the maps; None if it is not known yet.
     labels : bool
         Whether formats of labels are among those that are known.

@@ -41,7 +41,7 @@ def test_sphere_has_its_radius_and_the_hemispheres_differ() -> None:
 
 
 def test_unknown_names_are_refused() -> None:
-    with pytest.raises(ValueError, match="hemisphere 'middle' is unknown, choose left or right"):
+    with pytest.raises(ValueError, match="hemisphere 'middle' is unknown, choose left, right or both"):
         fsaverage5("middle")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="choose one of pial, white, inflated, sphere"):
         fsaverage5("left", "skull")

@@ -1,0 +1,119 @@
+"""Both hemispheres from files: a pair {"left": file, "right": file}, or one file that holds both."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from surfexp.contract.arrays import Floats
+from surfexp.io.hemisphere import check_given_side, common_name, holds_both
+from surfexp.io.map_files import name_of_map, read_maps, read_named_labels
+from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
+from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.tasks.surface_file import PathLike, read_surface
+
+# a mapping with "left" and "right", or the path of a file that holds both
+Pair = Any
+
+
+def read_both(
+    left: PathLike | None, right: PathLike | None, maps: Any, labels: Any, mask: Any, unit: str, repair: bool
+) -> Surface:
+    """Read two hemispheres as one surface; arguments as those of `surfexp.read`.
+
+    Raises
+    ------
+    ValueError
+        As `surfexp.read`, or if a file is of the other hemisphere.
+    """
+    if left is None or right is None:
+        raise ValueError(f"{'left' if left is None else 'right'} is missing: give both left= and right=, or one path")
+    files = {"left": left, "right": right}
+    map_pairs, label_pairs = _by_name(maps, "maps"), _by_name(labels, "labels")
+    parts = {}
+    for side in HEMISPHERES:
+        own_maps = {name: of_side(pair, side, f"map {name!r}") for name, pair in map_pairs.items()}
+        own_labels = {name: of_side(pair, side, f"labels {name!r}") for name, pair in label_pairs.items()}
+        own_mask = None if mask is None else of_side(mask, side, "mask")
+        check_given_side("surface", files[side], side)
+        if isinstance(own_mask, str | Path):
+            check_given_side("mask", own_mask if Path(own_mask).is_file() else str(own_mask).partition(":")[0], side)
+        parts[side] = read_surface(
+            files[side], maps=own_maps, labels=own_labels, mask=own_mask, unit=unit, hemisphere=side, repair=repair
+        )
+    names = [Path(files[side]).name for side in HEMISPHERES]
+    return joined(parts["left"], parts["right"], name_of_map(common_name(*names)) or "both hemispheres")
+
+
+def of_side(given: Pair, side: str, what: str) -> Any:
+    """Return what a pair has for a hemisphere; one file that holds both serves either.
+
+    Raises
+    ------
+    ValueError
+        If it is no pair and no such file, or the file says the other hemisphere.
+    """
+    if isinstance(given, Mapping) and set(given) == set(HEMISPHERES):
+        found = given[side]
+    elif isinstance(given, str | Path) and holds_both(Path(given)):
+        found = given
+    else:
+        raise ValueError(
+            f"{what} is {given!r} for two hemispheres: give {{'left': file, 'right': file}}, or a file that holds both "
+            "(.dscalar.nii, .npz)"
+        )
+    if isinstance(found, str | Path) and what != "mask":
+        check_given_side(what, found, side)
+    return found
+
+
+def maps_of_both(surface: Surface, given: Pair) -> dict[str, Floats]:
+    """Return the maps of a pair on a surface that is both hemispheres, by the name that both files give them.
+
+    Raises
+    ------
+    ValueError
+        If a file cannot be read, is of the other hemisphere, or the two do not fit.
+    """
+    left, right = (read_maps(of_side(given, side, "map"), side) for side in HEMISPHERES)
+    if len(left) != len(right):
+        raise ValueError(f"{given['left']} has {len(left)} maps, {given['right']} has {len(right)}: give as many")
+    pairs = zip(left.items(), right.items(), strict=True)
+    both = {common_name(a, b): of_both(surface, first, second, f"map {a!r}") for (a, first), (b, second) in pairs}
+    return {name: values.astype(np.float64, copy=False) for name, values in both.items()}
+
+
+def labels_of_both(surface: Surface, given: Pair) -> LabelMap:
+    """Return the labels of a pair on a surface that is both hemispheres: what has one name has one label.
+
+    Raises
+    ------
+    ValueError
+        As `maps_of_both`.
+    """
+    left, right = joined_labels(*(read_named_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES))
+    return LabelMap(of_both(surface, left.keys, right.keys, "labels").astype(np.int64), left.names)
+
+
+def _by_name(given: Any, what: str) -> dict[str, Pair]:
+    """Pairs by name: as given, or each by what the names of its two files have in common."""
+    if given is None:
+        return {}
+    if isinstance(given, Mapping) and set(given) != set(HEMISPHERES):
+        return {str(name): pair for name, pair in given.items()}
+    pairs: Sequence[Any] = given if isinstance(given, list | tuple) else [given]
+    names = [_name(pair, what) for pair in pairs]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ValueError(f"two files of {what} are called {twice!r}: give each a name, as {{'a': pair, 'b': pair}}")
+    return dict(zip(names, pairs, strict=True))
+
+
+def _name(pair: Pair, what: str) -> str:
+    if isinstance(pair, Mapping):
+        return common_name(*(name_of_map(of_side(pair, side, what)) for side in HEMISPHERES))
+    return name_of_map(of_side(pair, "left", what))

@@ -1,0 +1,112 @@
+"""One surface with its maps, labels and mask, from files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from surfexp.contract.arrays import Floats
+from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
+from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask, read_named_labels
+from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.reading import read_mesh_file
+from surfexp.mesh.given_arrays import mask_array
+from surfexp.mesh.given_numbers import one_of
+from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.repaired_surface import repaired
+from surfexp.tasks.soundness import sound_part
+
+PathLike = str | Path
+
+
+def read_surface(
+    path: PathLike, *, maps: Any, labels: Any, mask: Any, unit: str, hemisphere: str, repair: bool
+) -> Surface:
+    """Read one surface; arguments as those of `surfexp.read`.
+
+    Raises
+    ------
+    ValueError
+        As `surfexp.read`.
+    """
+    if hemisphere != "":
+        one_of(hemisphere, "hemisphere", HEMISPHERES)
+    file_read = read_mesh_file(Path(path))
+    vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
+    if isinstance(mask, Mapping):
+        raise ValueError("mask is a pair, path is one surface: give left= and right=, or one mask")
+    count = len(vertices)
+    map_files, label_files = by_name(maps, "maps"), by_name(labels, "labels")
+    files: list[tuple[str, PathLike]] = [("surface", path)]
+    files += [(f"map {name!r}", file) for name, file in map_files.items()]
+    files += [(f"labels {name!r}", file) for name, file in label_files.items()]
+    files += [("mask", str(mask).partition(":")[0])] if isinstance(mask, str | Path) else []
+    side = hemisphere or common_hemisphere(files)
+    notes = (*file_read.notes, *_overridden(hemisphere, path))
+    for name, file in map_files.items():
+        scalars |= _named(name, read_maps(file, side), count, file)
+    tables = {name: read_named_labels(file, side) for name, file in label_files.items()}
+    for name, table in tables.items():
+        if len(table.keys) != count:
+            raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
+    if isinstance(mask, str | Path):
+        notes = (*notes, *mask_notes(mask, side))
+        mask = read_mask(mask, count, side)
+    inside = None if mask is None else mask_array(mask, count)
+    surface = Surface(
+        TriangleMesh(vertices, faces),
+        Path(path).stem,
+        unit,
+        scalars,
+        mask=inside,
+        hemisphere=side,
+        labels=tables,
+        notes=notes,
+        frame=file_read.frame,
+    )
+    try:
+        return sound_part(surface, str(path), repair="")
+    except ValueError:
+        if not repair:
+            raise
+    return sound_part(repaired(surface), str(path), repair="")
+
+
+def by_name(given: Any, what: str) -> dict[str, PathLike]:
+    """Return files by name: as given, or each by the name of its file.
+
+    Raises
+    ------
+    ValueError
+        If two files have one name, or something is no path.
+    """
+    if given is None:
+        return {}
+    files = given if isinstance(given, Mapping) else [given] if isinstance(given, str | Path) else given
+    wrong = None if isinstance(files, Iterable) else files
+    for file in files.values() if isinstance(files, Mapping) else files if wrong is None else ():
+        wrong = file if wrong is None and not isinstance(file, str | Path) else wrong
+    if wrong is not None:
+        raise ValueError(f"{what} has a {type(wrong).__name__}: give a path, a list of paths, or paths by name")
+    if isinstance(files, Mapping):
+        return {str(name): file for name, file in files.items()}
+    names = [name_of_map(file) for file in files]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ValueError(f"two files of {what} are called {twice!r}: give each a name, as {{'a': path, 'b': path}}")
+    return dict(zip(names, files, strict=True))
+
+
+def _overridden(hemisphere: str, path: PathLike) -> tuple[str, ...]:
+    found = hemisphere_of_file(path) if hemisphere else ""
+    return (f"{path} says {found}; it is taken as {hemisphere}, as given.",) if found not in ("", hemisphere) else ()
+
+
+def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> dict[str, Floats]:
+    for values in maps.values():
+        if len(values) != count:
+            raise ValueError(f"map {file} has {len(values)} values, the surface has {count} vertices")
+    named = {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
+    return scalar_channels(named)
