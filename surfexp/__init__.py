@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.fingerprints import fingerprint as fingerprint
     from surfexp.tasks.noise_of_map import noise as noise
     from surfexp.tasks.null_maps import null_maps as null_maps
+    from surfexp.tasks.parcellation import parcels as parcels
     from surfexp.tasks.permutation_testing import permutation_test as permutation_test
     from surfexp.tasks.pictures import plot as plot
     from surfexp.tasks.proving import proof_page as proof_page

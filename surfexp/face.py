@@ -22,6 +22,7 @@ FACE = {
     "mean_curvature": "surfexp.tasks.skeletons",
     "noise": "surfexp.tasks.noise_of_map",
     "null_maps": "surfexp.tasks.null_maps",
+    "parcels": "surfexp.tasks.parcellation",
     "permutation_test": "surfexp.tasks.permutation_testing",
     "plot": "surfexp.tasks.pictures",
     "proof_page": "surfexp.tasks.proving",

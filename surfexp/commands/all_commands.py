@@ -31,6 +31,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "smooth": Entry("map_commands", "Smooth a map by heat flow, as a Gaussian of a given width would."),
         "nulls": Entry("nulls", "Make null maps of a map, and tell its correlation with another from chance."),
         "test": Entry("permutation", "Test maps of subjects at every vertex, corrected for all of them."),
+        "parcels": Entry("parcels", "Write the mean and median of a map in each parcel, weighted by area."),
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
         "skeleton": Entry("surface_commands", "Find the Reeb graph of a map on a surface."),
         "distance": Entry(

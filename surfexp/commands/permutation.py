@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +20,7 @@ from surfexp.commands.surface_arguments import (
     shown_labels,
     surface_options,
 )
+from surfexp.commands.table_file import ready_table, write_table_file
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def test(
     if labels and parcels is None:
         raise ValueError(f"--labels {labels} is no file of labels, give .annot, .label.gii or .dlabel.nii")
     ready_map(target, files, surface, values, count=8)
-    _ready_table(table, files)
+    ready_table(table, files, "--table")
     started = time.perf_counter()
     with progress_line("test") as progress:
         found = permutation_test(
@@ -101,7 +101,7 @@ def test(
     facts = found.facts | {"seconds": time.perf_counter() - started}
     _say(found, surface.right is not None)
     if table is not None:
-        _write_table(table, found)
+        write_table_file(table, found.table("clusters"))
     return finish(target, found.maps, surface, "permutation test", options, files, facts, found.notes)
 
 
@@ -154,28 +154,6 @@ def _number(word: str, where: str) -> float:
         return float(word)
     except ValueError:
         raise ValueError(f"{where} has {word!r}, a number is needed") from None
-
-
-def _ready_table(table: Path | None, files: Inputs) -> None:
-    if table is None:
-        return
-    if table.suffix.lower() != ".csv":
-        raise ValueError(f"--table {table} has an unknown format, choose .csv")
-    from surfexp.io.replacing import check_writable
-
-    check_writable(table)
-    files.refuse_to_overwrite(table)
-
-
-def _write_table(table: Path, found: PermutationTest) -> None:
-    from surfexp.io.csv_cells import cells
-    from surfexp.io.replacing import replacing
-
-    columns = found.table("clusters")
-    with replacing(table) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(cells(row) for row in zip(*columns.values(), strict=True))
 
 
 def _say(found: PermutationTest, both: bool) -> None:

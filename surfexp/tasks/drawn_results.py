@@ -17,6 +17,7 @@ from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.distances import ModeAlignment
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.null_maps import NullMaps
+from surfexp.tasks.parcel_table import Parcels
 from surfexp.tasks.tested_maps import PermutationTest
 from surfexp.variational.fitted_noise import FittedNoise
 
@@ -53,6 +54,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
         return [MapRow(f"null map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
     if isinstance(result, PermutationTest):
         return _tested(result)
+    if isinstance(result, Parcels) and result.means.ndim > 1:
+        return [MapRow(f"map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
     if isinstance(result, DenoisedMap):
         return _before_and_after(result, surface)
     if isinstance(result, ModeAlignment):

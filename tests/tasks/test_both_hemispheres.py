@@ -285,6 +285,11 @@ def test_repair_keeps_sides_and_files(folder: Path) -> None:
     np.testing.assert_array_equal(read_maps("number.npz", "right")["number"], values[N + 3 :])
     curvature = sx.mean_curvature(brain)
     np.testing.assert_array_equal(curvature[brain.right], sx.mean_curvature(SIDES["right"]))
+    halves = {side: one.vertices[:, 2] for side, one in brain.hemispheres().items()}
+    assert len(halves["left"]) == N + 4
+    np.testing.assert_array_equal(
+        sx.smooth(brain, halves, 0.3).values, sx.smooth(brain, brain.vertices[:, 2], 0.3).values
+    )
     again = sx.repair(brain)
     assert again.right is not None and again.right.sum() == len(RIGHT.vertices)
 
