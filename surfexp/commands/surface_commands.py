@@ -26,13 +26,14 @@ from surfexp.commands.surface_arguments import (
     shown_map,
     surface_options,
 )
+from surfexp.commands.table_file import ready_table, write_table_file
 from surfexp.commands.terminal import echo
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
     "geodesic": ("lh.white 0 --to distance.shape.gii", "bunny.ply 12 40 --to distance.csv"),
     "curvature": ("lh.white --to curvature.shape.gii", "bunny.ply --to bunny.vtp"),
-    "skeleton": ("patch.ply --to skeleton.vtk", "patch.ply height.csv --to skeleton.graphml"),
+    "skeleton": ("vessel.ply --to skeleton.swc", "patch.ply height.csv --branches table.csv --to skeleton.graphml"),
     "distance": ("a.ply b.ply -n 20", "a.ply b.ply --to map.npz"),
     "align": ("a.ply b.ply -k 50 --to aligned.npz", "lh.white other/lh.white -k 20 --to aligned.npz"),
     "convert": ("lh.white white.gii", "scan.obj scan.ply"),
@@ -119,12 +120,13 @@ def curvature(path: str, target: Path, **given: Any) -> None:
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
 @click.option("--count", default=50, help="number of level sets")
+@click.option("--branches", type=click.Path(path_type=Path), metavar="FILE", help="lengths and radii of branches, .csv")
 @surface_options
 @result_option()
-def skeleton(path: str, map_name: str | None, count: int, target: Path, **given: Any) -> None:
+def skeleton(path: str, map_name: str | None, count: int, branches: Path | None, target: Path, **given: Any) -> None:
     """Find the Reeb graph of a map on a surface.
 
-    Without MAP it is that of the first eigenfunction. The result is .vtk, .ply or .graphml.
+    Without MAP it is that of the first eigenfunction. The result is .graphml, .swc where it is a tree, .vtk or .ply.
     """
     from surfexp.commands.certificate import write_certificate
     from surfexp.skeleton.export import check_skeleton_target, write_skeleton
@@ -134,9 +136,12 @@ def skeleton(path: str, map_name: str | None, count: int, target: Path, **given:
     surface, files = opened(path, **given)
     given_map = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None
     ready(target, files, check_skeleton_target)
+    ready_table(branches, files, "--branches")
     values = first_eigenfunction(eigenpairs(surface, 3)) if given_map is None else given_map
     graph = reeb_graph(surface, values, count=count)
     write_skeleton(target, graph)
+    if branches is not None:
+        write_table_file(branches, graph.branches())
     facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}
     write_certificate(
         target, "reeb graph", {"levels": count, "map": map_name or "first eigenfunction"}, files, facts, graph.notes

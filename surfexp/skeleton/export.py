@@ -1,25 +1,29 @@
-"""Skeletons as files: GraphML for graph programs, VTK and PLY for viewers of surfaces."""
+"""Skeletons as files: GraphML for graph programs, SWC for those of neurons and vessels, VTK and PLY for viewers."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+
+import numpy as np
 
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.skeleton.skeleton import Skeleton
 
-FORMATS = (".graphml", ".vtk", ".ply")
+FORMATS = (".graphml", ".swc", ".vtk", ".ply")
 
 
 def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
     """Write nodes and arcs in the format of the file's ending.
 
-    GraphML keeps position, kind, value, contour length and level of every node; legacy VTK positions, lines, and the values
-    and contour lengths as point data; PLY positions and edges.
+    GraphML keeps position, kind, value, contour length, radius and level of every node. SWC keeps positions and radii of trees,
+    each with its lowest node as root; the type of all is 0, undefined. Legacy VTK keeps positions, lines, and values, contour
+    lengths and radii as point data; PLY positions and edges.
 
     Raises
     ------
     ValueError
-        If the ending is none of .graphml, .vtk and .ply.
+        If the ending is none of these, or a skeleton with loops, or without radii, is to be an SWC file.
     """
     path = Path(path)
     check_skeleton_target(path)
@@ -29,8 +33,9 @@ def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
         with replacing(path) as temporary:
             networkx.write_graphml(skeleton.graph(), temporary)
         return
+    text = WRITERS[path.suffix](skeleton)
     with replacing(path) as temporary:
-        temporary.write_text(_vtk(skeleton) if path.suffix == ".vtk" else _ply(skeleton), encoding="ascii")
+        temporary.write_text(text, encoding="ascii")
 
 
 def check_skeleton_target(path: Path) -> None:
@@ -55,7 +60,7 @@ def _vtk(skeleton: Skeleton) -> str:
     lines = ["# vtk DataFile Version 3.0", "skeleton", "ASCII", "DATASET POLYDATA", f"POINTS {nodes} double"]
     lines += [*_points(skeleton), f"LINES {arcs} {3 * arcs}", *(f"2 {a} {b}" for a, b in skeleton.arcs.tolist())]
     lines.append(f"POINT_DATA {nodes}")
-    for name, values in (("value", skeleton.values), ("length", skeleton.lengths)):
+    for name, values in (("value", skeleton.values), ("length", skeleton.lengths), ("radius", skeleton.radii)):
         lines += [f"SCALARS {name} double 1", "LOOKUP_TABLE default", *(f"{value:.9g}" for value in values.tolist())]
     return "\n".join(lines) + "\n"
 
@@ -65,3 +70,29 @@ def _ply(skeleton: Skeleton) -> str:
     head += [f"property double {axis}" for axis in "xyz"]
     head += [f"element edge {len(skeleton.arcs)}", "property int vertex1", "property int vertex2", "end_header"]
     return "\n".join([*head, *_points(skeleton), *(f"{a} {b}" for a, b in skeleton.arcs.tolist())]) + "\n"
+
+
+def _swc(skeleton: Skeleton) -> str:
+    """Rows of number, type, position, radius and parent; parents stand before their children."""
+    if loops := int(skeleton.metrics["b1"]):
+        raise ValueError(f"the skeleton has {loops} loops, an SWC file holds trees only: choose .graphml")
+    if not np.isfinite(skeleton.radii).all():
+        raise ValueError("the skeleton has nodes without a radius, which an SWC file needs: choose .graphml")
+    around: list[list[int]] = [[] for _ in skeleton.positions]
+    for a, b in skeleton.arcs.tolist():
+        around[a].append(b)
+        around[b].append(a)
+    number: dict[int, int] = {}
+    lines = ["# Reeb graph by surfexp: number, type (0, undefined), x, y, z, radius, parent"]
+    for root in np.argsort(skeleton.values, kind="stable").tolist():
+        waiting = [] if root in number else [(root, -1)]
+        while waiting:
+            node, parent = waiting.pop()
+            number[node] = len(number) + 1
+            x, y, z, radius = (f"{value:.9g}" for value in (*skeleton.positions[node].tolist(), skeleton.radii[node]))
+            lines.append(f"{number[node]} 0 {x} {y} {z} {radius} {number.get(parent, -1)}")
+            waiting += [(other, node) for other in reversed(around[node]) if other != parent]
+    return "\n".join(lines) + "\n"
+
+
+WRITERS: dict[str, Callable[[Skeleton], str]] = {".vtk": _vtk, ".ply": _ply, ".swc": _swc}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, ClassVar
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.metric import Metric
 from surfexp.contract.summary import Summary
+from surfexp.skeleton.radii import branch_table, contour_radii
 
 if TYPE_CHECKING:
     import networkx
@@ -79,6 +81,35 @@ class Skeleton(Drawable):
         """(N,) number of arcs at each node."""
         return np.bincount(self.arcs.ravel(), minlength=len(self.positions)).astype(np.int64)
 
+    @cached_property
+    def radii(self) -> Floats:
+        """(N,) radius at each node.
+
+        Of a contour the mean distance of its points, by length, from the axis: the line through its middle along the skeleton.
+        `lengths` over 2 pi is the radius by the surface alone, larger where a contour is aslant. Of a cap it is 0, of a junction
+        the mean of the contours next to it. NaN where there is no contour.
+        """
+        radii = contour_radii(self.positions, self.contour_points, self.contour_starts, self.closed, self.arcs)
+        arcs = np.concatenate([self.arcs, self.arcs[:, ::-1]])
+        arcs = arcs[np.isfinite(radii[arcs[:, 1]])]
+        sums = np.bincount(arcs[:, 0], radii[arcs[:, 1]], len(radii))
+        beside = np.bincount(arcs[:, 0], minlength=len(radii))
+        around = np.divide(sums, beside, out=np.full(len(radii), np.nan), where=beside > 0)
+        radii = np.where((self.kinds == JUNCTION) & np.isnan(radii), around, radii)
+        return np.where((self.kinds == CAP) & (len(self.contour_points) > 0), 0.0, radii)
+
+    def branches(self) -> dict[str, list[Any]]:
+        """Return the branches between ends and junctions as columns, as pandas.DataFrame takes them.
+
+        Returns
+        -------
+        dict of str to list
+            first, last: nodes. from, to: "cap", "junction" or "contour". nodes: how many. length: through their positions.
+            radius, smallest, largest: median and ends of the radii of contours, NaN without one. Contours that meet a boundary are
+            part of a ring only.
+        """
+        return branch_table(self.positions, np.array(KINDS)[self.kinds], self.arcs, self.radii)
+
     @property
     def is_chain(self) -> bool:
         """Whether the graph is a single path: connected, without loop or branch."""
@@ -107,7 +138,7 @@ class Skeleton(Drawable):
         Returns
         -------
         networkx.Graph
-            Nodes with x, y, z, kind, value, length, closed, level; arcs with their length.
+            Nodes with x, y, z, kind, value, length, closed, level, and the radius where it is known; arcs with their length.
         """
         import networkx
 
@@ -123,6 +154,7 @@ class Skeleton(Drawable):
                 length=float(self.lengths[i]),
                 closed=bool(self.closed[i]),
                 level=int(self.level_index[i]),
+                **({"radius": float(self.radii[i])} if np.isfinite(self.radii[i]) else {}),
             )
         sizes = np.linalg.norm(self.positions[self.arcs[:, 1]] - self.positions[self.arcs[:, 0]], axis=1)
         graph.add_edges_from((a, b, {"length": size}) for (a, b), size in zip(self.arcs.tolist(), sizes, strict=True))

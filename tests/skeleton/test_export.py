@@ -49,5 +49,5 @@ def test_a_viewer_gets_values_and_lengths_at_the_nodes(tmp_path, skeleton):
 
 
 def test_another_ending_is_refused(tmp_path, skeleton):
-    with pytest.raises(ValueError, match=r"graphml, \.vtk, \.ply"):
+    with pytest.raises(ValueError, match=r"graphml, \.swc, \.vtk, \.ply"):
         write_skeleton(tmp_path / "s.obj", skeleton)
