@@ -63,13 +63,21 @@ def picture_options(command: Command) -> Command:
         looks = {name: given.pop(name) or None for name in ("views", "colormap", "limits", "contours", "borders")}
         if looks["views"]:
             looks["views"] = [name.strip() for name in looks["views"].split(",")]
-        looks["label"] = given.pop("label") or Path(map_name or "").name
+        looks["label"] = given.pop("label") or _shown_name(map_name or "")
         return command(map_name=map_name, looks=looks, **given)
 
     decorated: Command = gathered
     for option in reversed(options):
         decorated = option(decorated)
     return decorated
+
+
+def _shown_name(given: str) -> str:
+    """The name of a file without its folder; of a pair what both names have in common."""
+    from surfexp.io.hemisphere import common_name
+
+    pair = both_of(given)
+    return Path(pair).name if isinstance(pair, str) else common_name(*(Path(one).name for one in pair.values()))
 
 
 def result_option(required: bool = True) -> Callable[[Command], Command]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
@@ -176,6 +176,30 @@ class Surface(Summarized):
         if self.right is None:
             return {self.hemisphere: self}
         return {side: self._half(side, self.right == (side == "right")) for side in HEMISPHERES}
+
+    def by_hemisphere(self, values: ArrayLike) -> dict[str, NDArray[Any]]:
+        """Return the rows of a map for each hemisphere, as nilearn's SurfaceImage takes them.
+
+        Parameters
+        ----------
+        values : (n, ...) array_like
+
+        Returns
+        -------
+        dict of str to (l, ...) or (r, ...) array
+            "left" and "right"; of a surface that is not both, the map under the hemisphere that it says.
+
+        Raises
+        ------
+        ValueError
+            If there is not one row for each vertex.
+        """
+        rows = np.asarray(values)
+        if rows.shape[:1] != (len(self.mesh.vertices),):
+            raise ValueError(f"map has shape {rows.shape}, the surface has {len(self.mesh.vertices)} vertices")
+        if self.right is None:
+            return {self.hemisphere: rows}
+        return {side: rows[self.right == (side == "right")] for side in HEMISPHERES}
 
     def _half(self, side: str, inside: NDArray[np.bool_]) -> Surface:
         number = np.cumsum(inside) - 1

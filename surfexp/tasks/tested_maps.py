@@ -25,7 +25,7 @@ class TestedCluster:
     mass : float
         Sum of |t| times area.
     peak : int
-        Vertex of the largest |t|.
+        Vertex of the largest |t|. Of both hemispheres right vertices count on behind the left ones.
     place : tuple of float
         Coordinates of the peak.
     t : float

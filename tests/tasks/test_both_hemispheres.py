@@ -131,7 +131,7 @@ def test_eigenvalues_are_the_sorted_union_of_those_of_each_side() -> None:
     np.testing.assert_allclose(found.values, union, rtol=1e-8, atol=1e-9)
 
 
-@pytest.mark.parametrize("method", ["rof", "tgv"])
+@pytest.mark.parametrize("method", ["rof", pytest.param("tgv", marks=pytest.mark.slow)])
 def test_denoising_both_is_denoising_each_with_the_same_weight(method: str) -> None:
     """The weight counts in edge lengths of the surface, so that a side alone takes its share of it."""
     options = {"method": method, "noise": 0.2, "tolerance": 1e-9 if method == "rof" else 1e-6}
@@ -216,6 +216,30 @@ def test_other_formats_become_two_files(folder: Path, name: str) -> None:
         np.testing.assert_allclose(found, HEIGHTS[side], rtol=1e-6)
 
 
+def test_rows_of_a_map_by_hemisphere() -> None:
+    numbers = np.arange(len(BRAIN.vertices))
+    found = BRAIN.by_hemisphere(numbers)
+    assert list(found) == ["left", "right"] and np.array_equal(np.concatenate(list(found.values())), numbers)
+    assert list(SIDES["right"].by_hemisphere(HEIGHTS["right"])) == ["right"]
+    with pytest.raises(ValueError, match="map has shape"):
+        BRAIN.by_hemisphere(numbers[1:])
+
+
+def test_one_file_of_labels_serves_both(folder: Path) -> None:
+    cifti = nibabel.cifti2
+    keys = {side: np.where(HEIGHTS[side] > 0, 1, 2) for side in SIDES}
+    models = [
+        cifti.BrainModelAxis.from_mask(np.ones(len(keys[side]), bool), name=f"CIFTI_STRUCTURE_CORTEX_{side.upper()}")
+        for side in SIDES
+    ]
+    table = {0: ("???", (0.0,) * 4), 1: ("north", (1.0,) * 4), 2: ("south", (0.5,) * 4)}
+    header = cifti.Cifti2Header.from_axes((cifti.LabelAxis(["parts"], [table]), models[0] + models[1]))
+    cifti.Cifti2Image(np.concatenate(list(keys.values()))[None].astype(np.float32), header).to_filename("p.dlabel.nii")
+    brain = sx.read(**pair("white.ply"), labels="p.dlabel.nii", mask="p.dlabel.nii")
+    np.testing.assert_array_equal(brain.labels["p"].where("north"), BRAIN.vertices[:, 2] > 0)
+    assert brain.mask is not None and brain.mask.all()
+
+
 def test_surfaces_labels_and_modes_are_written_by_side(folder: Path) -> None:
     sx.write("again.surf.gii", BRAIN)
     both = sx.read(**pair("again.surf.gii"))
@@ -242,7 +266,7 @@ def test_nilearn_gives_both_hemispheres() -> None:
     np.testing.assert_array_equal(
         sx.smooth(one, image, 0.4).values, sx.smooth(SIDES["left"], NOISY["left"], 0.4).values
     )
-    back = surface.SurfaceImage(mesh, {side: wanted[BRAIN.right == (side == "right")] for side in SIDES})
+    back = surface.SurfaceImage(mesh, BRAIN.by_hemisphere(wanted))
     np.testing.assert_array_equal(sx.smooth(back, back, 0.4).values, sx.smooth(BRAIN, wanted, 0.4).values)
 
 

@@ -40,6 +40,9 @@ def test_vertices_count_by_their_area() -> None:
     found = sx.parcels(square, grid[:, 0], np.ones(len(grid), int))
     assert found.means[0] == pytest.approx(0.5, abs=1e-12) and grid[:, 0].mean() < 0.35
     assert abs(found.medians[0] - 0.5) < 0.1
+    # of the last three columns, a third of a half wide, the area is that from half a column on
+    half = sx.parcels(square, np.where(grid[:, 0] > 0.51, np.nan, 1.0), np.ones(len(grid), int))
+    assert half.unknown[0] == pytest.approx(5.0 / 12.0, abs=1e-12)
 
 
 def test_unknown_values_are_a_share_of_the_area_and_do_not_count() -> None:
