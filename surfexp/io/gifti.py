@@ -241,4 +241,4 @@ def write_gifti_labels(
 
 def _structure(hemisphere: str) -> dict[str, str]:
     """The metadata that name a hemisphere; none for what is no hemisphere."""
-    return {STRUCTURE: CORTEX[hemisphere]} if hemisphere else {}
+    return {STRUCTURE: CORTEX[hemisphere]} if hemisphere in CORTEX else {}

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from surfexp.mesh.both_hemispheres import joined
 from surfexp.mesh.file_vertices import under_own_numbers
 from surfexp.mesh.repair import repair
 from surfexp.mesh.surface import Surface, Truth
@@ -18,7 +19,7 @@ def repaired(surface: Surface, largest_component: bool = False, renumber: bool =
     ----------
     surface : Surface
     largest_component : bool
-        Keep only the component of largest area.
+        Keep only the component of largest area, of both hemispheres that of each.
     renumber : bool
         Drop vertices without faces, which ends the numbering of the file.
 
@@ -27,6 +28,11 @@ def repaired(surface: Surface, largest_component: bool = False, renumber: bool =
     ValueError
         If a defect cannot be repaired, or nothing would be left.
     """
+    if surface.right is not None:
+        halves = (replace(one, notes=()) for one in surface.hemispheres().values())
+        left, right = (repaired(one, largest_component, renumber) for one in halves)
+        whole = joined(left, right, surface.name)
+        return replace(whole, notes=(*surface.notes, *whole.notes))
     given = surface.mesh
     found = repair(given.vertices, given.faces, largest_component=largest_component)
     mesh, file, origin = found.mesh, None, found.origin
@@ -55,5 +61,4 @@ def repaired(surface: Surface, largest_component: bool = False, renumber: bool =
         part=None,
         notes=(*surface.notes, *changes),
         file=file,
-        right=None if surface.right is None else surface.right[origin],
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import read_mesh, read_mesh_file
@@ -39,7 +41,12 @@ def check(surface: SurfaceLike) -> Report:
     >>> sx.check((ball.vertices, ball.faces[:, ::-1])).lines()
     ['repairable: 320 faces of inside-out closed components (face 0, face 1, face 2, ...)']
     """
-    return validate(*(read_mesh(surface)[:2] if isinstance(surface, str | Path) else arrays_of(surface)))
+    vertices, faces = read_mesh(surface)[:2] if isinstance(surface, str | Path) else arrays_of(surface)
+    if isinstance(surface, Surface) and surface.right is not None:
+        # hemispheres may overlap in space, as inflated ones do: they are judged beside one another
+        beside = 4.0 * np.abs(vertices[np.isfinite(vertices)]).max(initial=0.0)
+        vertices = vertices + np.where(surface.right, beside, 0.0)[:, None] * np.array([1.0, 0.0, 0.0])
+    return validate(vertices, faces)
 
 
 def repair(surface: SurfaceLike, *, largest_component: bool = False, renumber: bool = False) -> Surface:
@@ -49,7 +56,7 @@ def repair(surface: SurfaceLike, *, largest_component: bool = False, renumber: b
     ----------
     surface : Surface, TriangleMesh, (vertices, faces), or a path
     largest_component : bool
-        Keep only the component of largest area.
+        Keep only the component of largest area, of both hemispheres that of each.
     renumber : bool
         Drop vertices that have no face, so that others get their numbers. Without it they stay, and count as outside.
 

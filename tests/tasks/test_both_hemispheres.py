@@ -318,6 +318,21 @@ def test_repair_keeps_sides_and_files(folder: Path) -> None:
     assert again.right is not None and again.right.sum() == len(RIGHT.vertices)
 
 
+def test_hemispheres_at_one_place_are_sound_and_repaired_apart() -> None:
+    """Spheres and inflated surfaces of both sides lie in one another; no vertex of one is a copy of the other's."""
+    brain = joined(Surface(BALL, hemisphere="left", labels={"a": LabelMap(np.ones(N, int), {1: "x"})}), Surface(BALL))
+    assert sx.check(brain).ok and sx.eigenpairs(brain, 3).complete
+    same = sx.repair(brain)
+    np.testing.assert_array_equal(same.vertices, brain.vertices)
+    assert same.notes == () and (same.labels["a"].where("x") == ~brain.right).all()
+    turned = replace(
+        brain, mesh=TriangleMesh(brain.vertices, np.where(brain.right[brain.faces], brain.faces[:, ::-1], brain.faces))
+    )
+    assert "1280 faces of inside-out" in sx.check(turned).lines()[0]
+    mended = sx.repair(turned)
+    assert sx.check(mended).ok and mended.notes[0].startswith("right: ") and len(mended.notes) == 1
+
+
 def test_the_space_of_both_is_what_their_files_share() -> None:
     same = SpatialFrame({"cras": np.zeros(3)}, metadata={"GeometricType": "Anatomical", "side": "l"})
     other = SpatialFrame({"cras": np.ones(3)}, metadata={"GeometricType": "Anatomical", "side": "r"})
