@@ -12,7 +12,7 @@ from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.surface_arguments import (
     finish,
-    map_of,
+    given_maps,
     opened,
     progress_line,
     ready_map,
@@ -36,8 +36,10 @@ EXAMPLES = (
 @click.command(**shown("test", *EXAMPLES))
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_names", metavar="MAP...", nargs=-1, required=True, type=click.Path())
-@click.option("--subjects", type=click.Path(), metavar="FILE", help="table with a row for each map: .csv or .tsv")
-@click.option("--groups", metavar="COLUMN", help="the group that is named first less the other; without it the mean")
+@click.option(
+    "--subjects", type=click.Path(), metavar="FILE", help="table of the maps, .csv or .tsv: a column names files"
+)
+@click.option("--groups", metavar="COLUMN", help="the group of the first map less the other; without it the mean")
 @click.option("--pairs", metavar="COLUMN", help="with --groups: which two maps belong together")
 @click.option("--covariates", metavar="COLUMN,...", help="numbers that are regressed out")
 @click.option("--blocks", metavar="COLUMN", help="maps are rearranged within their block only")
@@ -81,13 +83,17 @@ def test(
     """
     import numpy as np
 
+    from surfexp.io.map_files import side_by_side
     from surfexp.tasks.permutation_testing import permutation_test
 
     surface, files = opened(path, **given)
-    values = np.column_stack([map_of(surface, name, files, given["hemisphere"]) for name in map_names])
+    read = {name: given_maps(surface, name, files, given["hemisphere"]) for name in map_names}
+    values = np.column_stack([side_by_side(maps, name) for name, maps in read.items()])
     options: dict[str, Any] = {"count": count, "forming_p": forming_p, "two_sided": not one_sided, "level": level}
     options |= {"seed": seed}
-    asked = _of_subjects(subjects, files, groups, pairs, covariates, blocks) | _of_design(design, contrast, files)
+    columns = {"groups": groups, "pairs": pairs, "covariates": covariates, "blocks": blocks}
+    asked, said = _of_subjects(subjects, files, columns, _names(read))
+    asked |= _of_design(design, contrast, files)
     parcels = shown_labels(surface, labels, files, given["hemisphere"]) if labels else None
     if labels and parcels is None:
         raise ValueError(f"--labels {labels} is no file of labels, give .annot, .label.gii or .dlabel.nii")
@@ -102,38 +108,59 @@ def test(
     _say(found, surface.right is not None)
     if table is not None:
         write_table_file(table, found.table("clusters"))
-    return finish(target, found.maps, surface, "permutation test", options, files, facts, found.notes)
+    return finish(target, found.maps, surface, "permutation test", options, files, facts, (*said, *found.notes))
+
+
+def _names(read: dict[str, dict[str, Floats]]) -> list[str]:
+    """What a row of the table can be told by: the file of each map, with the map's name where a file has several."""
+    names: list[str] = []
+    for file, maps in read.items():
+        for name, values in maps.items():
+            count = 1 if values.ndim == 1 else values.shape[1]
+            names += [file if len(maps) == 1 else f"{file} {name}"] * count
+    return names
 
 
 def _of_subjects(
-    subjects: str | None,
-    files: Inputs,
-    groups: str | None,
-    pairs: str | None,
-    covariates: str | None,
-    blocks: str | None,
-) -> dict[str, Any]:
-    """What the columns of the table say."""
-    named = {"groups": groups, "pairs": pairs, "covariates": covariates, "blocks": blocks}
-    asked = {name: column for name, column in named.items() if column}
+    subjects: str | None, files: Inputs, columns: dict[str, str | None], maps: list[str]
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """What the columns of the table say of each map, and how its rows were found."""
+    asked = {name: column for name, column in columns.items() if column}
     if not asked:
-        return {}
+        return {}, ()
     if subjects is None:
         raise ValueError(f"--{next(iter(asked))} names a column: give --subjects FILE")
-    from surfexp.io.subject_table import read_subjects
+    from surfexp.io.subject_table import read_subjects, rows_of_maps
     from surfexp.mesh.given_numbers import one_of
 
     files.add(subjects)
-    columns = read_subjects(subjects)
+    table = read_subjects(subjects)
+    for name, column in asked.items():
+        for part in column.split(",") if name == "covariates" else [column]:
+            one_of(part.strip(), f"--{name}", table)
+    count = len(next(iter(table.values())))
+    try:
+        found = rows_of_maps(table, maps)
+    except ValueError as error:
+        raise ValueError(f"{subjects}: {error}") from None
+    if found is None and count != len(maps):
+        raise ValueError(
+            f"{subjects} has {count} rows for {len(maps)} maps, and no column names their files: add one, or give a row "
+            "for each map in their order"
+        )
+    rows = list(range(count)) if found is None else found[1]
+    said = f"in the order of the maps: no column names their {'files' if len(set(maps)) > 1 else 'subjects'}."
+    if found is not None:
+        left = count - len(rows)
+        said = f"by column {found[0]!r}" + (f" ({left} without a map)." if left else ".")
     answer: dict[str, Any] = {}
     for name, column in asked.items():
         if name == "covariates":
-            parts = [one_of(part.strip(), "--covariates", columns) for part in column.split(",")]
-            answer[name] = [[_number(word, part) for word in columns[part]] for part in parts]
-            answer[name] = list(zip(*answer[name], strict=True))
+            parts = [part.strip() for part in column.split(",")]
+            answer[name] = [[_number(table[part][row], part) for part in parts] for row in rows]
         else:
-            answer[name] = columns[one_of(column, f"--{name}", columns)]
-    return answer
+            answer[name] = [table[column][row] for row in rows]
+    return answer, (f"The rows of {Path(subjects).name} are taken {said}",)
 
 
 def _of_design(design: str | None, contrast: str | None, files: Inputs) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import pytest
 import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.io.map_files import read_maps
-from surfexp.io.subject_table import read_subjects
+from surfexp.io.subject_table import read_subjects, rows_of_maps
 from surfexp.mesh.label_map import LabelMap
 
 BALL = sx.shape("icosphere", levels=2)
@@ -52,6 +52,44 @@ def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFi
     assert [float(row["p_mass"]) for row in rows] == [one.p_mass for one in wanted.clusters]
     said = capsys.readouterr().out
     assert said.count("region of") == len(wanted.regions) and ", north, p " in said
+
+
+def test_rows_belong_to_the_maps_that_they_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Rows in another order than the files, and rows without a file, change nothing."""
+    rows = Path("subjects.tsv").read_text().replace("sub-", "s").splitlines()
+    Path("subjects.tsv").write_text("\n".join([rows[0], *rows[:0:-1], "s77\tm\t50\tZ"]) + "\n")
+    options = ["--subjects", "subjects.tsv", "--groups", "sex", "--covariates", "age", "--count", "200", "--seed", "3"]
+    wanted = sx.permutation_test(BALL, DATA, groups=SEX, covariates=AGE, count=200, seed=3)
+    for maps in ([f"s{k}.npy" for k in range(8)], ["all.npz"]):
+        assert main(["test", "ball.surf.gii", *maps, *options, "--to", "found.npz"]) == 0
+        assert "The rows of subjects.tsv are taken by column 'id' (1 without a map)." in capsys.readouterr().err
+        with np.load("found.npz") as found:
+            np.testing.assert_array_equal(found["t"], wanted.t)
+            np.testing.assert_array_equal(found["p_tfce"], wanted.p_tfce)
+
+
+def test_a_map_without_a_row_is_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = Path("subjects.tsv").read_text().replace("sub-", "s").replace("s3\t", "s33\t")
+    Path("subjects.tsv").write_text(text)
+    call = ["test", "ball.surf.gii", *(f"s{k}.npy" for k in range(8)), "--subjects", "subjects.tsv", "--groups", "sex"]
+    assert main([*call, "--to", "found.npz"]) == 2
+    assert "subjects.tsv: s3.npy has 0 rows by column 'id', one of its own is needed" in capsys.readouterr().err
+    Path("subjects.tsv").write_text(text.replace("id\t", "").replace("\ns", "\n").partition("\n")[0] + "\nf\t1\tA\n")
+    assert main([*call, "--to", "found.npz"]) == 2
+    assert "subjects.tsv has 1 rows for 8 maps, and no column names their files" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "maps", "rows"),
+    [
+        (["1", "2", "12"], ["sub_12.mgh", "sub_1.mgh", "sub_2.mgh"], [2, 0, 1]),
+        (["sub-1", "sub-12"], ["d/sub-12_hemi-L.gii", "d/sub-1_hemi-L.gii"], [1, 0]),
+        (["f", "m"], ["a.mgh", "b.mgh"], None),
+        (["", ""], ["a.mgh", "b.mgh"], None),
+    ],
+)
+def test_words_stand_alone_in_the_names_of_maps(words: list[str], maps: list[str], rows: list[int] | None) -> None:
+    assert rows_of_maps({"id": words}, maps) == (rows and ("id", rows))
 
 
 def test_one_file_of_all_maps_and_a_design(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
