@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any, Literal
+from string import ascii_lowercase
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -23,6 +24,10 @@ from surfexp.commands.surface_arguments import (
     surface_options,
 )
 
+if TYPE_CHECKING:
+    from surfexp.mesh.surface import Surface
+
+METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
 EXAMPLES = {
     "denoise": ("lh.white lh.thickness --to clean.shape.gii", "scan.ply quality --to clean.ply"),
     "smooth": ("lh.white lh.thickness --width 6 --to smooth.mgh", "a.surf.gii a.func.gii --width 4mm --to b.func.gii"),
@@ -85,23 +90,43 @@ def denoise(
     return finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
 
 
-def millimetres(text: str) -> float:
-    """The number of a width such as 6 or 6mm."""
+def width_and_unit(text: str) -> tuple[float, str]:
+    """The number and the unit of a width such as 6, 6mm or 0.6cm."""
+    number = text.strip().rstrip(ascii_lowercase)
+    unit = text.strip()[len(number) :]
     try:
-        return float(text.removesuffix("mm"))
+        if unit in ("", *METRES):
+            return float(number), unit
     except ValueError:
-        raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm") from None
+        pass
+    raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm (um, mm, cm, m)")
+
+
+def in_unit_of(surface: Surface, width: float, unit: str) -> float:
+    """Return a width in the unit of a surface; one without a unit is taken to be in millimetres where the width is."""
+    if unit in ("", surface.unit) or (unit == "mm" and not surface.unit):
+        return width
+    if surface.unit not in METRES:
+        known = f"the surface in {surface.unit!r}" if surface.unit else "the unit of the surface is not known"
+        raise ValueError(
+            f"--width {width:g}{unit} is in {unit}, {known}: give --unit {', '.join(METRES)}, or a number alone"
+        )
+    return width * METRES[unit] / METRES[surface.unit]
 
 
 @click.command(**shown("smooth", *EXAMPLES["smooth"]))
 @click.argument("path", metavar="SURFACE", type=click.Path())
 @click.argument("map_name", metavar="MAP", type=click.Path())
 @click.option(
-    "--width", type=millimetres, required=True, help="full width at half maximum, in the unit of the surface: 6mm"
+    "--width",
+    type=width_and_unit,
+    metavar="LENGTH",
+    required=True,
+    help="full width at half maximum: 6 in the unit of the surface, or 6mm",
 )
 @surface_options
 @result_option()
-def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -> int:
+def smooth(path: str, map_name: str, width: tuple[float, str], target: Path, **given: Any) -> int:
     """Smooth a map by heat flow, as a Gaussian of a given width would.
 
     MAP is a file, or a map that the surface carries.
@@ -114,9 +139,17 @@ def smooth(path: str, map_name: str, width: float, target: Path, **given: Any) -
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
     ready_map(target, files, surface, values, channels=channels)
+    full_width = in_unit_of(surface, *width)
     started = time.perf_counter()
-    smoothed = task(surface, values, width)
+    smoothed = task(surface, values, full_width)
     facts = smoothed.certificate | {"seconds": time.perf_counter() - started}
     return finish(
-        target, named_as(maps, smoothed.values, target), surface, "heat", {"width": width}, files, facts, smoothed.notes
+        target,
+        named_as(maps, smoothed.values, target),
+        surface,
+        "heat",
+        {"width": full_width},
+        files,
+        facts,
+        smoothed.notes,
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -226,7 +227,14 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
         certificate["steps"] = SMALL_STEPS
     smoothed = own.restored(smoothed)
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, part.notes, name_of(values))
+    return DenoisedMap(part.extend(smoothed), method, certificate, (*part.notes, *_wide(part, width)), name_of(values))
+
+
+def _wide(part: SurfacePart, width: float) -> Iterator[str]:
+    """Say where a kernel is wider than all of the surface, as if the width were in another unit."""
+    extent = float(np.linalg.norm(np.ptp(part.mesh.vertices, axis=0))) * part.length
+    if width > extent:
+        yield f"The width {width:g} is more than the extent of the surface, {extent:.3g}: the result is close to its mean."
 
 
 def _change_of_mean(operator: SurfaceOperator, part: SurfacePart, before: Floats, after: Floats) -> float:

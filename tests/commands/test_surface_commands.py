@@ -156,3 +156,57 @@ def test_regions_leave_as_labels_with_their_proof(files: Path) -> None:
     assert proof["options"] == {"tolerance": 1e-3, "map": "noisy.shape.gii"}
     assert main(["segment", "brain.surf.gii", "--to", "curved.annot"]) == 0
     assert "clipped" in certificate("curved.annot")["notes"][0]
+
+
+@pytest.mark.parametrize(
+    ("width", "unit", "wanted"),
+    [
+        ("0.5", "m", 0.5),
+        ("500mm", "m", 0.5),
+        ("50cm", "m", 0.5),
+        ("0.5mm", "", 0.5),
+        ("500um", "mm", 0.5),
+        ("0.5m", "m", 0.5),
+    ],
+)
+def test_a_width_is_in_the_unit_of_the_surface(working_folder: Path, width: str, unit: str, wanted: float) -> None:
+    ball = sx.shape("icosphere", levels=2)
+    sx.write("ball.surf.gii", ball)
+    sx.write("height.csv", ball.vertices[:, 2])
+    call = ["smooth", "ball.surf.gii", "height.csv", "--width", width, *(["--unit", unit] if unit else [])]
+    assert main([*call, "--to", "smooth.npz"]) == 0
+    said = json.loads(Path("smooth.npz.json").read_text())
+    assert said["options"]["width"] == pytest.approx(wanted, rel=1e-15)
+    assert not said["notes"]
+
+
+@pytest.mark.parametrize(
+    ("width", "unit", "line"),
+    [
+        (
+            "5cm",
+            "",
+            "--width 5cm is in cm, the unit of the surface is not known: give --unit um, mm, cm, m, or a number alone",
+        ),
+        ("5mm", "px", "--width 5mm is in mm, the surface in 'px': give --unit um, mm, cm, m, or a number alone"),
+        ("5 miles", "", "'5 miles' is no width: write 6 or 6mm (um, mm, cm, m)"),
+    ],
+)
+def test_widths_in_no_known_unit_are_refused(
+    working_folder: Path, capsys: pytest.CaptureFixture[str], width: str, unit: str, line: str
+) -> None:
+    ball = sx.shape("icosphere", levels=2)
+    sx.write("ball.surf.gii", ball)
+    sx.write("height.csv", ball.vertices[:, 2])
+    call = ["smooth", "ball.surf.gii", "height.csv", "--width", width, *(["--unit", unit] if unit else [])]
+    assert main([*call, "--to", "smooth.npz"]) == 2
+    assert line in capsys.readouterr().err
+
+
+def test_a_kernel_wider_than_the_surface_is_said() -> None:
+    ball = sx.shape("icosphere", levels=2)
+    extent = 2.0 * 3.0**0.5
+    assert not sx.smooth(ball, ball.vertices[:, 2], 0.9 * extent).notes
+    assert sx.smooth(ball, ball.vertices[:, 2], 1.1 * extent).notes == (
+        "The width 3.81051 is more than the extent of the surface, 3.46: the result is close to its mean.",
+    )
