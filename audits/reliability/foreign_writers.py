@@ -158,9 +158,10 @@ def trimesh_meshes(scene: Scene, rng: np.random.Generator, folder: Path) -> Writ
     if kind == "stl_ascii":
         return path, _stl_text(path, triangles)
     maps = {}
-    if kind == "ply" and mesh.visual.kind == "vertex":
+    if kind in ("ply", "obj") and mesh.visual.kind == "vertex":
         colours = np.asarray(mesh.visual.vertex_colors, dtype=float)
-        maps = {name: colours[:, k] for k, name in enumerate(("red", "green", "blue", "alpha"))}
+        names = ("red", "green", "blue", "alpha")[: 4 if kind == "ply" else 3]
+        maps = {name: colours[:, k] for k, name in enumerate(names)}
     digits = 1e-5 if kind in ("off", "obj") or options.get("encoding") == "ascii" else 0.0
     return path, Truth(SURFACE, scene.single, triangles, maps, welded=kind == "stl", tolerance=digits)
 

@@ -178,7 +178,9 @@ def obj(scene: Scene, rng: np.random.Generator, folder: Path) -> Written:
     mark = b"\xef\xbb\xbf" if rng.random() < 0.3 else b""
     path = folder / "a.obj"
     path.write_bytes(mark + _ends(text, rng))
-    return path, Truth(SURFACE, v, scene.polygons)
+    shares = dict(zip(("red", "green", "blue"), map(float, more.split()), strict=False)) if len(more) > 4 else {}
+    maps = {name: np.full(n, 255.0 * share) for name, share in shares.items()}
+    return path, Truth(SURFACE, v, scene.polygons, maps)
 
 
 def obj_interleaved(scene: Scene, rng: np.random.Generator, folder: Path) -> Written:

@@ -222,6 +222,7 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
     """
     from surfexp.io.hemisphere import check_same_side, holds_both
     from surfexp.io.map_files import read_maps
+    from surfexp.mesh.vertex_colours import colour_of
 
     if given in surface.scalars:
         return {given: surface.scalars[given]}
@@ -230,6 +231,9 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
 
         add_files(files, pair := both_of(given))
         return maps_of_both(surface, pair)
+    colour = None if Path(given).exists() else colour_of(surface.scalars, given)
+    if colour is not None:
+        return {given: colour}
     if surface.scalars and not Path(given).exists():
         known = sorted(surface.scalars)
         near = get_close_matches(given, known, 1)
@@ -244,12 +248,18 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
 
 
 def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:
-    """Give the columns of a result the names of the maps that it was made of, where its format has room."""
+    """Give the columns of a result the names of the maps that it was made of, where its format has room.
+
+    A colour is rounded to whole numbers from 0 to 255 in PLY.
+    """
     import numpy as np
 
     from surfexp.io.map_files import holds_names
     from surfexp.io.writing import WITH_MAPS
+    from surfexp.mesh.vertex_colours import NAMES
 
+    if len(maps) == 1 and next(iter(maps)) in NAMES and target.suffix.lower() == ".ply" and np.isfinite(values).all():
+        values = np.clip(np.rint(values), 0.0, 255.0)  # viewers show bytes
     if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
         return {next(iter(maps)): values}
     widths = [1 if part.ndim == 1 else part.shape[1] for part in maps.values()]

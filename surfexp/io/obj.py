@@ -10,6 +10,7 @@ import numpy as np
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import polygons_between
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.vertex_colours import COLOURS, as_bytes
 
 # fmt: off
 KNOWN = {
@@ -20,7 +21,10 @@ KNOWN = {
 
 
 def read_obj(path: Path) -> Decoded:
-    """Vertices and faces of an OBJ file; texture, normals, materials, groups and lines are left out.
+    """Vertices and faces of an OBJ file, and the colours behind its vertices; texture, normals, materials, groups, lines are left
+    out.
+
+    Colours ("v x y z r g b", as MeshLab and Blender write them) are maps red, green and blue from 0 to 255.
 
     A file of the Montreal Neurological Institute (CIVET's surfaces), which has the same suffix, begins with P.
 
@@ -35,6 +39,7 @@ def read_obj(path: Path) -> Decoded:
     if text.lstrip()[:2] in ("P ", "P\t"):
         return _read_mni(text.split())
     vertices: list[list[float]] = []
+    colours: list[list[float]] = []
     polygons: list[list[int]] = []
     unknown: dict[str, int] = {}
     for number, line in enumerate(text.replace("\\\n", " ").splitlines(), 1):
@@ -44,6 +49,8 @@ def read_obj(path: Path) -> Decoded:
         try:
             if words[0] == "v" and len(words) >= 4:
                 vertices.append([float(word) for word in words[1:4]])
+                if len(words) >= 7:
+                    colours.append([float(word) for word in words[4:7]])
                 continue
             if words[0] in ("f", "fo") and len(words) >= 4:
                 corners = [int(word.split("/")[0]) for word in words[1:]]
@@ -56,9 +63,14 @@ def read_obj(path: Path) -> Decoded:
         unknown[words[0][:12]] = unknown.get(words[0][:12], 0) + 1
     if not vertices:
         raise ValueError(f"it has 0 vertices and {len(polygons)} faces, at least one of each is needed")
+    maps = {}
+    if len(colours) == len(vertices):
+        maps = dict(zip(COLOURS, as_bytes(np.array(colours)).T, strict=True))
     named = ", ".join(ascii(word) for word in list(unknown)[:5])
     notes = (f"{sum(unknown.values())} statements of unknown kinds are passed over: {named}.",) if unknown else ()
-    return Decoded(np.array(vertices), polygons, notes=notes)
+    if 0 < len(colours) < len(vertices):
+        notes = (*notes, f"{len(colours)} of {len(vertices)} vertices have a colour: colours are left out.")
+    return Decoded(np.array(vertices), polygons, maps, notes)
 
 
 def _read_mni(words: list[str]) -> Decoded:

@@ -20,8 +20,7 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import triangles_of_strips
 from surfexp.mesh.triangle_mesh import TriangleMesh
-
-COLOURS = ("red", "green", "blue")
+from surfexp.mesh.vertex_colours import ALPHA, COLOURS, are_bytes
 
 TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
@@ -228,7 +227,8 @@ def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
 
     The hemisphere is a comment of the header.
 
-    A map of three whole numbers from 0 to 255 that is called a colour is written as such, as viewers read it.
+    A map of three whole numbers from 0 to 255 that is called a colour is written as such, as viewers read it; so are three maps
+    red, green, blue, and alpha beside them.
     """
     colours = {name: values for name, values in (scalars or {}).items() if _is_colour(name, values)}
     if len(colours) > 1:
@@ -237,7 +237,10 @@ def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
     reserved = ("x", "y", "z", *(COLOURS if colours else ()))
     properties = [(axis, "double", "<f8", mesh.vertices[:, k]) for k, axis in enumerate("xyz")]
     names = names_without_spaces(channels, reserved)
-    properties += [(name, "double", "<f8", values) for name, values in zip(names, channels.values(), strict=True)]
+    whole = {name for name in (*COLOURS, ALPHA) if name in channels and are_bytes(channels[name])}
+    seen = whole if set(COLOURS) <= whole else set()
+    for name, values in zip(names, channels.values(), strict=True):
+        properties.append((name, *(("uchar", "u1") if name in seen else ("double", "<f8")), values))
     for values in colours.values():
         properties += [(name, "uchar", "u1", values[:, k]) for k, name in enumerate(COLOURS)]
     head = ["ply", "format binary_little_endian 1.0", *([f"comment hemisphere {hemisphere}"] if hemisphere else [])]
@@ -255,4 +258,4 @@ def write_ply(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
 def _is_colour(name: str, values: Floats) -> bool:
     """Whether a map is a colour: by its name, its three channels, and their range."""
     named = any(word in name.lower() for word in ("rgb", "color", "colour"))
-    return named and values.ndim == 2 and values.shape[1] == 3 and bool(np.isin(values, np.arange(256)).all())
+    return named and values.ndim == 2 and values.shape[1] == 3 and are_bytes(values)

@@ -18,6 +18,7 @@ from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.vertex_colours import colour_of
 from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
@@ -117,7 +118,8 @@ def name_of(values: MapLike) -> str:
 
 
 def as_map(surface: Surface, given: MapLike) -> Floats:
-    """Return (n,) or (n, c) float64 values of a map: an array, or the name of one that the surface carries.
+    """Return (n,) or (n, c) float64 values of a map: an array, or the name of one that the surface carries; "color" is red,
+    green and blue.
 
     Raises
     ------
@@ -125,6 +127,9 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
         If the surface has no such map, or the array is not real or of another length.
     """
     if isinstance(given, str):
+        colour = colour_of(surface.scalars, given)
+        if colour is not None:
+            return colour
         if given not in surface.scalars:
             known = ", ".join(surface.scalars) or "none"
             raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")

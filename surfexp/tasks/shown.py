@@ -26,6 +26,7 @@ from surfexp.mesh.length_scale import length_scale
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import as_map, as_surface
 from surfexp.tasks.map_rows import rows_of_maps
@@ -167,7 +168,7 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
     field = np.asarray(part.restrict(field), dtype=np.float64)
     if inside is not None:
         field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
-    return SurfaceView(part.mesh, field)
+    return SurfaceView(part.mesh, as_shares(field) if field.ndim > 1 else field)
 
 
 def _labels(owner: Surface, given: Any) -> Labelling | None:
