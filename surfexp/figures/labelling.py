@@ -12,13 +12,12 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.figures.lines import Lines
 from surfexp.figures.typography import INK
+from surfexp.io.medial_wall import named_labels
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # Okabe and Ito (2008) without black and yellow; for more labels hues a golden ratio apart, at three lightnesses
 COLORS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00")
 GOLDEN, LIGHTNESSES = 0.618033988749895, (0.55, 0.72, 0.40)
-# names by which files say that a vertex has no label
-NONE = ("unknown", "???")
 BORDER_WIDTH, BORDER_CASING = 1.4, 0.7
 
 
@@ -52,8 +51,8 @@ def labelling(keys: Integers, names: Mapping[int, str] | None = None) -> Labelli
     ----------
     keys : (n,) int64
     names : dict of int to str, optional
-        What each key stands for; one that it lacks, and one named "unknown" or "???", means no label. Without names each
-        key from 0 on is a label named by its number.
+        What each key stands for; one that it lacks, and one named "unknown", "???" or as the medial wall, means no label. Where
+        it has no other names each key but 0, and without names each key from 0 on, is a label named by its number.
 
     Returns
     -------
@@ -70,7 +69,8 @@ def labelling(keys: Integers, names: Mapping[int, str] | None = None) -> Labelli
     if names is None:
         known = {key: str(key) for key in present if key >= 0}
     else:
-        known = {key: names[key] for key in present if key in names and names[key].lower() not in NONE}
+        named = named_labels(keys, names)
+        known = {key: named[key] for key in present if key in named}
     place = {key: number for number, key in enumerate(known)}
     unique, inverse = np.unique(keys, return_inverse=True)
     index = np.array([place.get(int(key), -1) for key in unique], dtype=np.int64)[inverse]

@@ -17,7 +17,7 @@ from surfexp.io.hemisphere import check_named_side, holds_both
 from surfexp.io.label_files import read_label_map
 from surfexp.io.map_names import check_map_names
 from surfexp.io.map_shapes import check_map_shapes, scalar_channels
-from surfexp.io.medial_wall import is_outside, outside_names
+from surfexp.io.medial_wall import named_labels, outside_names
 from surfexp.io.npz import read_rows, write_arrays
 from surfexp.io.numbers import LARGEST_BYTES, real_array
 from surfexp.io.replacing import check_writable, replacing
@@ -138,8 +138,8 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     """Return a mask of `count` vertices from a file.
 
     A FreeSurfer .label lists the vertices inside. Of labels with names (.label.gii, .annot, .dlabel.nii) all but unknown and
-    medial wall are inside, or those named behind a colon: `lh.aparc.annot:insula,precentral`. Of labels whose file names none,
-    and of a map, what is neither 0 nor NaN.
+    medial wall are inside, or those named behind a colon: `lh.aparc.annot:insula,precentral`, also by number. Of labels whose file
+    names none, and of a map, what is neither 0 nor NaN.
 
     Raises
     ------
@@ -153,11 +153,9 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     elif _has_names(file):
         labels = read_named_labels(file, hemisphere)
         wanted = [name.strip() for name in names.split(",") if name.strip()]
-        kept = wanted or [name for name in labels.names.values() if not is_outside(name)]
-        if not labels.names and not wanted:
-            inside = labels.keys != 0
-        else:
-            inside = np.any([labels.where(name) for name in kept], axis=0) if kept else np.zeros(len(labels.keys), bool)
+        inside = np.isin(labels.keys, list(named_labels(labels.keys, labels.names)))
+        if wanted:
+            inside = np.any([_where(labels, name) for name in wanted], axis=0)
     elif names:
         raise ValueError(
             f"{file} has no named labels, {names!r} can be chosen from .label.gii, .annot and .dlabel.nii only"
@@ -170,6 +168,19 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     if inside.shape != (count,):
         raise ValueError(f"{file} has shape {inside.shape} as a mask, the surface has {count} vertices")
     return inside
+
+
+def _where(labels: LabelMap, name: str) -> NDArray[np.bool_]:
+    """Which vertices have a label, given by its name or its number."""
+    if name not in labels.names.values():
+        known = named_labels(labels.keys, labels.names)
+        if name.isdigit() and int(name) in labels.keys:
+            return np.asarray(labels.keys == int(name))
+        if known and not set(known) & set(labels.names):
+            raise ValueError(
+                f"no label is named {name!r}, labels have numbers only: choose from {', '.join(known.values())}"
+            )
+    return labels.where(name)
 
 
 def mask_notes(path: Path | str, hemisphere: str = "") -> tuple[str, ...]:
@@ -186,10 +197,13 @@ def mask_notes(path: Path | str, hemisphere: str = "") -> tuple[str, ...]:
     labels = read_named_labels(file, hemisphere)
     used = set(np.unique(labels.keys).tolist())
     names = outside_names(name for key, name in labels.names.items() if key in used)
-    unnamed = int((~np.isin(labels.keys, list(labels.names))).sum()) if labels.names else 0
+    known = named_labels(labels.keys, labels.names)
+    unnamed = int((~np.isin(labels.keys, [*labels.names, *known])).sum()) if labels.names else 0
     said = [f"Outside the mask are the labels {', '.join(map(repr, names))} of {file.name}."] if names else []
     if unnamed:
         said.append(f"Outside the mask are {unnamed} vertices of {file.name} whose label has no name.")
+    if labels.names and not set(known) & set(labels.names):
+        said.append(f"{file.name} names no label: inside are its labels {', '.join(known.values()) or 'none'}.")
     return tuple(said)
 
 

@@ -158,6 +158,21 @@ def _map_of_sides(surface: Surface, given: Any) -> Floats:
     return np.asarray(of_both(surface, left, right), dtype=np.float64)
 
 
+def as_labels(surface: Surface, keys: Integers) -> Integers:
+    """Return (n,) labels on the vertices of a surface; those of a file that was repaired are carried over.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer or more.
+    """
+    if surface.file is not None and len(keys) == len(surface.file.standing):
+        keys = np.asarray(surface.file.onto_mesh(keys))
+    if len(keys) != len(surface.mesh.vertices):
+        raise ValueError(f"labels have shape {np.shape(keys)}, the surface has {len(surface.mesh.vertices)} vertices")
+    return np.asarray(keys, dtype=np.int64)
+
+
 def as_single_map(surface: Surface, given: MapLike) -> Floats:
     """Return (n,) float64 values of a map of one channel, as `as_map` does.
 

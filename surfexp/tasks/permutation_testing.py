@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Literal, cast
 
 import numpy as np
@@ -18,7 +19,7 @@ from surfexp.inference.vertex_graph import graph_of_edges
 from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_single_map, as_surface, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_labels, as_map, as_single_map, as_surface, part_for
 from surfexp.tasks.tested_clusters import tested_maps
 from surfexp.tasks.tested_maps import PermutationTest
 
@@ -167,6 +168,4 @@ def _columns(owner: Surface, maps: MapLike | Sequence[MapLike]) -> Floats:
 
 def _parcels(owner: Surface, labels: str | LabelMap | None) -> LabelMap | None:
     table = owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels
-    if table is not None and len(table.keys) != len(owner.mesh.vertices):
-        raise ValueError(f"labels have {len(table.keys)} entries, the surface has {len(owner.mesh.vertices)} vertices")
-    return table
+    return None if table is None else replace(table, keys=as_labels(owner, table.keys))

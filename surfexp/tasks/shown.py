@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats
 from surfexp.drawings.skeleton_drawing import skeleton_lines
 from surfexp.extras import require_installed
 from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View, viewing_direction
@@ -28,7 +28,7 @@ from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.tasks.inputs import as_map, as_surface
+from surfexp.tasks.inputs import as_labels, as_map, as_surface
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.soundness import usable_vertices
 
@@ -177,21 +177,15 @@ def _labels(owner: Surface, given: Any) -> Labelling | None:
     if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
         given = owner.labels[given]
     if isinstance(given, LabelMap):
-        return labelling(_fitting(given.keys, owner), given.names)
+        return labelling(as_labels(owner, given.keys), given.names)
     if isinstance(given, str) or given is None or hasattr(given, "values"):
         return None
     array = np.asarray(given)
     if array.dtype == np.bool_ and array.ndim == 1:
-        return labelling(_fitting(array.astype(np.int64), owner), {0: "outside", 1: "inside"})
+        return labelling(as_labels(owner, array.astype(np.int64)), {0: "outside", 1: "inside"})
     if array.dtype.kind in "iu" and array.ndim == 1:
-        return labelling(_fitting(array.astype(np.int64), owner))
+        return labelling(as_labels(owner, array.astype(np.int64)))
     return None
-
-
-def _fitting(keys: Integers, owner: Surface) -> Integers:
-    if len(keys) != len(owner.mesh.vertices):
-        raise ValueError(f"labels have shape {np.shape(keys)}, the surface has {len(owner.mesh.vertices)} vertices")
-    return np.asarray(keys, dtype=np.int64)
 
 
 def _scale(

@@ -11,9 +11,11 @@ from nibabel.freesurfer import write_annot
 
 import surfexp as sx
 from surfexp.commands.command_line import main
+from surfexp.figures.labelling import labelling
 from surfexp.io.map_files import mask_notes, read_maps, read_mask, read_named_labels
 from surfexp.io.medial_wall import is_outside
 from surfexp.io.reading import read_mesh
+from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -170,3 +172,33 @@ def test_a_vertex_without_faces_keeps_the_numbering_under_repair(tmp_path: Path)
     assert len(surface.mesh.vertices) == N + 1
     smooth = np.asarray(sx.smooth(surface, "height", 0.3).values)
     assert np.isnan(smooth[0]) and np.isfinite(smooth[1:]).all()
+
+
+def test_labels_that_have_numbers_only_are_a_mask_and_a_picture(tmp_path: Path) -> None:
+    """Subfields of the hippocampus: the table names nothing but "???"."""
+    keys = np.where(UPPER, 1 + np.arange(N) % 2, 0)
+    table = nibabel.gifti.GiftiLabelTable()
+    entry = nibabel.gifti.GiftiLabel(0, 1.0, 1.0, 1.0, 0.0)
+    entry.label = "???"
+    table.labels.append(entry)
+    array = nibabel.gifti.GiftiDataArray(keys.astype(np.int32), "NIFTI_INTENT_LABEL")
+    file = tmp_path / "a.label.gii"
+    nibabel.save(nibabel.gifti.GiftiImage(labeltable=table, darrays=[array]), file)
+    assert np.array_equal(read_mask(file, N), UPPER)
+    assert np.array_equal(read_mask(f"{file}:2", N), keys == 2)
+    assert mask_notes(file) == (
+        "Outside the mask are the labels '???' of a.label.gii.",
+        "a.label.gii names no label: inside are its labels 1, 2.",
+    )
+    with pytest.raises(ValueError, match="no label is named 'CA1', labels have numbers only: choose from 1, 2"):
+        read_mask(f"{file}:CA1", N)
+    assert labelling(keys, {0: "???"}).names == ("1", "2")
+
+
+def test_a_number_chooses_a_label_beside_its_name(tmp_path: Path) -> None:
+    sx.write(tmp_path / "a.label.gii", LabelMap(UPPER.astype(int), {0: "medial wall", 1: "A1"}))
+    for chosen in ("1", "A1"):
+        assert np.array_equal(read_mask(f"{tmp_path / 'a.label.gii'}:{chosen}", N), UPPER)
+    assert labelling(UPPER.astype(int), {0: "Background+FreeSurfer_Defined_Medial_Wall", 1: "A1"}).names == ("A1",)
+    with pytest.raises(ValueError, match="no label is named '7', the nearest of 2 is"):
+        read_mask(f"{tmp_path / 'a.label.gii'}:7", N)

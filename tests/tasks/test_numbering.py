@@ -14,6 +14,7 @@ import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.io.map_files import read_maps
 from surfexp.mesh.file_vertices import FileVertices, under_own_numbers
+from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.repair import repair
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -200,3 +201,22 @@ def test_a_mesh_with_no_face_at_finite_vertices_has_no_way_out() -> None:
     with pytest.raises(ValueError, match="no repair is possible"):
         sx.smooth((np.full((3, 3), np.nan), [[0, 1, 2]]), np.ones(3), 1.0)
     assert TriangleMesh(V, F).is_closed
+
+
+def test_labels_of_the_file_fit_its_repaired_surface(tmp_path: Path) -> None:
+    """Pictures, borders and tables of clusters take labels on the vertices of the file, though repair split some."""
+    vertices, faces = touching()
+    sx.write(tmp_path / "a.npz", {"vertices": vertices, "faces": faces})
+    surface = sx.repair((vertices, faces))
+    assert len(surface.vertices) > len(vertices)
+    keys = (vertices[:, 2] > 0).astype(np.int64)
+    drawn = sx.plot(surface, LabelMap(keys, {0: "south", 1: "north"}), width=200).figure.pixels
+    copies = np.r_[keys, keys[surface.file.origin[len(keys) :]]]
+    np.testing.assert_array_equal(
+        drawn, sx.plot(surface, LabelMap(copies, {0: "south", 1: "north"}), width=200).figure.pixels
+    )
+    maps = np.random.default_rng(0).standard_normal((len(vertices), 6)) + 5.0
+    found = sx.permutation_test(surface, maps, labels=LabelMap(keys, {0: "south", 1: "north"}))
+    assert {name for one in found.clusters for name in one.parcels} == {"south", "north"}
+    with pytest.raises(ValueError, match=r"labels have shape \(7,\), the surface has"):
+        sx.plot(surface, LabelMap(keys[:7], {0: "south", 1: "north"}))
