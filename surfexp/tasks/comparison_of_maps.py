@@ -127,7 +127,7 @@ def compare_maps(
     rough, other = as_single_map(owner, first), as_single_map(owner, second)
     known = finite_mask((rough, other), len(rough))
     part = part_for(owner, rough, other)
-    inside = owner if owner.mask is not None or known is None else replace(owner, mask=known)
+    inside = owner if known is None else replace(owner, mask=known if owner.mask is None else known & owner.mask)
     within = other[part.vertices]
     if within.min() == within.max():
         raise ValueError(f"the second map is constant at {within[0]:g}: a correlation needs one that varies")

@@ -213,7 +213,7 @@ def require_connected(part: SurfacePart, what: str) -> None:
 
 
 def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
-    """Return the part of a surface on which a task runs: its mask, and without one where every map is finite.
+    """Return the part of a surface on which a task runs: where every map is finite, inside the mask if there is one.
 
     Vertices that belong to no face, or have no finite position, are outside. Notes say which part was taken. Its mesh has
     coordinates of ordinary size: a length on it times `length` is one of the surface.
@@ -221,20 +221,16 @@ def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     Raises
     ------
     ValueError
-        If a map is unknown somewhere inside the mask.
+        If a map is known nowhere, or nowhere inside the mask.
     """
     count = len(surface.mesh.vertices)
     finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
     if finite is not None and not finite.any():
         raise ValueError(f"map is NaN at all of {count} vertices: give numbers where it is known")
-    mask = surface.mask if surface.mask is not None else finite
-    part = surface_part(surface.mesh, usable if mask is None else usable & mask)
-    if surface.mask is not None and finite is not None:
-        unknown = int((~finite[part.vertices]).sum())
-        if unknown:
-            raise ValueError(
-                f"map is NaN at {unknown} of the {len(part.vertices)} vertices inside the mask: narrow the mask"
-            )
+    inside = usable if surface.mask is None else usable & surface.mask
+    if finite is not None and inside.any() and not (finite & inside).any():
+        raise ValueError(f"map is NaN at all {inside.sum()} vertices inside the mask: give another mask")
+    part = surface_part(surface.mesh, inside if finite is None else inside & finite)
     mesh, length = scaled(part.mesh)
     return replace(part, mesh=mesh, length=length, notes=(*_taken(surface, part, finite, usable), *part.notes))
 
@@ -247,3 +243,7 @@ def _taken(
         yield f"{lost} of {part.whole_count} vertices belong to no face or have no finite position: they are outside."
     if surface.mask is None and finite is not None:
         yield f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
+    if surface.mask is not None and finite is not None:
+        inside = usable & surface.mask
+        if unknown := int((inside & ~finite).sum()):
+            yield f"The map is NaN at {unknown} of the {inside.sum()} vertices inside the mask: they are outside."

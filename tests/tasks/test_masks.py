@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -72,13 +73,6 @@ def test_constants_stay_constants_to_the_boundary() -> None:
         assert clean.values[PART.vertices] == pytest.approx(3.0, abs=1e-9)
 
 
-def test_nan_inside_a_stated_mask_is_refused() -> None:
-    holed = NOISY.copy()
-    holed[np.flatnonzero(INSIDE)[:3]] = np.nan
-    with pytest.raises(ValueError, match="NaN at 3 of the"):
-        sx.denoise(MASKED, holed)
-
-
 def test_distances_stay_inside_the_mask() -> None:
     source = int(np.argmax(WHOLE.mesh.vertices[:, 2]))
     inside = sx.geodesic(MASKED, source)
@@ -94,3 +88,26 @@ def test_spectral_distance_of_a_masked_surface_to_its_cut_copy_is_zero() -> None
     found = sx.distance(stretched, Surface(part.mesh), n=6)
     assert found.optimal and found.value == pytest.approx(0.0, abs=1e-8)
     assert np.array_equal(found.correspondence, part.vertices)
+
+
+def test_what_a_map_does_not_know_inside_the_mask_is_outside() -> None:
+    ball = sx.shape("icosphere", levels=3)
+    height = ball.vertices[:, 2]
+    mask, known = height > -0.5, height < 0.8
+    values = height + 0.1 * np.random.default_rng(0).standard_normal(len(height))
+    masked, narrow = replace(ball, mask=mask), replace(ball, mask=mask & known)
+    holes = np.where(known, values, np.nan)
+    for task in (
+        lambda s, v: sx.denoise(s, v),
+        lambda s, v: sx.denoise(s, v, method="rof"),
+        lambda s, v: sx.smooth(s, v, 0.5),
+        lambda s, v: sx.segment(s, v),
+    ):
+        found, wanted = task(masked, holes), task(narrow, values)
+        np.testing.assert_array_equal(getattr(found, "values", found), getattr(wanted, "values", wanted))
+        said = (
+            f"The map is NaN at {(mask & ~known).sum()} of the {mask.sum()} vertices inside the mask: they are outside."
+        )
+        assert said in found.notes
+    with pytest.raises(ValueError, match=r"map is NaN at all \d+ vertices inside the mask: give another mask"):
+        sx.denoise(masked, np.where(mask, np.nan, values))
