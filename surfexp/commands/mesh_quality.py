@@ -35,7 +35,7 @@ def check(files: tuple[str, ...]) -> int:
             continue
         if Path(file).is_dir():
             sound = False
-            echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*.ply")
+            echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*")
             continue
         try:
             found = read_mesh_file(file)
@@ -65,6 +65,8 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
     Maps are taken along where the format of the result holds some. Vertices keep their numbers, so that maps beside FILE fit;
     copies of vertices that are split stand behind all others.
     """
+    import numpy as np
+
     from surfexp.io.hemisphere import hemisphere_of_file
     from surfexp.tasks.repairing import repair as task
     from surfexp.tasks.written_files import check_surface_target, written
@@ -81,5 +83,8 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
     )
     echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
     echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    loose = len(mesh.vertices) - len(np.unique(mesh.faces))
+    if loose:
+        echo(f"{loose} vertices have no face and keep their numbers: --renumber drops them.")
     for note in lost:
         echo(note)

@@ -26,11 +26,15 @@ NOT_CERTIFIED = 3
 BOTH_HELP = "Both hemispheres are one surface: write LEFT+RIGHT for each file, as lh.white+rh.white lh.sulc+rh.sulc."
 
 
+repair_option = click.option(
+    "--repair", is_flag=True, help="repair a defective mesh and say how, instead of refusing it"
+)
+
+
 def surface_options(command: Command) -> Command:
     """Add the options of a surface: mask, maps, labels, unit, repair, and to its help how both hemispheres are written."""
     command.__doc__ = f"{command.__doc__}\n\n    {BOTH_HELP}"
     inside = "part to work on: .label, labels (FILE or FILE:NAME,NAME), or a map that is 0 outside"
-    repaired = "repair a defective mesh and say how, instead of refusing it"
     options: list[Callable[[Command], Command]] = [
         click.option("--mask", type=click.Path(), metavar="FILE", help=inside),
         click.option(
@@ -38,7 +42,7 @@ def surface_options(command: Command) -> Command:
         ),
         click.option("--unit", default="", show_default=False, help="unit of length, for colour bars and tables"),
         click.option("--hemisphere", type=click.Choice(["left", "right"]), help="overrides what the files say"),
-        click.option("--repair", is_flag=True, help=repaired),
+        repair_option,
     ]
     for option in reversed(options):
         command = option(command)
@@ -116,28 +120,32 @@ def opened(
     path: str, mask: str | None, maps: tuple[str, ...], unit: str, hemisphere: str | None, repair: bool
 ) -> tuple[Surface, Inputs]:
     """Return the surface that the arguments describe, and the files that went into it."""
-    from surfexp.tasks.files import read
-
     named = dict(item.partition("=")[::2] for item in maps)
     if "" in named.values():
         raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
     pair = both_of(path)
     if isinstance(pair, str):
-        masks = [_file_of(mask)] if mask else []
-        files = Inputs(path, *named.values(), *masks)
-        surface = read(path, maps=named, mask=mask, unit=unit, hemisphere=hemisphere or "", repair=repair)
+        files = Inputs(path, *named.values(), *([_file_of(mask)] if mask else []))
+        given: dict[str, Any] = {"maps": named, "mask": mask, "hemisphere": hemisphere or ""}
     else:
         if hemisphere is not None:
             raise ValueError(f"--hemisphere {hemisphere} names one side, {path} is both: leave it out")
-        pairs = {name: both_of(file) for name, file in named.items()}
-        inside = both_of(mask) if mask else None
+        given = {"maps": {name: both_of(file) for name, file in named.items()}, "mask": both_of(mask) if mask else None}
         files = Inputs(*pair.values())
-        for one in (*pairs.values(), *([inside] if inside else [])):
+        for one in (*given["maps"].values(), *([given["mask"]] if mask else [])):
             add_files(files, one)
-        surface = read(**pair, maps=pairs, mask=inside, unit=unit, repair=repair)
+    return surface_of(path, repair, unit=unit, **given), files
+
+
+def surface_of(path: str, repair: bool, **given: Any) -> Surface:
+    """Return the surface of a file, or of LEFT+RIGHT, read as `sx.read` does; its notes are said."""
+    from surfexp.tasks.files import read
+
+    pair = both_of(path)
+    surface = read(path, repair=repair, **given) if isinstance(pair, str) else read(**pair, repair=repair, **given)
     for note in surface.notes:
         echo(f"{path}: {note}", err=True)
-    return surface, files
+    return surface
 
 
 def both_of(given: str) -> str | dict[str, str]:

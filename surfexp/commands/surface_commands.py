@@ -20,10 +20,12 @@ from surfexp.commands.surface_arguments import (
     ready,
     ready_map,
     ready_proof,
+    repair_option,
     result_option,
     save_proof,
     shown_borders,
     shown_map,
+    surface_of,
     surface_options,
 )
 from surfexp.commands.table_file import ready_table, write_table_file
@@ -154,9 +156,12 @@ def skeleton(path: str, map_name: str | None, count: int, branches: Path | None,
 @click.argument("second", type=click.Path())
 @click.option("-n", "count", default=20, help="number of eigenfunctions")
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
+@repair_option
 @proof_option
 @result_option(required=False)
-def distance(first: str, second: str, count: int, limit: int | None, target: Path | None, proof: Path | None) -> None:
+def distance(
+    first: str, second: str, count: int, limit: int | None, repair: bool, target: Path | None, proof: Path | None
+) -> None:
     """Measure the spectral distance of two surfaces, with a proved lower bound.
 
     The signs of the eigenfunctions are printed too; --to writes the correspondence.
@@ -170,13 +175,14 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
     if target is not None:
         ready(target, files, check_map_target)
     ready_proof(proof, files)
+    one, other = surface_of(first, repair), surface_of(second, repair)
     started = time.perf_counter()
     with progress_line("distance") as progress:
-        found = task(first, second, count, limit=limit, progress=progress)
+        found = task(one, other, count, limit=limit, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
-    save_proof(proof, found, first, second)
+    save_proof(proof, found, one, other)
     if target is not None:
         facts = {
             "value": found.value,
@@ -193,8 +199,9 @@ def distance(first: str, second: str, count: int, limit: int | None, target: Pat
 @click.argument("first", type=click.Path())
 @click.argument("second", type=click.Path())
 @click.option("-k", "count", default=50, help="number of modes after the constant")
+@repair_option
 @result_option()
-def align(first: str, second: str, count: int, target: Path) -> None:
+def align(first: str, second: str, count: int, repair: bool, target: Path) -> None:
     """Align the modes of one surface with those of another.
 
     Signs, order and rotations of the modes of SECOND become those of FIRST.
@@ -206,9 +213,10 @@ def align(first: str, second: str, count: int, target: Path) -> None:
     if target.suffix.lower() != ".npz":
         raise ValueError(f"{target} cannot hold the aligned modes and their basis, two arrays: choose .npz")
     ready(target, files, check_writable)
+    one, other = surface_of(first, repair), surface_of(second, repair)
     started = time.perf_counter()
     with progress_line("align") as progress:
-        found = task(first, second, count, progress=progress)
+        found = task(one, other, count, progress=progress)
     facts = {
         "value": found.value,
         "lower_bound": found.lower_bound,
@@ -222,19 +230,23 @@ def align(first: str, second: str, count: int, target: Path) -> None:
 
 @click.command(**shown("convert", *EXAMPLES["convert"]))
 @click.argument("path", metavar="SURFACE", type=click.Path())
-@click.argument("target", type=click.Path(path_type=Path))
+@click.argument("result", metavar="[TARGET]", required=False, type=click.Path(path_type=Path))
 @surface_options
-def convert(path: str, target: Path, **given: Any) -> None:
+@result_option(required=False)
+def convert(path: str, result: Path | None, target: Path | None, **given: Any) -> None:
     """Write a surface in another format, with its maps.
 
-    The suffix of TARGET decides; what its format has no room for is named.
+    The suffix of TARGET, or of --to, decides; what its format has no room for is named.
     """
+    targets = [one for one in (result, target) if one is not None]
+    if len(targets) != 1:
+        raise click.UsageError(f"{len(targets)} targets are given, one is needed: surfexp convert SURFACE TARGET")
     from surfexp.tasks.written_files import check_surface_target, written
 
     surface, files = opened(path, **given)
-    ready(target, files, check_surface_target, hemisphere=surface.hemisphere)
-    notes = written(target, surface)
-    echo(f"{target}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
+    ready(targets[0], files, check_surface_target, hemisphere=surface.hemisphere)
+    notes = written(targets[0], surface)
+    echo(f"{targets[0]}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
     for note in notes:
         echo(note)
 

@@ -141,7 +141,7 @@ def common_hemisphere(files: Iterable[tuple[str, Path | str]]) -> str:
         if side and found and found != side:
             raise ValueError(
                 f"{what} {file} is of the {found} hemisphere, {first} of the {side}: "
-                f"give the file of the {side} one, or hemisphere={side} if its name is wrong"
+                f"give the file of the {side} one, or --hemisphere {side} (hemisphere={side!r}) if its name is wrong"
             )
         if found and not side:
             first, side = f"the {what}" if what == "surface" else f"{what} {file}", found

@@ -31,6 +31,7 @@ VOLUMES = (".mgh", ".mgz")
 CURVATURES = (".curv", ".sulc", ".thickness", ".area")
 NIFTI = (".nii", ".nii.gz")
 UNNAMED = ("map", "map 1")
+SURFACES = (".ply", ".vtk", ".vtp", ".vtu", ".obj", ".off", ".stl")
 KNOWN = (
     ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .nii, .npy, .npz, .csv, .txt, .asc, or a FreeSurfer curvature file "
     "(lh.sulc)"
@@ -90,6 +91,8 @@ def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
         return {"map": freesurfer.read_map(path)}
     if freesurfer.is_old_map(path):
         return {"map": freesurfer.read_old_map(path)}
+    if suffix in SURFACES:
+        raise ValueError("it is a surface: give it first, and a map that it carries by name")
     raise ValueError(f"its format is unknown; known are {KNOWN}")
 
 

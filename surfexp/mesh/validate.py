@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from surfexp.contract.arrays import Integers
 from surfexp.mesh.equal_rows import later_copies
 from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.orientation import (
@@ -119,6 +120,7 @@ def require_valid(
     allow: tuple[str, ...] = (),
     one_component: bool = False,
     repair: str = "",
+    numbers: tuple[Integers, Integers] | None = None,
 ) -> None:
     """Refuse a mesh with defects, in one line that says what mends it.
 
@@ -133,6 +135,8 @@ def require_valid(
         Whether several components are refused too.
     repair : str
         What repairs it; the command on a file if not given.
+    numbers : tuple of (n,) and (m,) int64, optional
+        Of the vertices and faces, where the mesh is a part of another.
 
     Raises
     ------
@@ -146,13 +150,24 @@ def require_valid(
         raise ValueError(f"mesh {name} has {_listed(fatal)}; no repair is possible: give a mesh without")
     found = [defect for defect in defects if defect.severity == "repairable" and defect.kind not in allow]
     if found:
-        way_out = repair or f"surfexp repair {name} --to repaired.ply"
+        found = found if numbers is None else [_renumbered(defect, *numbers) for defect in found]
+        way_out = repair or f"give --repair (repair=True), or surfexp repair {name} --to repaired.ply"
         raise ValueError(f"mesh {name} has {_listed(found)}; none allowed: {way_out}")
     if one_component and mesh.component_count > 1:
         raise ValueError(
             f"mesh {name} has {mesh.component_count} components, 1 is allowed here: "
             f"surfexp repair {name} --largest-component --to repaired.ply"
         )
+
+
+def _renumbered(defect: Defect, vertices: Integers, faces: Integers) -> Defect:
+    """The same defect, its examples in the numbers of the whole."""
+    said = []
+    for example in defect.examples:
+        label, _, numbers = example.partition(" ")
+        rows = faces if label == "face" else vertices
+        said.append(f"{label} {'-'.join(str(rows[int(number)]) for number in numbers.split('-'))}")
+    return replace(defect, examples=tuple(said))
 
 
 def _listed(defects: list[Defect]) -> str:

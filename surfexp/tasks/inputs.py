@@ -208,7 +208,7 @@ def require_connected(part: SurfacePart, what: str) -> None:
         first = int(part.vertices[np.argmax(labels == smallest)])
         raise ValueError(
             f"the surface has {len(sizes)} pieces inside its mask, {what} need one: the smallest has {sizes[smallest]} "
-            f"vertices, vertex {first} among them; narrow the mask to the largest piece"
+            f"vertices, vertex {first} among them; take the largest: a mask of it, or surfexp repair FILE --largest-component"
         )
 
 

@@ -48,7 +48,9 @@ def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surf
     if inside.all() or not inside.any():
         require_valid(mesh, name, repair=repair)
     else:
-        require_valid(surface_part(mesh, inside).mesh, name, repair=repair)
+        part = surface_part(mesh, inside)
+        faces = np.flatnonzero(inside[mesh.faces].all(axis=1))
+        require_valid(part.mesh, name, repair=repair, numbers=(part.vertices, faces))
     _SOUND.add(surface)
     return surface
 

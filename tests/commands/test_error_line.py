@@ -61,7 +61,7 @@ def test_long_lists_are_cut_whatever_introduces_them(way: str) -> None:
         (["collect"], "missing argument 'SOURCE'; surfexp collect --help"),
         (["report", "x", "--to", "y"], "unknown option '--to'; choose from: --beside, "),
         (["completion"], "missing argument '{bash|zsh|fish}'. Choose from: bash, zsh, fish"),
-        (["zzz"], "unknown command 'zzz'; choose from: align, "),
+        (["zzzzzzzz"], "unknown command 'zzzzzzzz'; choose from: align, "),
         (["run", "experiment=a b"], "unknown experiment 'a b'; choose from: "),
         (["plan", "experiment="], "unknown experiment ''; choose from: "),
         (["plan", "experiment=quickstart,isospectral drums"], "did you mean 'isospectral_drums'?"),

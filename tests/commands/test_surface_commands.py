@@ -210,3 +210,55 @@ def test_a_kernel_wider_than_the_surface_is_said() -> None:
     assert sx.smooth(ball, ball.vertices[:, 2], 1.1 * extent).notes == (
         "The width 3.81051 is more than the extent of the surface, 3.46: the result is close to its mean.",
     )
+
+
+def test_convert_takes_its_target_as_every_other_command(
+    working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sx.write("a.ply", sx.shape("icosphere", levels=1))
+    assert main(["convert", "a.ply", "--to", "b.off"]) == 0 and main(["convert", "a.ply", "c.off"]) == 0
+    assert Path("b.off").read_bytes() == Path("c.off").read_bytes()
+    for targets in ([], ["c.off", "--to", "b.off"]):
+        assert main(["convert", "a.ply", *targets]) == 2
+        assert (
+            f"{len(targets) and 2} targets are given, one is needed: surfexp convert SURFACE" in capsys.readouterr().err
+        )
+
+
+def test_a_surface_where_a_map_is_needed_is_called_one(
+    working_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sx.write("a.ply", sx.shape("icosphere", levels=1))
+    assert main(["smooth", "a.ply", "a.ply", "--width", "1", "--to", "b.ply"]) == 2
+    assert "a.ply cannot be read as a scalar map: it is a surface: give it first" in capsys.readouterr().err
+
+
+def test_the_ways_out_of_a_defective_mesh_exist(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Numbers are the file's, and every command that names --repair takes it."""
+    ball = sx.shape("icosphere", levels=2)
+    twice = np.r_[[[9.0, 9.0, 9.0]], ball.vertices], np.r_[ball.faces, ball.faces[-1:]] + 1
+    sx.write("good.ply", ball)
+    Path("bad.off").write_text(
+        f"OFF\n{len(twice[0])} {len(twice[1])} 0\n"
+        + "".join("{} {} {}\n".format(*row) for row in twice[0])
+        + "".join("3 {} {} {}\n".format(*row) for row in twice[1])
+    )
+    assert main(["check", "bad.off"]) == 2
+    found = capsys.readouterr().out.partition("non-manifold edges (")[2].partition(")")[0]
+    for call in (
+        ["modes", "bad.off", "-k", "3", "--to", "m.npz"],
+        ["distance", "bad.off", "good.ply", "-n", "3"],
+        ["align", "good.ply", "bad.off", "-k", "3", "--to", "a.npz"],
+    ):
+        assert main(call) == 2
+        said = capsys.readouterr().err
+        assert f"non-manifold edges ({found})" in said
+        assert "give --repair (repair=True), or surfexp repair bad.off --to repaired.ply" in said
+        assert main([*call, "--repair"]) == 0
+        assert "bad.off: dropped, because" in capsys.readouterr().err
+    assert main(["repair", "bad.off", "--to", "mended.ply"]) == 0
+    assert "1 vertices have no face and keep their numbers: --renumber drops them." in capsys.readouterr().out
+    two = sx.shape("icosphere", levels=1)
+    sx.write("two.ply", (np.r_[two.vertices, two.vertices + 3.0], np.r_[two.faces, two.faces + len(two.vertices)]))
+    assert main(["distance", "two.ply", "good.ply", "-n", "3"]) == 2
+    assert "take the largest: a mask of it, or surfexp repair FILE --largest-component" in capsys.readouterr().err
