@@ -20,6 +20,7 @@ from surfexp.mesh.orientation import (
 )
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import validate
+from surfexp.mesh.zero_edges import contract_zero_edges
 
 SHIFT = 1e-3
 
@@ -44,8 +45,8 @@ class Repaired(NamedTuple):
 def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = False) -> Repaired:
     """Mend a mesh so that `validate` finds nothing but notes; a mesh without defects comes back unchanged.
 
-    Merges vertices of equal position on boundaries and moves others apart; drops faces with a repeated index and
-    copies of faces; flips faces without area into their neighbours; at an edge with more than two faces keeps the two
+    Merges vertices of equal position on boundaries or joined by an edge, and moves others apart; drops faces with a repeated
+    index and copies of faces; flips faces without area into their neighbours; at an edge with more than two faces keeps the two
     that hang together best and drops the others; orients faces consistently and closed components outward; cuts where
     no orientation is possible; splits vertices at which several fans meet; drops faces at vertices that are not finite, and
     vertices without faces.
@@ -90,6 +91,7 @@ def repair(vertices: ArrayLike, faces: ArrayLike, largest_component: bool = Fals
 def _one_round(mesh: TriangleMesh, origin: Integers, changes: list[str]) -> tuple[TriangleMesh, Integers]:
     mesh, origin = _merge_vertices(mesh, origin, changes)
     faces = drop_bad_faces(mesh, changes)
+    faces = contract_zero_edges(TriangleMesh(mesh.vertices, faces), changes)
     faces = flip_zero_area_faces(TriangleMesh(mesh.vertices, faces), changes)
     faces = drop_faces_at_crowded_edges(TriangleMesh(mesh.vertices, faces), changes)
     if not len(faces):
