@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.io.hemisphere import check_same_side
+from surfexp.io.map_files import name_of_map, read_scalars, side_by_side
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.mesh.both_hemispheres import joined, of_both
 from surfexp.mesh.given_arrays import index_array, real_array
@@ -19,10 +21,11 @@ from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import colour_of
+from surfexp.tasks.both_files import maps_of_both
 from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
-MapLike = str | ArrayLike | Mapping[str, ArrayLike]
+MapLike = str | Path | ArrayLike | Mapping[str, ArrayLike]
 # of trimesh, nilearn, LaPy and Open3D
 ATTRIBUTES = (("vertices", "faces"), ("coordinates", "faces"), ("v", "t"), ("vertices", "triangles"))
 
@@ -113,26 +116,34 @@ def _pair(given: SurfaceLike) -> tuple[ArrayLike, ArrayLike]:
 
 
 def name_of(values: MapLike) -> str:
-    """Return the name by which a map was given; "map" where it was given as numbers."""
+    """Return the name by which a map was given, of a file its own; "map" where it was given as numbers."""
+    if isinstance(values, Path) or (isinstance(values, str) and Path(values).is_file()):
+        return name_of_map(values)
     return values if isinstance(values, str) else "map"
 
 
 def as_map(surface: Surface, given: MapLike) -> Floats:
-    """Return (n,) or (n, c) float64 values of a map: an array, or the name of one that the surface carries; "color" is red,
-    green and blue.
+    """Return (n,) or (n, c) float64 values of a map: an array, the name of one that the surface carries, or a file.
+
+    The name "color" stands for red, green and blue.
 
     Raises
     ------
     ValueError
-        If the surface has no such map, or the array is not real or of another length.
+        If the surface has no such map, or the array is not real or of another length; if the file cannot be read or is of
+        the other hemisphere.
     """
+    if _is_of_files(given, surface):
+        given = _of_files(surface, given)
     if isinstance(given, str):
         colour = colour_of(surface.scalars, given)
         if colour is not None:
             return colour
         if given not in surface.scalars:
             known = ", ".join(surface.scalars) or "none"
-            raise ValueError(f"surface {surface.name!r} has no map {given!r}; it has {known}")
+            raise ValueError(
+                f"surface {surface.name!r} has no map {given!r}; it has {known}; give a name, a file or numbers"
+            )
         return surface.scalars[given]
     array = _map_of_sides(surface, given)
     if surface.file is not None and array.shape[:1] == surface.file.standing.shape:
@@ -140,6 +151,23 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
     return array.copy() if array is given else array
+
+
+def _is_of_files(given: MapLike, surface: Surface) -> bool:
+    """Whether a map is given by its file, or by one for each hemisphere."""
+    if isinstance(given, Mapping):
+        return all(isinstance(file, str | Path) for file in given.values())
+    return isinstance(given, Path) or (
+        isinstance(given, str) and given not in surface.scalars and Path(given).is_file()
+    )
+
+
+def _of_files(surface: Surface, given: Any) -> Floats:
+    if surface.right is not None:
+        return side_by_side(maps_of_both(surface, given), "map")
+    file = given[surface.hemisphere] if isinstance(given, Mapping) and surface.hemisphere in given else given
+    check_same_side("map", file, surface.hemisphere)
+    return read_scalars(file, surface.hemisphere)
 
 
 def _map_of_sides(surface: Surface, given: Any) -> Floats:

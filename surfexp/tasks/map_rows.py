@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from surfexp.contract.drawable import Drawable
 from surfexp.mesh.surface import Surface
+from surfexp.tasks.inputs import name_of
 from surfexp.tasks.map_row import MapRow
 
 
@@ -26,7 +28,8 @@ def rows_of_maps(values: Any, surfaces: Sequence[Surface]) -> list[MapRow]:
     if isinstance(values, Mapping):
         return [MapRow(str(name), _of_each(one, count)) for name, one in values.items()]
     if isinstance(values, list | tuple) and count == 1 and values and not isinstance(values[0], int | float):
-        return [MapRow(one if isinstance(one, str) else f"map {number}", [one]) for number, one in enumerate(values, 1)]
+        names = [name_of(one) if isinstance(one, str | Path) else f"map {k}" for k, one in enumerate(values, 1)]
+        return [MapRow(name, [one]) for name, one in zip(names, values, strict=True)]
     return [MapRow("", _of_each(values, count))]
 
 

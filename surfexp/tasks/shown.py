@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,8 @@ from surfexp.figures.labelling import Labelling, border_lines, labelling
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
+from surfexp.io.hemisphere import check_same_side
+from surfexp.io.map_files import LABEL_FILES, read_named_labels
 from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.label_map import LabelMap
@@ -28,7 +31,7 @@ from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.tasks.inputs import as_labels, as_map, as_surface
+from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.soundness import usable_vertices
 
@@ -90,7 +93,7 @@ def shown_surfaces(
         if not in_one:
             maps, outlined = _maps_apart(surfaces, maps), _maps_apart(surfaces, outlined)
         for owner, one, border in zip(shown, maps, outlined, strict=True):
-            called = label or made.bar or made.name or (one if isinstance(one, str) else "")
+            called = label or made.bar or made.name or _called(one)
             base = _coloured(owner, one)
             if base.is_scalar:
                 base = replace(
@@ -143,6 +146,10 @@ def sides(surface: Surface) -> dict[str, tuple[float, float]]:
     return {name: _direction(name, surface) for name in HEMISPHERE_VIEWS} if surface.hemisphere in HEMISPHERES else {}
 
 
+def _called(given: Any) -> str:
+    return name_of(given) if isinstance(given, str | Path) else ""
+
+
 def is_several(given: Any) -> bool:
     """Whether a list of surfaces is given, and not a pair (vertices, faces)."""
     if not isinstance(given, list | tuple) or not given:
@@ -176,9 +183,12 @@ def _labels(owner: Surface, given: Any) -> Labelling | None:
     given = getattr(given, "label_map", given)
     if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
         given = owner.labels[given]
+    if isinstance(given, str | Path) and str(given).lower().endswith(LABEL_FILES) and Path(given).is_file():
+        check_same_side("labels", given, owner.hemisphere)
+        given = read_named_labels(given, owner.hemisphere)
     if isinstance(given, LabelMap):
         return labelling(as_labels(owner, given.keys), given.names)
-    if isinstance(given, str) or given is None or hasattr(given, "values"):
+    if isinstance(given, str | Path) or given is None or hasattr(given, "values"):
         return None
     array = np.asarray(given)
     if array.dtype == np.bool_ and array.ndim == 1:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -188,3 +190,36 @@ def test_a_map_is_written_beside_a_mesh_of_any_kind(working_folder: Path) -> Non
 def test_fingerprints_are_of_files(given: object) -> None:
     with pytest.raises(ValueError, match=r"^sources hold a \w+, paths are needed; of surfaces in memory take sx\.\w+"):
         sx.fingerprint(given)  # type: ignore[arg-type]
+
+
+def test_a_map_is_given_by_its_file(tmp_path: Path) -> None:
+    """As on the command line, in every function that takes maps; a map that the surface carries comes first."""
+    ball = sx.shape("icosphere", levels=2)
+    height, noise = ball.vertices[:, 2], np.random.default_rng(0).standard_normal((162, 6))
+    left = replace(ball, hemisphere="left")
+    sx.write(tmp_path / "lh.height.shape.gii", height, left)
+    height = height.astype(np.float32).astype(float)  # as GIFTI holds it
+    sx.write(tmp_path / "lh.parts.label.gii", LabelMap((height > 0).astype(int), {0: "south", 1: "north"}), left)
+    for file in (tmp_path / "lh.height.shape.gii", str(tmp_path / "lh.height.shape.gii")):
+        smoothed = sx.smooth(left, file, 0.5)
+        np.testing.assert_array_equal(smoothed.values, sx.smooth(left, height, 0.5).values)
+        assert smoothed.name == "lh.height"
+        np.testing.assert_array_equal(
+            sx.plot(left, file, width=200).figure.pixels,
+            sx.plot(left, height, width=200, label="lh.height").figure.pixels,
+        )
+    parts = sx.plot(left, tmp_path / "lh.parts.label.gii", width=200).figure.pixels
+    table = LabelMap((height > 0).astype(int), {0: "south", 1: "north"})
+    np.testing.assert_array_equal(parts, sx.plot(left, table, width=200).figure.pixels)
+    files = []
+    for k, column in enumerate(noise.T):
+        files.append(tmp_path / f"s{k}.npy")
+        sx.write(files[-1], column)
+    found = sx.permutation_test(left, files, count=50)
+    np.testing.assert_array_equal(found.t, sx.permutation_test(left, noise, count=50).t)
+    with pytest.raises(ValueError, match="is of the left hemisphere, the surface of the right"):
+        sx.smooth(replace(ball, hemisphere="right"), tmp_path / "lh.height.shape.gii", 0.5)
+    with pytest.raises(ValueError, match="has no map 'hight'; it has none; give a name, a file or numbers"):
+        sx.smooth(left, "hight", 0.5)
+    carried = replace(left, scalars={str(files[0]): height})
+    np.testing.assert_array_equal(sx.smooth(carried, str(files[0]), 0.5).values, smoothed.values)
