@@ -26,7 +26,7 @@ from surfexp.lab.store import store
 
 HELD = "SURFEXP_HOLDS_RESULTS"
 SECONDS_TO_CANCEL = 15.0
-LINES_OF_DAMAGE = 10
+LINES_OF_DAMAGE, NAMED_FILES = 10, 5
 PATTERN, ADDRESS = "which Snakemake reads as a pattern", "behind which the address of the runs' database ends"
 UNFIT_MARKS = {"{": PATTERN, "}": PATTERN, "?": ADDRESS}
 _locks: list[int] = []
@@ -58,9 +58,28 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
         _warn(warning for event in events for warning in event.get("warnings", ()))
     finish(path, plan, arguments, bool(tried))
     if missing:
-        failures = [read_event(results, plan.nodes[key].kind, key).get("failure") for key in missing]
-        said = "\n".join(filter(None, dict.fromkeys(failures)))
+        failures: dict[str, dict[str, None]] = {}
+        for key in missing:
+            if failure := read_event(results, plan.nodes[key].kind, key).get("failure"):
+                failures.setdefault(failure, {}).update(dict.fromkeys(_surface_of(plan, key)))
+        said = "\n".join(failure + _in_brackets(list(files)) for failure, files in failures.items())
         raise StageFailure(said or f"{len(missing)} stages did not run; see {results / 'logs'}")
+
+
+def _surface_of(plan: Plan, key: str) -> list[str]:
+    """The file of the one surface that a stage depends on; nothing where there are none or several."""
+    found, waiting = dict[str, None](), [key]
+    while waiting:
+        node = plan.nodes[waiting.pop()]
+        path = node.options.get("path") if node.kind == "surface" else None
+        found.update({Path(str(path)).name: None} if path else {})
+        waiting += node.children
+    return list(found) if len(found) == 1 else []
+
+
+def _in_brackets(files: list[str]) -> str:
+    more = f" and {len(files) - NAMED_FILES} more" if len(files) > NAMED_FILES else ""
+    return f" ({', '.join(files[:NAMED_FILES])}{more})" if files else ""
 
 
 def _warn(lines: Iterable[str]) -> None:

@@ -12,14 +12,18 @@ import pytest
 
 from surfexp.commands import execution, request
 from surfexp.contract.metric import Metric
+from surfexp.io.writing import write_mesh
 from surfexp.lab.errors import StageFailure, UserError
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.records.table import rows_of
 from surfexp.report.convergence import reason, unconverged
 from surfexp.report.verdict import judge
@@ -192,6 +196,33 @@ def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkey
     monkeypatch.setattr(module, "Pairing", lambda *values, **metrics: 1 / 0)
     with pytest.raises(StageFailure, match="pairing/toy_distance: division by zero"):
         run()
+
+
+def test_a_failure_names_the_files_that_it_failed_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two bodies have fewer vertices than eigenpairs are asked for; the third is large enough."""
+    surfaces = []
+    for name, levels in (("tiny", 0), ("small", 0), ("large", 2)):
+        mesh = icosphere(levels).mesh
+        write_mesh(
+            tmp_path / f"{name}.ply", TriangleMesh((2.0 if name == "small" else 1.0) * mesh.vertices, mesh.faces)
+        )
+        surfaces.append({"name": "file", "path": str(tmp_path / f"{name}.ply")})
+    load_all(tmp_path)
+    shared = {"experiment": "own", "target": "signature", "operator": "fem", "results": str(tmp_path / "results")}
+    plan = make_plan([{**shared, "surface": one, "signature": {"name": "spectral", "count": 20}} for one in surfaces])
+
+    def in_this_process(plan: Plan, path: Path, results: Path, missing: Any) -> None:
+        for key in plan.nodes:
+            if key in {node.key for node in missing}:
+                stage.run_stage(path, key)
+
+    monkeypatch.setenv(execution.HELD, "1")
+    monkeypatch.setattr(execution, "_snakemake", in_this_process)
+    monkeypatch.setattr(execution, "finish", lambda *_: None)
+    with pytest.raises(
+        StageFailure, match=r"12 degrees of freedom: take 1 <= k <= 12 \((tiny|small).ply, (tiny|small).ply\)$"
+    ):
+        execution.run(plan)
 
 
 def loose(tmp_path: Path, target: str = "solver", **options: Any) -> Plan:
