@@ -156,7 +156,7 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
 def _is_of_files(given: MapLike, surface: Surface) -> bool:
     """Whether a map is given by its file, or by one for each hemisphere."""
     if isinstance(given, Mapping):
-        return all(isinstance(file, str | Path) for file in given.values())
+        return surface.right is not None and all(isinstance(file, str | Path) for file in given.values())
     return isinstance(given, Path) or (
         isinstance(given, str) and given not in surface.scalars and Path(given).is_file()
     )
@@ -165,9 +165,8 @@ def _is_of_files(given: MapLike, surface: Surface) -> bool:
 def _of_files(surface: Surface, given: Any) -> Floats:
     if surface.right is not None:
         return side_by_side(maps_of_both(surface, given), "map")
-    file = given[surface.hemisphere] if isinstance(given, Mapping) and surface.hemisphere in given else given
-    check_same_side("map", file, surface.hemisphere)
-    return read_scalars(file, surface.hemisphere)
+    check_same_side("map", given, surface.hemisphere)
+    return read_scalars(given, surface.hemisphere)
 
 
 def _map_of_sides(surface: Surface, given: Any) -> Floats:
