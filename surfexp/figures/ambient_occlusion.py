@@ -48,30 +48,44 @@ def _occlusion(depth: Floats, around: Floats, rim: int, normals: Floats, shifts:
     height, width = depth.shape
     result = np.zeros((height, width))
     reach = radius * radius
-    highest, total = np.zeros(width), np.zeros(width)
+    inverse = 1.0 / reach
     for row in range(height):
-        here = depth[row]
-        if here.min() == FAR:
-            continue
-        nx, ny, nz = normals[row, :, 0].copy(), normals[row, :, 1].copy(), normals[row, :, 2].copy()
-        total.fill(0.0)
+        first, last = _covered(depth[row])
+        here, count = depth[row, first:last], last - first
+        nx, ny, nz = (
+            normals[row, first:last, 0].copy(),
+            normals[row, first:last, 1].copy(),
+            normals[row, first:last, 2].copy(),
+        )
+        highest, total = np.zeros(count), np.zeros(count)
         for direction in range(shifts.shape[0]):
             highest.fill(0.0)
             for step in range(shifts.shape[1]):
                 dx, dy = float(shifts[direction, step, 0]), float(shifts[direction, step, 1])
-                start = rim + shifts[direction, step, 0]
-                there = around[rim + row + shifts[direction, step, 1], start : start + width]
+                start = rim + first + shifts[direction, step, 0]
+                there = around[rim + row + shifts[direction, step, 1], start : start + count]
                 flat = dx * dx + dy * dy
-                for column in range(width):
+                for column in range(count):
                     dz = here[column] - there[column]
                     squared = flat + dz * dz
                     above = nx[column] * dx - ny[column] * dy + nz[column] * dz
-                    hidden = (above / np.sqrt(squared) - BIAS) * (1.0 - squared / reach)
+                    hidden = (above / np.sqrt(squared) - BIAS) * (1.0 - squared * inverse)
                     hidden = hidden if squared < reach and above > 0.0 else 0.0
                     highest[column] = hidden if hidden > highest[column] else highest[column]
-            for column in range(width):
+            for column in range(count):
                 total[column] += highest[column]
-        for column in range(width):
+        for column in range(count):
             if here[column] != FAR:
-                result[row, column] = total[column] / shifts.shape[0]
+                result[row, first + column] = total[column] / shifts.shape[0]
     return result
+
+
+@njit(cache=True, nogil=True)
+def _covered(depth: Floats) -> tuple[int, int]:
+    """The first column of a row in which something is seen, and the one after the last."""
+    first, last = 0, len(depth)
+    while first < last and depth[first] == FAR:
+        first += 1
+    while last > first and depth[last - 1] == FAR:
+        last -= 1
+    return first, last

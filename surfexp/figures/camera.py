@@ -130,7 +130,9 @@ def unit_camera(mesh: TriangleMesh, view: View = "oblique", field_of_view: float
 
 def visible_points(mesh: TriangleMesh) -> Floats:
     """(k, 3) finite vertices that a face uses."""
-    points = mesh.vertices[np.unique(mesh.faces)]
+    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    used[mesh.faces.ravel()] = True
+    points = mesh.vertices[used]
     return points[np.isfinite(points).all(axis=1)]
 
 

@@ -21,6 +21,10 @@ SKY, GROUND = 0.34, 0.22
 WRAP = 0.25
 RIM_DARKENING = 0.35
 BACK_TINT, BACK_SHARE = (0.26, 0.34, 0.48), 0.45
+GAMMA = 2.2
+# the least light that is shown as 1 to 255, and what is shown at least of light in equal steps: a power costs ten times more
+LEAST_LIGHT = ((np.arange(1.0, 256.0) - 0.5) / 255.0) ** GAMMA
+GUESSES = np.searchsorted(LEAST_LIGHT, np.arange(4096.0) / 4096.0, side="right")
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,15 +48,12 @@ class Shaded:
 
 def to_linear(srgb: Floats) -> Floats:
     """Linear light of display colours in 0..1 (gamma 2.2); NaN stays."""
-    return np.clip(srgb, 0.0, 1.0) ** 2.2
+    return np.clip(srgb, 0.0, 1.0) ** GAMMA
 
 
 def to_display(linear: Floats) -> NDArray[np.uint8]:
     """Display colours 0..255 of linear light."""
-    shown = np.full(linear.shape, 255, dtype=np.uint8)
-    darker = linear < 1.0  # the rest, most of it background, is white
-    shown[darker] = np.rint(255.0 * np.maximum(linear[darker], 0.0) ** (1.0 / 2.2))
-    return shown
+    return _displayed(np.ascontiguousarray(linear).reshape(-1), LEAST_LIGHT, GUESSES).reshape(linear.shape)
 
 
 def seen_from_behind(mesh: TriangleMesh, camera: Camera) -> NDArray[np.bool_]:
@@ -121,39 +122,56 @@ def _shade(
 ) -> None:  # fmt: skip
     share = 1.0 / factor**2
     last = len(table) - 2
-    color = np.zeros(3)
+    by_table = coloring.shape[1] == 1
     for row in range(face.shape[0]):
         for column in range(face.shape[1]):
             t = face[row, column]
             if t < 0:
                 continue
             i, j = row // factor, column // factor
-            color.fill(0.0)
-            x = y = z = 0.0
+            red = green = blue = x = y = z = 0.0
             nearest = np.argmax(barycentric[row, column]) if flat else -1
             for k in range(3):
                 weight, vertex = barycentric[row, column, k], faces[t, k]
                 x += weight * vertex_normals[vertex, 0]
                 y += weight * vertex_normals[vertex, 1]
                 z += weight * vertex_normals[vertex, 2]
-                for channel in range(coloring.shape[1]):
-                    share_of_corner = (1.0 if k == nearest else 0.0) if flat else weight
+                if flat:
+                    weight = 1.0 if k == nearest else 0.0
                     # a corner that counts nothing may have no value
-                    if share_of_corner != 0.0 or not flat:
-                        color[channel] += share_of_corner * coloring[vertex, channel]
+                    if weight == 0.0:
+                        continue
+                red += weight * coloring[vertex, 0]
+                if not by_table:
+                    green += weight * coloring[vertex, 1]
+                    blue += weight * coloring[vertex, 2]
             length = turn[t] * np.sqrt(x * x + y * y + z * z)
             # opposite normals cancel at a needle; it is lit from the front
             x, y, z = (x / length, y / length, z / length) if length != 0.0 else (0.0, 0.0, 1.0)
-            is_unknown = np.isnan(color[0] + color[1] + color[2])
-            if is_unknown or coloring.shape[1] == 1:
-                place = last + 1 if is_unknown else min(max(int(np.floor(color[0] * (last + 1))), 0), last)
-                for channel in range(3):
-                    color[channel] = table[place, channel]
+            missing = np.isnan(red + green + blue)
+            if missing or by_table:
+                place = last + 1 if missing else min(max(int(np.floor(red * (last + 1))), 0), last)
+                red, green, blue = table[place, 0], table[place, 1], table[place, 2]
             received = share * (1.0 + strength * (illumination(x, y, z) - 1.0))
             tint = BACK_SHARE if turn[t] < 0.0 else 0.0
-            for channel in range(3):
-                light[i, j, channel] += received * ((1.0 - tint) * color[channel] + tint * BACK_TINT[channel])
+            light[i, j, 0] += received * ((1.0 - tint) * red + tint * BACK_TINT[0])
+            light[i, j, 1] += received * ((1.0 - tint) * green + tint * BACK_TINT[1])
+            light[i, j, 2] += received * ((1.0 - tint) * blue + tint * BACK_TINT[2])
             normals[i, j, 0] += x
             normals[i, j, 1] += y
             normals[i, j, 2] += z
             coverage[i, j] += share
+
+
+@njit(cache=True, nogil=True)
+def _displayed(linear: Floats, least_light: Floats, guesses: Integers) -> NDArray[np.uint8]:
+    """The nearest of 0..255 to 255 x^(1 / 2.2): looked up, then raised while there is light enough for more."""
+    shown = np.full(len(linear), 255, dtype=np.uint8)
+    for p in range(len(linear)):
+        light = linear[p]
+        if light < 1.0:
+            level = guesses[int(max(light, 0.0) * len(guesses))]
+            while level < 255 and least_light[level] <= light:
+                level += 1
+            shown[p] = level
+    return shown

@@ -14,7 +14,7 @@ from surfexp.figures.camera import fit_camera
 from surfexp.figures.colormap import MISSING
 from surfexp.figures.rasterizer import rasterize
 from surfexp.figures.render import SurfaceView, draw, render
-from surfexp.figures.shading import illumination, shade
+from surfexp.figures.shading import illumination, shade, to_display
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -146,3 +146,10 @@ def test_mistakes_are_named() -> None:
         render(SPHERE, np.zeros(5))
     with pytest.raises(ValueError, match="supersampling is 9"):
         draw(SurfaceView(SPHERE), fit_camera(SPHERE), 9)
+
+
+def test_levels_of_the_display_are_the_nearest_ones() -> None:
+    light = np.concatenate([np.linspace(-0.1, 1.2, 100_001), ((np.arange(256.0)) / 255.0) ** 2.2])
+    expected = np.rint(255.0 * np.clip(light, 0.0, 1.0) ** (1.0 / 2.2))
+    assert (to_display(light.reshape(-1, 1)).ravel() == expected).all()
+    assert to_display(np.array([np.nan]))[0] == 255
