@@ -29,6 +29,7 @@ def curves_figure(
     orders: Annotated[
         bool, Field(description="doubly logarithmic with the measured orders, finer to the right")
     ] = False,
+    band: Annotated[str, Field(description="what bands are, where columns have intervals")],
     title: Title,
     caption: Caption,
 ) -> Figure:
@@ -41,7 +42,9 @@ def curves_figure(
     lines = {name.replace("_", " "): statistic.columns[name] for name in y}
     x_label, title = x_label or x.replace("_", " "), title or statistic.name
     words = {"x_label": x_label, "y_label": y_label, "title": title, "caption": caption}
-    return order_plot(abscissae, lines, **words) if orders else sweep_plot(abscissae, lines, log=log, **words)
+    if orders:
+        return order_plot(abscissae, lines, **words)
+    return sweep_plot(abscissae, lines, log=log, band=band, **words)
 
 
 @register("figure", "signatures", defaults_of=sweep_plot)
@@ -71,4 +74,12 @@ def signatures_figure(
         lines = {member.label: row for member, row in rows.items()}
     name = part or next(iter(signatures.values())).name
     y_label = y_label or name.replace("_", " ") + (" / n" if ratio else "")
-    return sweep_plot(numbers, lines, x_label="number of the mode", y_label=y_label, title=title, caption=caption)
+    return sweep_plot(
+        numbers,
+        lines,
+        x_label="number of the mode",
+        y_label=y_label,
+        band="least to largest of a class",
+        title=title,
+        caption=caption,
+    )

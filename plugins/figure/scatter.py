@@ -50,7 +50,17 @@ def scatter_figure(
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1.0), frameon=False, fontsize=text_size(em))
         pixels, svg = drawn(figure), vector(figure)
     caption = caption or "Each point is a shape; only distances mean something, axes may be turned or mirrored."
+    caption = f"{caption} {_share_shown(embedding)}".strip()
     return Figure(pixels, caption, title, {"stress": embedding.metrics.get("stress", 0.0)}, svg=svg)
+
+
+def _share_shown(embedding: PointEmbedding) -> str:
+    """How much of the distances the points hold: their share of the variance, or else the stress."""
+    if (share := embedding.metrics.get("explained")) is not None:
+        return f"The points hold {share:.0%} of the variance."
+    if (stress := embedding.metrics.get("stress")) is not None:
+        return f"The distances of the points are {stress:.0%} off (stress)."
+    return ""
 
 
 def _write_labels(axes: Any, embedding: PointEmbedding, points: np.ndarray) -> None:

@@ -41,6 +41,7 @@ def sweep_figure(
         x_label=x_label,
         y_label=y_label,
         log=log,
+        band="least to largest",
         title=title,
         caption=caption,
     )

@@ -8,8 +8,9 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import FONT
+from surfexp.figures.contrast import ink_on
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import INK, canvas, drawn, points, vector
+from surfexp.figures.typography import canvas, drawn, points, vector
 
 FARTHEST = 4.0
 ROW, HEAD, FOOT = 2.1, 4.4, 1.0
@@ -52,14 +53,16 @@ def ratio_table(
         top = (HEAD + (1.6 if title else 0.0)) * em / height
         axes = figure.add_axes((0.24, FOOT * em / height, 0.75, 1.0 - top - FOOT * em / height))
         axes.grid(visible=False)
-        reach = np.log(FARTHEST)
-        axes.imshow(np.log(ratios), cmap="RdBu_r", vmin=-reach, vmax=reach, aspect="auto", alpha=PALE)
+        cells = cell_colors(ratios)
+        axes.imshow(cells, aspect="auto")
         for i, j in np.argwhere(np.isfinite(ratios)):
             failed = np.isnan(verdicts[i, j])
             text = f"{ratios[i, j]:.2f}" + ("*" if failed else "")
             bold = not failed and verdicts[i, j] != 0
             weight = "bold" if bold else "normal"
-            axes.text(j, i, text, ha="center", va="center", color=INK, fontsize=points(em), fontweight=weight)
+            axes.text(
+                j, i, text, ha="center", va="center", color=ink_on(cells[i, j]), fontsize=points(em), fontweight=weight
+            )
         axes.set_xticks(range(len(columns)), [name.replace(" ", "\n") for name in columns])
         axes.xaxis.tick_top()
         axes.set_yticks(range(len(rows)), rows)
@@ -70,3 +73,18 @@ def ratio_table(
             figure.text(0.01, 1.0 - 0.6 * em / height, title, fontsize=points(1.1 * em), fontweight="bold", va="top")
         pixels, svg = drawn(figure), vector(figure)
     return Figure(pixels, caption, title, svg=svg)
+
+
+def cell_colors(ratios: Floats) -> Floats:
+    """Return (r, c, 3) colours of ratios, pale red above 1 and pale blue below, white where there is none.
+
+    Parameters
+    ----------
+    ratios : (r, c) float64
+    """
+    from matplotlib import colormaps
+
+    reach = np.log(FARTHEST)
+    place = 0.5 + 0.5 * np.clip(np.log(ratios) / reach, -1.0, 1.0)
+    full = np.asarray(colormaps["RdBu_r"](np.nan_to_num(place, nan=0.5)), dtype=np.float64)[..., :3]
+    return np.where(np.isfinite(ratios)[..., None], 1.0 - PALE + PALE * full, 1.0)

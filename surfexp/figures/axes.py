@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from surfexp.contract.arrays import Floats
+from surfexp.figures.contrast import ink_like
 from surfexp.figures.typography import points
 
 # Okabe and Ito (2008) without the yellow, which is too light for lines; told apart in every common colour blindness
@@ -16,6 +17,8 @@ DASHES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (6, 1.5, 1.2, 1.5)))
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 # font as a share of the figure's width; spacing of labels in lines of text
 FONT, SPACING = 0.0175, 1.35
+# numbers between these are written without a power of ten
+PLAIN = (1e-3, 1e6)
 
 Label = tuple[str, float, float, str]
 
@@ -55,7 +58,10 @@ def add_axes(figure: Any, title: str, x_label: str, y_label: str) -> Any:
 
 
 def logarithmic(axes: Any, names: str = "xy") -> None:
-    """Logarithmic axes with ticks at powers of ten, or at 1, 2, 5 where less than two decades are seen."""
+    """Logarithmic axes with ticks at powers of ten, or at 1, 2, 5 where less than two decades are seen.
+
+    Numbers from a thousandth to a million are written out.
+    """
     from matplotlib.ticker import LogLocator, NullFormatter
 
     for name in names:
@@ -64,8 +70,16 @@ def logarithmic(axes: Any, names: str = "xy") -> None:
         low, high = sorted(axis.get_view_interval())
         if high < 100.0 * low:
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            axis.set_major_formatter(lambda value, _: f"{value:.3g}")
+        # margins reach a little beyond the outermost numbers
+        if high < 100.0 * low or PLAIN[0] <= 2.0 * low < high <= 2.0 * PLAIN[1]:
+            axis.set_major_formatter(lambda value, _: _plain(value))
         axis.set_minor_formatter(NullFormatter())
+
+
+def _plain(value: float) -> str:
+    """A number of an axis: written out where that is short, as in tables."""
+    written_out = PLAIN[0] <= abs(value) <= PLAIN[1]
+    return f"{value:,.10g}".replace(",", "\u202f") if written_out else f"{value:.3g}"
 
 
 def label_lines(axes: Any, labels: Sequence[Label]) -> None:
@@ -81,7 +95,10 @@ def label_lines(axes: Any, labels: Sequence[Label]) -> None:
     axes.autoscale_view()
     figure = axes.figure
     width, em = figure.bbox.width, FONT * figure.bbox.width
-    texts = [figure.text(0.0, 0.0, text, color=color, fontsize=points(em), va="center") for text, *_, color in labels]
+    texts = [
+        figure.text(0.0, 0.0, text, color=ink_like(color), fontsize=points(em), va="center")
+        for text, *_, color in labels
+    ]
     longest = max(text.get_window_extent().width for text in texts)
     box = axes.get_position()
     axes.set_position([box.x0, box.y0, 1.0 - box.x0 - (longest + 2.5 * em) / width, box.height])

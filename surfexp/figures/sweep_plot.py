@@ -10,7 +10,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import canvas, drawn, vector
+from surfexp.figures.typography import QUIET, canvas, drawn, vector
 
 # up to so many values of the option are written under the axis, and each marked on the lines
 MOST_TICKS, MOST_MARKERS = 9, 60
@@ -25,6 +25,7 @@ def sweep_plot(
     x_label: str,
     y_label: str,
     log: str = "",
+    band: str = "",
     title: str = "",
     caption: str = "",
     size: tuple[int, int] = (1000, 620),
@@ -41,6 +42,8 @@ def sweep_plot(
         Values, or value, lower and upper end. NaN leaves a gap.
     log : "", "x", "y" or "xy"
         Which axes are logarithmic.
+    band : str
+        What bands are, written in the corner of the axes where there is one.
 
     Raises
     ------
@@ -67,6 +70,10 @@ def sweep_plot(
         if len(x) <= MOST_TICKS:
             axes.set_xticks(x, [f"{value:g}" for value in x])
         label_lines(axes, labels)
+        if band and any(np.ndim(values) == 2 for values in series.values()):
+            size_of_words = 0.9 * axes.xaxis.label.get_size()
+            corner = {"transform": axes.transAxes, "ha": "right", "va": "bottom"}
+            axes.text(1.0, 1.0, f"bands: {band}", fontsize=size_of_words, color=QUIET, **corner)
         pixels, svg = drawn(figure), vector(figure)
     return Figure(pixels, caption, title, svg=svg)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 DOTS_PER_INCH = 100
 INK = "#222222"
-QUIET = "#777777"
+QUIET = "#6b6b6b"
 # of a plot in characters: one of many thousand marks is lighter in pixels
 LONGEST_DRAWING = 1_000_000
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from surfexp_studies.smoothing.ratio_table import ratio_table
+from surfexp.figures.contrast import LEAST, contrast, ink_on
+from surfexp_studies.smoothing.ratio_table import cell_colors, ratio_table
 
 
 def cell(pixels: np.ndarray, row: int, column: int) -> np.ndarray:
@@ -33,3 +34,10 @@ def test_what_failed_has_a_star_and_shapes_have_to_fit() -> None:
     assert sure.svg != failed.svg
     with pytest.raises(ValueError, match=r"ratios are \(1, 1\) and verdicts \(1, 1\) for 2 rows"):
         ratio_table(np.ones((1, 1)), np.ones((1, 1)), ["a", "b"], ["c"])
+
+
+def test_the_words_of_every_cell_can_be_read() -> None:
+    cells = cell_colors(np.geomspace(0.05, 20.0, 200)[None])[0]
+    assert min(contrast(ink_on(cell), cell) for cell in cells) >= LEAST
+    # dark words on all of them cannot
+    assert min(contrast("#222222", cell) for cell in cells) < 3.0

@@ -38,6 +38,7 @@ def skeleton_shares_figure(
         {name: values[:count] for name, values in series.items()},
         x_label="component",
         y_label=label,
+        band="bootstrap intervals",
         title=title,
         caption=caption,
     )
