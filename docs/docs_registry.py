@@ -130,6 +130,7 @@ def _write_studies(folder: Path) -> None:
 def _study(name: str, text: str) -> str:
     """The page of a study: its text, and its programs as they are."""
     text = text.replace("](../../docs/", "](../../")
+    text = re.sub(r"\]\(\.\./\.\./examples/(\w+)\.py\)", r"](../examples/\1)", text)
     text = re.sub(r"\[([^\]]*)\]\(examples/[^)]*\)", r"`\1`", text)
     programs = sorted((ROOT / "studies" / name / "examples").glob("*.py"))
     shown = [

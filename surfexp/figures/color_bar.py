@@ -16,6 +16,8 @@ from surfexp.figures.typography import QUIET, points
 
 # longest bar as a share of the panel's width; the rest in multiples of the text's size
 LONGEST, THICKNESS, DISTANCE, OUTLINE, TICK_FONT = 0.26, 0.75, 0.22, 0.045, 0.92
+# intervals of a bar, and the room of a digit in multiples of the text's size
+MOST_TICKS, DIGIT = 5, 0.6
 ENDS = {(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}
 
 Scales = Mapping[ColorScale, ColorScale]
@@ -37,7 +39,6 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
     """One bar for each scale, in the foot of a panel; an end is pointed where values lie beyond it."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
-    from matplotlib.ticker import MaxNLocator
 
     views = [view for row in grid for view in row]
     length = min(
@@ -53,7 +54,7 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
             orientation="horizontal",
             extend=ENDS[below > 0.0, above > 0.0],
             extendfrac=0.04,
-            ticks=MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]),
+            ticks=_ticks(fitted, length * layout.width / layout.em),
         )
         bar.outline.set(edgecolor=QUIET, linewidth=points(OUTLINE * layout.em))
         distance = points(DISTANCE * layout.em)
@@ -61,6 +62,20 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
         beyond = 100.0 * (below + above)
         words = [fitted.title, f"{beyond:.2g} % of the values lie beyond" if beyond else ""]
         bar.set_label("\n".join(filter(None, words)), size=points(TICK_FONT * layout.em), labelpad=distance)
+
+
+def _ticks(scale: ColorScale, length: float) -> Any:
+    """Places of at most six numbers that do not run together on a bar so many times as long as the text is high."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = scale.limits or (0.0, 1.0)
+    for most in range(MOST_TICKS, 1, -1):
+        found = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10])
+        places = found.tick_values(low, high)
+        longest = max(len(f"{place:.6g}") for place in places)
+        if (places[1] - places[0]) / (high - low) * length >= DIGIT * (longest + 1):
+            return found
+    return MaxNLocator(1)
 
 
 def _centers(layout: Layout, grid: Grid, scales: Scales, length: float) -> list[float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 import matplotlib
 import numpy as np
@@ -71,6 +72,21 @@ def test_bars_have_the_limits_ticks_and_label_of_their_scale() -> None:
             for tick in inner:
                 column = int(axes.transData.transform((tick, 0.0))[0])
                 assert np.abs(pixels[row, column] - 255.0 * scale.rgb(tick)).max() < 8.0
+
+
+@pytest.mark.parametrize("width", [300, 500, 800, 1600])
+@pytest.mark.parametrize("reach", [0.47, 47.0, 4700.0])
+def test_numbers_of_a_bar_do_not_run_together(width: int, reach: float) -> None:
+    views = [SurfaceView(SPHERE, reach * Z, scale=ColorScale("depth", limits=(-reach, reach)))]
+    layout = arrange([views], width, False, round(BAR_BAND * text_size(width)), 0.0)
+    with canvas(width, layout.height) as figure:
+        draw_bars(figure, layout, [views], fitted_scales(views))
+        drawn(figure)
+        (bar,) = figure.axes
+        shown = zip(bar.get_xticks(), bar.get_xticklabels(), strict=True)
+        boxes = sorted((one.get_window_extent().x0, one.get_window_extent().x1) for t, one in shown if abs(t) <= reach)
+    assert len(boxes) >= 2
+    assert all(after[0] - before[1] > 2.0 for before, after in pairwise(boxes))
 
 
 def test_each_bar_is_under_the_views_that_use_it() -> None:

@@ -62,6 +62,16 @@ def test_every_study_has_a_page_with_its_programs(pages: Path) -> None:
             assert (DOCS / link.removeprefix("../../")).is_file(), link
 
 
+def test_every_study_has_an_example_in_the_gallery() -> None:
+    studies = [file.parent for file in ROOT.glob("studies/*/__init__.py")]
+    assert len(studies) >= 17
+    for study in studies:
+        named = re.findall(
+            r"^- Example: \[.+\?\]\(\.\./\.\./examples/(\w+)\.py\)$", (study / "README.md").read_text(), re.M
+        )
+        assert len(named) == 1 and (ROOT / "examples" / f"{named[0]}.py").is_file(), study.name
+
+
 def test_answers_by_question_name_what_there_is() -> None:
     text = (DOCS / "questions.md").read_text()
     functions = set(re.findall(r"`sx\.(\w+)\(", text))
