@@ -9,11 +9,14 @@ from typing import Any
 from surfexp.contract.drawable import Drawable
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.inputs import name_of
+from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, spread_over
 from surfexp.tasks.map_row import MapRow
 
 
-def rows_of_maps(values: Any, surfaces: Sequence[Surface]) -> list[MapRow]:
+def rows_of_maps(values: Any, surfaces: Sequence[Surface], most_columns: int = MOST_COLUMNS) -> list[MapRow]:
     """Return the rows of a picture: those of a result, one map for all surfaces, one for each, or rows by name.
+
+    A map of several columns on one surface has a row for each, or for some that are spread over them.
 
     Raises
     ------
@@ -30,6 +33,9 @@ def rows_of_maps(values: Any, surfaces: Sequence[Surface]) -> list[MapRow]:
     if isinstance(values, list | tuple) and count == 1 and values and not isinstance(values[0], int | float):
         names = [name_of(one) if isinstance(one, str | Path) else f"map {k}" for k, one in enumerate(values, 1)]
         return [MapRow(name, [one]) for name, one in zip(names, values, strict=True)]
+    if count == 1 and (columns := columns_of(values)):
+        chosen = spread_over(len(columns), most_columns)
+        return [MapRow(f"column {k + 1} of {len(columns)}", [columns[k]], bar=" ") for k in chosen]
     return [MapRow("", _of_each(values, count))]
 
 

@@ -18,8 +18,11 @@ from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.map_columns import columns_of
 from surfexp.tasks.shown import shown_surfaces
 
+# columns of a map seen from one side
+ABREAST = 3
 # pixels
 NARROWEST, WIDEST = 200, 20_000
 SUFFIXES = (".png", ".svg", ".pdf")
@@ -95,7 +98,9 @@ def plot(
         Several stand side by side, at one scale. So do the hemispheres of a surface that is both, in four pictures.
     values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend. A list has one for each of
-        several surfaces, or of one surface a row for each; so has a dict, with their names. Eigenpairs are rows of
+        several surfaces, or of one surface a row for each; so has a dict, with their names. Of a map of several columns,
+        as a time series, six are shown, in colours that they share; (n, 3) numbers in 0..1 are colours. Without a map a
+        scan has its own colours. Eigenpairs are rows of
         eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed. A distance on
         [source, target] is shown by the colours that its correspondence carries over.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
@@ -147,6 +152,9 @@ def plot(
         label=label,
         unit=unit,
     )
+    if len(rows) > ABREAST and all(len(row) == 1 for row in rows) and columns_of(values):
+        single = [row[0] for row in rows]
+        rows = [single[k : k + ABREAST] for k in range(0, len(single), ABREAST)]
     return picture_of(rows, width)
 
 

@@ -32,6 +32,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
+from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.soundness import usable_vertices
 
@@ -59,6 +60,7 @@ def shown_surfaces(
     skeleton: Skeleton | None = None,
     label: str = "",
     unit: str = "",
+    most_columns: int = MOST_COLUMNS,
 ) -> Rows:
     """Return one row for each map, and in it each surface from each side, as `plot` describes its arguments.
 
@@ -84,7 +86,7 @@ def shown_surfaces(
         surfaces = [replace(one, mesh=TriangleMesh(one.mesh.vertices / scale, one.mesh.faces)) for one in surfaces]
         skeleton = None if skeleton is None else skeleton.in_length(1.0 / scale)
     rows: Rows = []
-    given_rows = rows_of_maps(values, surfaces)
+    given_rows = rows_of_maps(values, surfaces, most_columns)
     in_one = skeleton is not None or any(made.skeleton is not None for made in given_rows)
     shown = surfaces if in_one else apart(surfaces)
     for made in given_rows:
@@ -93,7 +95,7 @@ def shown_surfaces(
         if not in_one:
             maps, outlined = _maps_apart(surfaces, maps), _maps_apart(surfaces, outlined)
         for owner, one, border in zip(shown, maps, outlined, strict=True):
-            called = label or made.bar or made.name or _called(one)
+            called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
             base = _coloured(owner, one)
             if base.is_scalar:
                 base = replace(
@@ -162,6 +164,7 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
     part = surface_part(owner.mesh, usable_vertices(owner.mesh))
     inside = None if owner.mask is None else np.asarray(part.restrict(owner.mask), dtype=np.bool_)
     found = _labels(owner, given)
+    given = own_colors(owner) if given is None else given
     if found is None and given is None and owner.mask is not None:
         found = Labelling(np.where(owner.mask, 0, -1), (INSIDE,), np.array([CLAY]))
     if found is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from surfexp.mesh.surface import HEMISPHERES
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.inputs import SurfaceLike, as_surface
+from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, flat_colors, is_color, spread_over
 from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of
 from surfexp.tasks.shown import apart, is_several, shown_surfaces, sides
 from surfexp.viewer.page import viewer_page
@@ -109,7 +110,8 @@ def view(
         Each is a panel, and all panels turn together.
     values : str, (n,) array, `LabelMap`, or a result with `values`, optional
         A map, or labels: integers and truth values are labels. A list has one for each of several surfaces, or of one
-        surface a panel for each; so has a dict, with their names.
+        surface a panel for each; so has a dict, with their names. A map of several columns, as a time series, has a
+        slider; (n, 3) numbers in 0..1 are colours. Without one a scan has its own colours.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
         Where panels look from at first: one for each. By default one, lateral for a hemisphere.
     colormap : str, optional
@@ -146,6 +148,7 @@ def view(
     in_one = skeleton is not None or isinstance(values, Skeleton)
     owners = given if in_one else apart(given)
     hemispheres = all(owner.hemisphere in HEMISPHERES for owner in owners)
+    columns = [] if several else columns_of(values)
     rows = shown_surfaces(
         given if several else given[0],
         values,
@@ -157,8 +160,14 @@ def view(
         skeleton=skeleton,
         label=label,
         unit=unit,
+        most_columns=max(len(columns), 1),
     )
-    return TurningView(_scene(rows, owners), tuple(map(tuple, rows)), title)
+    scene = _scene(rows[:1] if columns else rows, owners)
+    if columns:
+        looks = len(rows[0]) // len(owners)
+        for k, drawn in enumerate(scene.surfaces):
+            drawn.fields[0] = _series(drawn, [row[k * looks] for row in rows])
+    return TurningView(scene, tuple(tuple(rows[k]) for k in spread_over(len(rows), MOST_COLUMNS)), title)
 
 
 def check_view_target(target: Path) -> None:
@@ -197,6 +206,16 @@ def _scene(rows: list[list[SurfaceView]], owners: Sequence[Any]) -> Scene:
     return Scene(surfaces, panels, eyes[0], eyes, titles)
 
 
+def _series(drawn: Drawn, shown: list[SurfaceView]) -> Field:
+    """Return the columns of a map as steps of one field, with its slider, in colours that they share."""
+    first = drawn.fields[0]
+    steps = [
+        replace(_fields(one, first.scale, drawn.mesh)[0].steps[0], name=one.title.partition(":")[0]) for one in shown
+    ]
+    scale = fitted_scales(shown).get(shown[0].scale, first.scale)
+    return Field(first.name, tuple(steps), scale)
+
+
 def _fields(shown: SurfaceView, scale: Any, mesh: TriangleMesh) -> list[Field]:
     """Return the map or the labels with their lines; of several channels each."""
     lines = tuple(one.lines(mesh) if isinstance(one, Contours) else one for one in shown.contours)
@@ -205,4 +224,7 @@ def _fields(shown: SurfaceView, scale: Any, mesh: TriangleMesh) -> list[Field]:
         return [Field("labels", (Step(shown.labels.values, "", drawn),), labels=shown.labels)]
     if shown.values is None or shown.is_scalar:
         return [Field(scale.label or "map", (Step(shown.values, "", drawn),), scale)]
+    if is_color(shown.values):
+        colors = flat_colors(shown.values)
+        return [Field("colours", (Step(colors.values, "", drawn),), labels=colors, legend=False)]
     return [Field(f"channel {k}", (Step(one, "", drawn),), scale) for k, one in enumerate(shown.values.T, 1)]

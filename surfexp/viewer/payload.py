@@ -79,7 +79,8 @@ class Payload:
         ]
         if one.labels is not None:
             table, names = self._table(one.labels.colors), list(one.labels.names)
-            return {"name": one.name, "labels": names, "table": table, "shading": VALUE_SHADING, "steps": steps}
+            found = {"name": one.name, "labels": names, "table": table, "shading": VALUE_SHADING, "steps": steps}
+            return found if one.legend else {**found, "legend": False}
         numbers = [step.values for step in one.steps if step.values is not None]
         if not numbers:
             return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": steps}

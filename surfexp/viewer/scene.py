@@ -44,12 +44,15 @@ class Field:
     scale : ColorScale
     labels : Labelling, optional
         The values are then indices into it.
+    legend : bool
+        Whether names and colours of labels stand below.
     """
 
     name: str
     steps: tuple[Step, ...] = ()
     scale: ColorScale = field(default_factory=ColorScale)
     labels: Labelling | None = None
+    legend: bool = True
 
 
 @dataclass(frozen=True, eq=False)

@@ -138,3 +138,42 @@ def test_a_browser_turns_labels_and_a_skeleton_and_asks_no_host(tmp_path: Path) 
         assert [text for text in tab.complaints if "GL Driver" not in text] == []
         asked = [e["params"]["request"]["url"] for e in tab.events if e.get("method") == "Network.requestWillBeSent"]
         assert all(url.startswith(("file:", "data:", "blob:")) for url in asked)
+
+
+def test_columns_of_a_map_are_a_slider_and_six_of_them_a_picture() -> None:
+    series = np.outer(Z, np.arange(1.0, 25.0)) + 1000.0
+    seen = sx.view(BALL, series, label="signal")
+    (drawn,), panels = seen.scene.surfaces, seen.scene.panels
+    (field,) = drawn.fields
+    assert panels == [(0, 0)] and len(field.steps) == 24
+    assert field.steps[7].values is not None and (field.steps[7].values == series[:, 7]).all()
+    assert field.steps[23].name == "column 24 of 24"
+    picture = sx.plot(BALL, series, width=400)
+    names = [one.title for row in picture.views for one in row]
+    assert names == [f"column {k} of 24" for k in (1, 6, 10, 15, 19, 24)]
+    # one bar for all, from the least to the greatest
+    assert len({one.scale for row in picture.views for one in row}) == 1 and len(picture.views) == 2
+
+
+def test_three_columns_are_colours_only_where_they_can_be() -> None:
+    red = np.tile([0.9, 0.1, 0.1], (len(Z), 1))
+    ((one,),) = sx.plot(BALL, red, width=300).views
+    assert one.values is not None and one.values.shape == (len(Z), 3)
+    assert [len(row) for row in sx.plot(BALL, 40.0 * red, width=300).views] == [1, 1, 1]
+
+
+def test_a_scan_is_shown_in_its_own_colours(tmp_path: Path) -> None:
+    colors = np.tile(np.array([200.0, 40.0, 20.0]), (len(Z), 1))
+    maps = dict(zip(("red", "green", "blue"), colors.T, strict=True))
+    scan = sx.Surface(BALL.mesh, scalars=maps)
+    ((own,),) = sx.plot(scan, width=300).views
+    assert own.values is not None and np.allclose(own.values, colors / 255.0)
+    pixels = sx.plot(scan, width=300).figure.pixels.astype(float)
+    covered = (pixels < 250).any(axis=2)
+    assert (pixels[covered][:, 0] > 2 * pixels[covered][:, 1]).mean() > 0.9
+    (field,) = sx.view(scan).scene.surfaces[0].fields
+    assert (
+        field.labels is not None and not field.legend and np.allclose(field.labels.colors, colors[0] / 255.0, atol=0.02)
+    )
+    # one of its maps, where it is asked for
+    assert sx.plot(scan, "red", width=300).views[0][0].is_scalar

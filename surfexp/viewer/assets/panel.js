@@ -79,7 +79,7 @@ class Panel {
 
   legend(field, pixels) {
     this.colours.hidden = !field.limits;
-    this.names.replaceChildren(...(field.labels ?? []).map((name, k) => {
+    this.names.replaceChildren(...(field.legend === false ? [] : field.labels ?? []).map((name, k) => {
       const swatch = element("i"), color = [...pixels.subarray(4 * k, 4 * k + 3)];
       swatch.style.background = `rgb(${color})`;
       return element("li", {}, swatch, name);
