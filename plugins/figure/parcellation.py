@@ -32,7 +32,8 @@ def parcellation_figure(
     width: Annotated[int, Field(ge=200, le=8000, description="pixels across")],
 ) -> Figure:
     """The image in colour with the boundary of the segmented regions in red, from several sides (figure 2.8)."""
-    scale = ColorScale(label=image.name, unit=image.unit, colormap=colormap)
+    ends = any("clipped" in note for note in image.notes)
+    scale = ColorScale(label=image.name, unit=image.unit, colormap=colormap, clipped=ends)
     field, level = solver.boundary
     contours = (Contours(field, levels=(level,), width=line_width),)
     panels = [SurfaceView(surface.mesh, image.values, view, scale, contours, view) for view in views]

@@ -60,7 +60,8 @@ def draw_bars(figure: Any, layout: Layout, grid: Grid, scales: Scales) -> None:
         distance = points(DISTANCE * layout.em)
         bar.ax.tick_params(labelsize=points(TICK_FONT * layout.em), length=distance, pad=distance)
         beyond = 100.0 * (below + above)
-        words = [fitted.title, f"{beyond:.2g} % of the values lie beyond" if beyond else ""]
+        how = "were clipped" if fitted.clipped else "lie beyond"
+        words = [fitted.title, f"{beyond:.2g} % of the values {how}" if beyond else ""]
         bar.set_label("\n".join(filter(None, words)), size=points(TICK_FONT * layout.em), labelpad=distance)
 
 

@@ -32,6 +32,8 @@ class ColorScale:
         Values at the two ends. None: found from the values by `fitted`.
     percentiles : (float, float)
         The robust limits that `fitted` takes; (0, 100) is the whole range.
+    clipped : bool
+        Whether the values were clipped before: those at a limit count as beyond it.
 
     Raises
     ------
@@ -44,6 +46,7 @@ class ColorScale:
     colormap: str = "viridis"
     limits: tuple[float, float] | None = None
     percentiles: tuple[float, float] = (1.0, 99.0)
+    clipped: bool = False
 
     def __post_init__(self) -> None:
         import matplotlib
@@ -151,7 +154,11 @@ class ColorScale:
         """
         low, high = self._known_limits()
         finite = values[np.isfinite(values)]
-        return (float((finite < low).mean()), float((finite > high).mean())) if finite.size else (0.0, 0.0)
+        if not finite.size:
+            return 0.0, 0.0
+        if self.clipped:
+            return float((finite <= low).mean()), float((finite >= high).mean())
+        return float((finite < low).mean()), float((finite > high).mean())
 
     def _known_limits(self) -> tuple[float, float]:
         if self.limits is None:

@@ -22,7 +22,7 @@ SECONDS = "seconds"
 DATA = ("surface", "image")
 # rows with a best value that an excerpt has beyond the first ones
 BEST_BEYOND = 50
-# what depends on the model and on where a solver stops: a best among rows of different models means nothing
+# what depends on the model, on its operator and on where a solver stops: a best among rows of different ones means nothing
 OF_ONE_PROBLEM = ("gap", "relative_gap", "lower_bound", "error_bound", "iterations", "evaluations", "updates")
 # where a certified row stopped below its tolerance, or what chance would give: a smaller one is no better
 NO_MERIT = ("gap", "lower_bound", "error_bound", "p_value")
@@ -152,7 +152,7 @@ class Comparison:
 
     @cached_property
     def _several_problems(self) -> bool:
-        return any(name.startswith("model.") or name.endswith(".tolerance") for name in self.varying)
+        return any(name.startswith(("model.", "operator.")) or name.endswith(".tolerance") for name in self.varying)
 
     @cached_property
     def some_converged(self) -> bool:

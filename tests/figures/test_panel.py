@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from itertools import pairwise
 
 import matplotlib
@@ -118,6 +119,22 @@ def test_clipping_and_missing_values_are_said() -> None:
     )
     assert figure.notes[0] == "5 vertices of 'noisy' have no value; their faces are drawn grey."
     assert surface_panel([SurfaceView(SPHERE)], width=300).notes == ()
+
+
+def test_a_bar_says_that_values_were_clipped_before() -> None:
+    values = np.clip(Z, -0.4, 0.4)
+    clipped = ColorScale("curvature", colormap="RdBu_r", clipped=True)
+    share = 100.0 * np.mean(np.abs(Z) >= 0.4)
+    for scale, said in ((clipped, f"{share:.2g} % of the values were clipped"), (replace(clipped, clipped=False), "")):
+        views = [SurfaceView(SPHERE, values, scale=scale)]
+        layout = arrange([views], 800, False, round(BAR_BAND * text_size(800)), 0.0)
+        with canvas(800, layout.height) as figure:
+            draw_bars(figure, layout, [views], fitted_scales(views))
+            (bar,) = figure.axes
+            assert bar.get_xlabel() == "\n".join(filter(None, ["curvature", said]))
+            assert bar.get_xlim() == (-0.4, 0.4)
+            # an end that is pointed is a patch beyond the limits
+            assert len(bar.patches) == (2 if said else 0)
 
 
 def test_bytes_do_not_depend_on_the_users_settings() -> None:

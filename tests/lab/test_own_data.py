@@ -57,6 +57,29 @@ def test_other_data_leave_titles_and_captions_out_too(override: str) -> None:
     assert words["surface"] == "cup"  # stages are the business of overrides
 
 
+def test_tables_on_own_data_are_called_by_their_task() -> None:
+    experiment = {
+        "experiment": "cup",
+        "target": "classifier",
+        "classifier": "nearest_neighbour",
+        "variants": [
+            {"comparison": "Animals"},
+            {"comparison": "What figure 4.8 shows", "target": "statistic", "statistic": {"name": "class_readings"}},
+            {"comparison": "More animals"},
+            {"comparison": "A cup", "target": "solver", "model": {"name": "rof", "weight": 1.0}},
+            {"comparison": "Animals"},
+        ],
+    }
+    words = without_foreign_words(experiment, ["datasets=mine"])
+    assert [variant["comparison"] for variant in words["variants"]] == [
+        "Classifier: nearest neighbour",
+        "Statistic: class readings",
+        "Classifier: nearest neighbour, 2",
+        "Model: rof",
+        "Classifier: nearest neighbour",
+    ]
+
+
 @pytest.mark.parametrize(
     ("overrides", "title"),
     [

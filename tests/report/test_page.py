@@ -76,6 +76,18 @@ def test_the_best_of_a_column_is_among_converged_rows_on_the_same_data(seed: int
     assert number_notes(group.rows) == {"note 0": 1, "note 1": 2}
 
 
+@pytest.mark.parametrize(("differs", "best"), [("solver.seed", 2), ("operator.name", 0), ("model.weight", 0)])
+def test_iterations_of_another_operator_or_model_have_no_best(differs: str, best: int) -> None:
+    leaf = Leaf("key", "configuration", {"target": "solver"})
+    data, meaning = frozenset({"one"}), {"iterations": Metric("", "", "lower"), "rmse": Metric("", "", "lower")}
+    rows = [
+        Row(leaf, {differs: k}, {"iterations": 41.0 + k, "rmse": 15.0 + k, "converged": 1.0}, 1.0, [], "", data)
+        for k in range(2)
+    ]
+    group = Comparison("", "", rows, [], meaning)
+    assert group.is_best(rows[0], "rmse") and len(group.best) == 1 + (best > 0)
+
+
 def test_without_a_declared_direction_there_is_no_best() -> None:
     assert not Comparison("", "", rows_by_chance(9, 0), []).best
 

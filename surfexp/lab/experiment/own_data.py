@@ -36,10 +36,10 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
     if not heads & DATA and not any(".inputs" in key for key in keys):
         return kept | {"description": f"{configuration.get('description', '')} {CLAIMS_LEFT_OUT}".strip()}
     headings: dict[str, str] = {}
-    variants = [_wordless(variant, headings) for variant in configuration.get("variants") or []]
+    variants = [_wordless(variant, headings, kept) for variant in configuration.get("variants") or []]
     title = f"{configuration.get('experiment', 'experiment')}: {_data_named(overrides) or 'other data'}"
     words = {"title": title, "description": WORDS_LEFT_OUT}
-    return _wordless(kept, headings) | words | {"variants": variants}
+    return _wordless(kept, headings, kept) | words | {"variants": variants}
 
 
 def _data_named(overrides: Sequence[str]) -> str:
@@ -131,16 +131,27 @@ def _sets_surface(item: Any) -> bool:
     return any(str(option).partition(".")[0] == "surface" for option in options)
 
 
-def _wordless(part: Any, headings: dict[str, str]) -> Any:
-    """A part of a configuration without captions, its figures without theirs, its heading replaced by a number."""
+def _wordless(part: Any, headings: dict[str, str], whole: Mapping[str, Any]) -> Any:
+    """A part of a configuration without captions, its figures without theirs, its heading replaced by the task."""
     if not isinstance(part, Mapping):
         return part
     wordless = {key: value for key, value in part.items() if key != "caption"}
     if part.get("comparison"):
-        wordless["comparison"] = headings.setdefault(part["comparison"], f"Table {len(headings) + 1}")
+        task = _task(part, whole) or f"Table {len(headings) + 1}"
+        twins = sum(known == task or known.startswith(f"{task}, ") for known in headings.values())
+        wordless["comparison"] = headings.setdefault(part["comparison"], f"{task}, {twins + 1}" if twins else task)
     if part.get("figures"):
         wordless["figures"] = [_figure(figure) for figure in part["figures"]]
     return wordless
+
+
+def _task(part: Mapping[str, Any], whole: Mapping[str, Any]) -> str:
+    """What a table is about: the method at the end of its stages, or the model that solvers minimise; empty where open."""
+    target = str(part.get("target") or whole.get("target") or "solver")
+    kind = "model" if target == "solver" else target
+    stage = part.get(kind) or whole.get(kind)
+    name = stage.get("name") if isinstance(stage, Mapping) else stage
+    return f"{kind.capitalize()}: {name}".replace("_", " ") if isinstance(name, str) else ""
 
 
 def _figure(figure: Any) -> Any:
