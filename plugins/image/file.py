@@ -7,6 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from surfexp.io.map_files import read_scalars
+from surfexp.io.quantity_of_file import quantity_named
 from surfexp.lab.registry.registry import register
 from surfexp.mesh.surface import Surface
 from surfexp.variational.image import Image
@@ -34,5 +35,5 @@ def file_image(
         raise ValueError(
             f"image {path} is NaN at {unknown} of {len(values)} vertices: cut them away by surface.finite={path}"
         )
-    image = Image(values, path.stem, unit)
+    image = Image(values, quantity_named(path.name), unit)
     return add_noise(image, noise, seed) if noise else image  # a map as it came is not clean

@@ -59,7 +59,7 @@ def picture_options(command: Command) -> Command:
         click.option("--limits", nargs=2, type=float, metavar="LOW HIGH", help="ends of the colour bar"),
         click.option("--contours", multiple=True, type=float, metavar="LEVEL", help="draw a line; repeatable"),
         click.option("--borders", metavar="FILE", help="draw the borders of labels: .annot, .label.gii, .dlabel.nii"),
-        click.option("--label", help="of the colour bar; by default the name of the map"),
+        click.option("--label", help="of the colour bar; by default the file's name without hemisphere and format"),
     ]
 
     @wraps(command)
@@ -67,7 +67,9 @@ def picture_options(command: Command) -> Command:
         looks = {name: given.pop(name) or None for name in ("views", "colormap", "limits", "contours", "borders")}
         if looks["views"]:
             looks["views"] = [name.strip() for name in looks["views"].split(",")]
-        looks["label"] = given.pop("label") or _shown_name(map_name or "")
+        from surfexp.io.quantity_of_file import quantity_named
+
+        looks["label"] = given.pop("label") or quantity_named(_shown_name(map_name or ""))
         return command(map_name=map_name, looks=looks, **given)
 
     decorated: Command = gathered

@@ -89,9 +89,9 @@ def _tested(result: PermutationTest) -> list[MapRow]:
 
 def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
     """The map before, where the surface carries it, after, and what was taken away; the first two in the same colours."""
-    before = surface.scalars.get(result.name)
+    before, method = surface.scalars.get(result.name), str(result.certificate.get("chosen", result.method))
     if before is None or before.shape != result.values.shape or before.ndim > 1:
-        return [MapRow(f"{result.name}, {result.method}", [result.values])]
+        return [MapRow(f"{result.name}, {method.replace('_', ' ')}", [result.values])]
     known = np.isfinite(result.values) & np.isfinite(before)
     ends = np.percentile(before[known], PERCENTILES) if known.any() else (0.0, 1.0)
     limits = (float(ends[0]), float(ends[1])) if ends[0] < ends[1] else None
@@ -100,8 +100,8 @@ def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
     apart = (-most, most) if most > 0.0 else None
     return [
         MapRow(f"{result.name} before", [np.where(known, before, np.nan)], limits, bar=result.name),
-        MapRow(f"after {result.method}", [result.values], limits, bar=result.name),
-        MapRow("removed", [removed], apart, DIVERGING),
+        MapRow(f"after {method.replace('_', ' ')}", [result.values], limits, bar=result.name),
+        MapRow("removed", [removed], apart, DIVERGING, quantity=result.name),
     ]
 
 

@@ -19,6 +19,8 @@ class MapRow:
         One for each surface: what `plot` takes.
     limits, colormap, levels, skeleton, bar
         Colours, level lines, a skeleton and the text of the colour bar, taken where `plot` is not told otherwise.
+    quantity : str
+        Name of the map whose unit it has, where its own name does not tell.
     """
 
     name: str
@@ -28,3 +30,4 @@ class MapRow:
     levels: tuple[float, ...] = ()
     skeleton: Skeleton | None = None
     bar: str = ""
+    quantity: str = ""

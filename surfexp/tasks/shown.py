@@ -98,8 +98,9 @@ def shown_surfaces(
             called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
             base = _coloured(owner, one)
             if base.is_scalar:
+                known = unit or (_unit(owner, made.quantity) if made.quantity else "")
                 base = replace(
-                    base, scale=_scale(base, owner, called, unit, colormap or made.colormap, limits or made.limits)
+                    base, scale=_scale(base, owner, called, known, colormap or made.colormap, limits or made.limits)
                 )
             drawn = _lines(owner, base, levels or made.levels, border, skeleton or made.skeleton)
             row += [
@@ -134,11 +135,11 @@ def _map_apart(owner: Surface, given: Any) -> list[Any]:
     rows = [vertices_of(owner, side) for side in HEMISPHERES]
     table = getattr(given, "label_map", given)
     if isinstance(table, LabelMap):
-        keys = _fitting(table.keys, owner)
+        keys = as_labels(owner, table.keys)
         return [replace(table, keys=keys[own]) for own in rows]
     array = np.asarray(getattr(given, "values", given))
     if array.dtype.kind in "biu" and array.ndim == 1:
-        _fitting(array, owner)
+        array = as_labels(owner, array)
         return [array[own] for own in rows]
     return [as_map(owner, getattr(given, "values", given))[own] for own in rows]
 
@@ -205,10 +206,17 @@ def _scale(
     base: SurfaceView, owner: Surface, name: str, unit: str, colormap: str | None, limits: tuple[float, float] | None
 ) -> ColorScale:
     """Return the colours of a map; FreeSurfer's are named with their sign, in the unit of the surface."""
-    called, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
-    length = owner.unit
-    known = POWERS[power].format(length) if power is not None and length else ""
-    return ColorScale(called or name, unit or known, colormap or _colormap_for(base.values), limits)
+    called, _ = FREESURFER.get(name.rpartition(".")[2], ("", None))
+    return ColorScale(called or name, unit or _unit(owner, name), colormap or _colormap_for(base.values), limits)
+
+
+def _unit(owner: Surface, name: str) -> str:
+    """The unit of a map of FreeSurfer's, where that of the surface is known."""
+    _, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
+    # FreeSurfer and GIFTI prescribe mm where a file names a scanner's space or a structure of the brain
+    in_a_brain = owner.frame.volume or owner.frame.metadata.get("AnatomicalStructurePrimary")
+    length = owner.unit or ("mm" if in_a_brain else "")
+    return POWERS[power].format(length) if power is not None and length else ""
 
 
 def _lines(

@@ -14,6 +14,7 @@ import surfexp as sx
 from surfexp.commands.all_commands import SECTIONS
 from surfexp.commands.command_line import main
 from surfexp.io.map_files import read_maps
+from surfexp.io.quantity_of_file import quantity_named
 
 
 @pytest.fixture
@@ -262,3 +263,19 @@ def test_the_ways_out_of_a_defective_mesh_exist(working_folder: Path, capsys: py
     sx.write("two.ply", (np.r_[two.vertices, two.vertices + 3.0], np.r_[two.faces, two.faces + len(two.vertices)]))
     assert main(["distance", "two.ply", "good.ply", "-n", "3"]) == 2
     assert "take the largest: a mask of it, or surfexp repair FILE --largest-component" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("file", "quantity"),
+    [
+        ("surf/lh.thickness", "thickness"),
+        ("rh.curv", "curv"),
+        ("clean.shape.gii", "clean"),
+        ("lh.bold.func.gii.gz", "bold"),
+        ("a/sulc.mgh", "sulc"),
+        ("sulc", "sulc"),
+        ("", ""),
+    ],
+)
+def test_a_bar_is_named_by_what_the_file_is_about(file: str, quantity: str) -> None:
+    assert quantity_named(file) == quantity

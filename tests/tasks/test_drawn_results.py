@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.shown import shown_surfaces
 
@@ -87,3 +88,26 @@ def test_every_result_has_a_plot_and_a_view(make: Any) -> None:
 def test_a_result_on_two_surfaces_is_refused() -> None:
     with pytest.raises(ValueError, match="belongs to 1 surface, 2 are given"):
         rows_of_maps(sx.eigenpairs(BODY, 3), [BODY, OTHER])
+
+
+def test_what_was_removed_has_the_unit_of_its_map_and_the_filter_its_name() -> None:
+    ball = sx.shape("icosphere", levels=4)
+    noisy = 2.5 + 0.3 * np.random.default_rng(0).standard_normal(len(ball.vertices))
+    brain = sx.Surface(ball.mesh, unit="mm", scalars={"lh.thickness": noisy})
+    clean = sx.denoise(brain, "lh.thickness")
+    before, after, removed = (row[0] for row in sx.plot(brain, clean, width=300).views)
+    assert before.scale.title == after.scale.title == "lh.thickness (mm)" and removed.scale.title == "removed (mm)"
+    assert "auto" not in after.title and clean.certificate["chosen"].replace("_", " ") in after.title
+
+
+def test_a_file_that_places_its_surface_in_a_scanner_is_in_millimetres() -> None:
+    ball = sx.shape("icosphere", levels=2)
+    thick = {"thickness": np.linspace(1.0, 4.0, len(ball.vertices))}
+    known = SpatialFrame(metadata={"AnatomicalStructurePrimary": "CortexLeft"})
+    for frame, title in (
+        (known, "thickness (mm)"),
+        (SpatialFrame(volume={"cras": (0, 0, 0)}), "thickness (mm)"),
+        (SpatialFrame(), "thickness"),
+    ):
+        surface = sx.Surface(ball.mesh, scalars=thick, frame=frame)
+        assert sx.plot(surface, "thickness", width=300).views[0][0].scale.title == title
