@@ -4,6 +4,10 @@ import surfexp as sx
 
 sphere = sx.shape("icosphere", levels=4)
 modes = sx.eigenpairs(sphere, 300)
+
+# %%
+# A residual proves that a pair is one, not that it is among the lowest. The inertia of a factorisation counts how many
+# eigenvalues lie below a number: as many were found.
 for shift, count in modes.inertia:
     print(f"{count} eigenvalues below {shift:.2f}, all found: {modes.complete}")
 print(f"worst residual {modes.residuals.max():.0e}, orthogonal to {modes.orthogonality:.0e}")

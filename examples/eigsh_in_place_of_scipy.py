@@ -5,9 +5,14 @@ import numpy as np
 
 import surfexp as sx
 
+# %%
+# Any stiffness and mass matrix will do; these are libigl's.
 mesh = sx.shape("icosphere", levels=4).mesh
 vertices, faces = np.array(mesh.vertices), np.array(mesh.faces)
 stiffness, mass = -igl.cotmatrix(vertices, faces), igl.massmatrix(vertices, faces)
+
+# %%
+# Only the name of the function differs from scipy's. It fails rather than to leave an eigenvalue out.
 values, vectors = sx.eigsh(stiffness, 9, mass, sigma=-0.01)
 exact = np.array([0, 2, 2, 2, 6, 6, 6, 6, 6])
 print(f"{len(values)} eigenvalues, largest error {np.abs(values - exact).max():.3f} of {exact.max()}")

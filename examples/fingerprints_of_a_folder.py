@@ -6,10 +6,15 @@ import pandas
 
 import surfexp as sx
 
+# %%
+# A folder of meshes, as a segmentation may leave it.
 folder = Path("bodies")
 folder.mkdir(exist_ok=True)
 for name, axes in (("ball", (1.0, 1.0, 1.0)), ("cigar", (2.0, 1.0, 1.0)), ("pancake", (1.5, 1.5, 0.5))):
     sx.write(folder / f"{name}.ply", sx.shape("ellipsoid", levels=3, semiaxes=axes))
+
+# %%
+# The table has a column for each file, in the layout of BrainPrint, and says whether each spectrum is proved complete.
 found = sx.fingerprint(folder, count=6)
 table = pandas.DataFrame(found.rows(), index=list(found.columns))
 print(table[["area", "volume", "ev1", "ev5", "complete"]].round(2))

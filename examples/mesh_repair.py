@@ -4,11 +4,15 @@ import numpy as np
 
 import surfexp as sx
 
+# %%
+# A sphere on which ten faces are turned over, and a fin is glued to an edge.
 sphere = sx.shape("icosphere", levels=3).mesh
 faces = np.vstack([sphere.faces, [*sphere.faces[0][:2], len(sphere.vertices)]])
 faces[:10] = faces[:10, ::-1]
 np.savez("fin.npz", vertices=np.vstack([sphere.vertices, [[2.0, 2.0, 2.0]]]), faces=faces)
 
+# %%
+# Reading refuses it and names each defect; with `repair=True` it is repaired, and each change is named.
 try:
     sx.read("fin.npz")
 except ValueError as refused:

@@ -4,8 +4,13 @@ import numpy as np
 
 import surfexp as sx
 
+# %%
+# A mask makes a surface of a part: nothing is cut by hand, and results stand on the vertices of the whole.
 plate = sx.shape("rectangle", n_x=61, n_y=41, width=1.5, height=1.0)
 half = sx.Surface(plate.mesh, mask=plate.mesh.vertices[:, 0] < 0.75 + 1e-9)
+
+# %%
+# The boundary of the part is free, or held.
 free = sx.eigenpairs(half, 4)
 held = sx.eigenpairs(half, 4, boundary="dirichlet")
 print(f"free: {free.values[1]:.3f}, exactly {np.pi**2:.3f}; all found: {free.complete}")

@@ -2,6 +2,8 @@
 
 import surfexp as sx
 
+# %%
+# All eigenpairs between two numbers, without those below. Counts by inertia at both ends prove that none is missing.
 spectrum = sx.Spectrum(sx.shape("torus", n_u=90, n_v=36))
 window = spectrum.between(20.0, 30.0)
 counted = spectrum.count_below(30.0) - spectrum.count_below(20.0)

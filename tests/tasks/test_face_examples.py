@@ -29,7 +29,10 @@ def numbers(lines: list[str]) -> list[float]:
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.py")), ids=lambda path: path.stem)
 def test_every_example_asks_a_question_of_the_face_alone(path: Path) -> None:
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    text = path.read_text(encoding="utf-8")
+    tree = ast.parse(text)
+    # prose between cells, as the gallery shows it
+    assert re.search(r"(?m)^# %%\n# [A-Z`]", text)
     question = ast.get_docstring(tree) or ""
     assert "?" in question and "\n" not in question and f"| [{path.name}]({path.name}) | {question} |" in TABLE
     modules = [alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names]
