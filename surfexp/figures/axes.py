@@ -42,12 +42,9 @@ def add_axes(figure: Any, title: str, x_label: str, y_label: str) -> Any:
     width, height = figure.bbox.width, figure.bbox.height
     em = FONT * width
     left = (5.5 if y_label else 1.0) * em
-    rectangle = (
-        left / width,
-        3.8 * em / height,
-        1.0 - (left + em) / width,
-        1.0 - (6.4 if title else 4.8) * em / height,
-    )
+    bottom = (3.8 + SPACING * x_label.count("\n")) * em
+    top = (2.6 if title else 1.0) * em
+    rectangle = (left / width, bottom / height, 1.0 - (left + em) / width, 1.0 - (bottom + top) / height)
     axes = figure.add_axes(rectangle)
     axes.set_xlabel(x_label, fontsize=points(em), labelpad=points(0.3 * em))
     axes.set_ylabel(y_label, fontsize=points(em), labelpad=points(0.3 * em))

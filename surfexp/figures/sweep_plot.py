@@ -10,7 +10,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.figures.axes import Label, add_axes, label_lines, logarithmic, style
 from surfexp.figures.figure import Figure
-from surfexp.figures.typography import QUIET, canvas, drawn, vector
+from surfexp.figures.typography import canvas, drawn, vector
 
 # up to so many values of the option are written under the axis, and each marked on the lines
 MOST_TICKS, MOST_MARKERS = 9, 60
@@ -43,7 +43,7 @@ def sweep_plot(
     log : "", "x", "y" or "xy"
         Which axes are logarithmic.
     band : str
-        What bands are, written in the corner of the axes where there is one.
+        What bands are, written below the axes where there is one.
 
     Raises
     ------
@@ -56,7 +56,8 @@ def sweep_plot(
     if not any(np.isfinite(values).any() for values in series.values()):
         raise ValueError(f"sweep plot has {len(series)} lines and no finite value, at least 1 is needed")
     with canvas(*size) as figure:
-        axes = add_axes(figure, title, x_label, y_label)
+        bounded_ones = band and any(np.ndim(values) == 2 for values in series.values())
+        axes = add_axes(figure, title, f"{x_label}\nbands: {band}" if bounded_ones else x_label, y_label)
         labels: list[Label] = []
         for k, (name, values) in enumerate(series.items()):
             bounded = np.asarray(values, dtype=float).reshape(len(x), -1)
@@ -70,10 +71,6 @@ def sweep_plot(
         if len(x) <= MOST_TICKS:
             axes.set_xticks(x, [f"{value:g}" for value in x])
         label_lines(axes, labels)
-        if band and any(np.ndim(values) == 2 for values in series.values()):
-            size_of_words = 0.9 * axes.xaxis.label.get_size()
-            corner = {"transform": axes.transAxes, "ha": "right", "va": "bottom"}
-            axes.text(1.0, 1.0, f"bands: {band}", fontsize=size_of_words, color=QUIET, **corner)
         pixels, svg = drawn(figure), vector(figure)
     return Figure(pixels, caption, title, svg=svg)
 

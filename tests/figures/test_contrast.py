@@ -69,6 +69,8 @@ def test_a_figure_says_what_its_bands_are() -> None:
     plain = sweep_plot(x, {"a": bounded}, **words)
     told = sweep_plot(x, {"a": bounded}, band="95 % interval", **words)
     assert (plain.pixels != told.pixels).any()
+    # nothing is cut off
+    assert (told.pixels[-2:] == 255).all()
     assert (
         sweep_plot(x, {"a": x}, band="95 % interval", **words).pixels == sweep_plot(x, {"a": x}, **words).pixels
     ).all()
