@@ -43,7 +43,7 @@ def read(
     mask : path or (n,) array, optional
         A FreeSurfer .label, named labels (all but unknown and medial wall, or `FILE:NAME,NAME`), or a map that is 0 outside.
     unit : str
-        Unit of length.
+        Unit of length; mm if not given and the file names a scanner's space (FreeSurfer) or a structure of the brain (GIFTI).
     hemisphere : {"", "left", "right"}
         Taken from the files where they say so; files of both hemispheres are refused. What is given here overrides them.
     repair : bool

@@ -213,10 +213,7 @@ def _scale(
 def _unit(owner: Surface, name: str) -> str:
     """The unit of a map of FreeSurfer's, where that of the surface is known."""
     _, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
-    # FreeSurfer and GIFTI prescribe mm where a file names a scanner's space or a structure of the brain
-    in_a_brain = owner.frame.volume or owner.frame.metadata.get("AnatomicalStructurePrimary")
-    length = owner.unit or ("mm" if in_a_brain else "")
-    return POWERS[power].format(length) if power is not None and length else ""
+    return POWERS[power].format(owner.unit) if power is not None and owner.unit else ""
 
 
 def _lines(

@@ -13,6 +13,7 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import read_mesh_file
 from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
+from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.repaired_surface import repaired
@@ -58,7 +59,7 @@ def read_surface(
     surface = Surface(
         TriangleMesh(vertices, faces),
         Path(path).stem,
-        unit,
+        unit or _unit_of(file_read.frame),
         scalars,
         mask=inside,
         hemisphere=side,
@@ -110,3 +111,8 @@ def _named(name: str, maps: dict[str, Floats], count: int, file: PathLike) -> di
             raise ValueError(f"map {file} has {len(values)} values, the surface has {count} vertices")
     named = {name: next(iter(maps.values()))} if len(maps) == 1 else {f"{name} {key}": v for key, v in maps.items()}
     return scalar_channels(named)
+
+
+def _unit_of(frame: SpatialFrame) -> str:
+    """The unit that FreeSurfer and GIFTI prescribe where a file names a scanner's space or a structure of the brain."""
+    return "mm" if frame.volume or frame.metadata.get("AnatomicalStructurePrimary") else ""

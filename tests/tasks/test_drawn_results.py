@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
+import nibabel
 import numpy as np
 import pytest
 
 import surfexp as sx
-from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.shown import shown_surfaces
 
@@ -100,14 +102,16 @@ def test_what_was_removed_has_the_unit_of_its_map_and_the_filter_its_name() -> N
     assert "auto" not in after.title and clean.certificate["chosen"].replace("_", " ") in after.title
 
 
-def test_a_file_that_places_its_surface_in_a_scanner_is_in_millimetres() -> None:
+def test_a_file_that_places_its_surface_in_a_brain_or_a_scanner_is_in_millimetres(tmp_path: Path) -> None:
     ball = sx.shape("icosphere", levels=2)
-    thick = {"thickness": np.linspace(1.0, 4.0, len(ball.vertices))}
-    known = SpatialFrame(metadata={"AnatomicalStructurePrimary": "CortexLeft"})
-    for frame, title in (
-        (known, "thickness (mm)"),
-        (SpatialFrame(volume={"cras": (0, 0, 0)}), "thickness (mm)"),
-        (SpatialFrame(), "thickness"),
-    ):
-        surface = sx.Surface(ball.mesh, scalars=thick, frame=frame)
-        assert sx.plot(surface, "thickness", width=300).views[0][0].scale.title == title
+    sx.write(tmp_path / "named.surf.gii", sx.Surface(ball.mesh, hemisphere="left"))
+    sx.write(tmp_path / "any.surf.gii", ball)
+    scanner = {"head": [2, 0, 20], "valid": "1  # volume info valid", "filename": "T1.mgz", "volume": [256] * 3}
+    scanner |= {"voxelsize": [1.0] * 3, "xras": [-1, 0, 0], "yras": [0, 0, -1], "zras": [0, 1, 0], "cras": [0, 0, 0]}
+    for name, volume in (("lh.white", scanner), ("lh.bare", None)):
+        nibabel.freesurfer.write_geometry(tmp_path / name, ball.vertices, ball.faces, volume_info=volume)
+    units = {name: sx.read(tmp_path / name).unit for name in ("named.surf.gii", "any.surf.gii", "lh.white", "lh.bare")}
+    assert units == {"named.surf.gii": "mm", "any.surf.gii": "", "lh.white": "mm", "lh.bare": ""}
+    assert sx.read(tmp_path / "lh.white", unit="cm").unit == "cm"
+    thick = replace(sx.read(tmp_path / "lh.white"), scalars={"thickness": np.linspace(1.0, 4.0, len(ball.vertices))})
+    assert sx.plot(thick, "thickness", width=300).views[0][0].scale.title == "thickness (mm)"
