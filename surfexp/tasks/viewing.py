@@ -167,6 +167,7 @@ def view(
         looks = len(rows[0]) // len(owners)
         for k, drawn in enumerate(scene.surfaces):
             drawn.fields[0] = _series(drawn, [row[k * looks] for row in rows])
+        scene.titles[:] = [title.partition(": ")[2] for title in scene.titles]
     return TurningView(scene, tuple(tuple(rows[k]) for k in spread_over(len(rows), MOST_COLUMNS)), title)
 
 
@@ -213,7 +214,7 @@ def _series(drawn: Drawn, shown: list[SurfaceView]) -> Field:
         replace(_fields(one, first.scale, drawn.mesh)[0].steps[0], name=one.title.partition(":")[0]) for one in shown
     ]
     scale = fitted_scales(shown).get(shown[0].scale, first.scale)
-    return Field(first.name, tuple(steps), scale)
+    return Field(first.name, tuple(steps), scale, start=0)
 
 
 def _fields(shown: SurfaceView, scale: Any, mesh: TriangleMesh) -> list[Field]:

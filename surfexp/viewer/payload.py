@@ -88,6 +88,7 @@ class Payload:
         scale = one.scale.fitted(values)
         return {
             "name": one.name,
+            "start": min(one.start, len(one.steps) - 1),
             "beyond": list(scale.share_beyond(values)),
             "label": scale.title,
             "unit": scale.unit,

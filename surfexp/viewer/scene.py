@@ -46,6 +46,8 @@ class Field:
         The values are then indices into it.
     legend : bool
         Whether names and colours of labels stand below.
+    start : int
+        The function that is shown at first, where there is one; of eigenfunctions the first is constant.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Field:
     scale: ColorScale = field(default_factory=ColorScale)
     labels: Labelling | None = None
     legend: bool = True
+    start: int = 1
 
 
 @dataclass(frozen=True, eq=False)

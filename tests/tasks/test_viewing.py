@@ -147,7 +147,9 @@ def test_columns_of_a_map_are_a_slider_and_six_of_them_a_picture() -> None:
     (field,) = drawn.fields
     assert panels == [(0, 0)] and len(field.steps) == 24
     assert field.steps[7].values is not None and (field.steps[7].values == series[:, 7]).all()
-    assert field.steps[23].name == "column 24 of 24"
+    assert field.steps[0].name == "column 1 of 24" and field.steps[23].name == "column 24 of 24"
+    # the slider says which column is shown, from the first one on
+    assert field.start == 0 and seen.scene.titles == [""]
     picture = sx.plot(BALL, series, width=400)
     names = [one.title for row in picture.views for one in row]
     assert names == [f"column {k} of 24" for k in (1, 6, 10, 15, 19, 24)]

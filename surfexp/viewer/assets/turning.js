@@ -88,7 +88,7 @@ class TurningFigure {
       this.place.append(...this.panels.map((panel) => panel.element));
       this.element.classList.add("turns");
       this.panels.forEach((panel) => this.listen(panel));
-      await Promise.all(this.panels.map((panel) => panel.show(Math.min(1, panel.field.steps.length - 1))));
+      await Promise.all(this.panels.map((panel) => panel.show(panel.field.start ?? 0)));
       this.watcher.observe(this.place);
       this.cost = this.measured();
       this.linked.add(this);
