@@ -15,6 +15,9 @@ from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.image import Image
 from surfexp.variational.solution import Solution
 
+# channels that are drawn as red, green and blue
+COLORS = 3
+
 
 @register("figure", "denoising")
 def denoising_figure(
@@ -31,7 +34,15 @@ def denoising_figure(
     colormap: Annotated[str, Field(description="matplotlib's name of the colour map of the image")] = "gray",
     width: Annotated[int, Field(ge=200, le=8000, description="pixels across")] = 1800,
 ) -> Figure:
-    """Clean, noisy and denoised image and the residual, from one side, on the scale of the data."""
+    """Clean, noisy and denoised image and the residual, from one side, on the scale of the data.
+
+    Of an image of many channels, as a time series, the first is drawn.
+    """
+    channels = image.values.shape[1] if image.values.ndim == 2 else 1
+    if channels not in (1, COLORS):
+        clean = None if image.clean is None else image.clean[:, 0]
+        image = replace(image, values=image.values[:, 0], clean=clean, name=f"{image.name}, channel 1 of {channels}")
+        solver = replace(solver, values=solver.values[:, 0])
     view = (azimuth, elevation)
     shown = ColorScale(label=image.name, unit=image.unit, colormap=colormap, percentiles=(0.0, 100.0))
     # one scale for all panels, that of the least noisy image; noise beyond it is black and white

@@ -46,6 +46,15 @@ def test_a_scale_shift_of_the_values_changes_the_colour_bar_and_no_colour() -> N
     assert (np.abs(first[:half].astype(int) - second[:half].astype(int)) > 1).mean() < 0.01
 
 
+def test_of_a_time_series_the_first_channel_is_drawn() -> None:
+    series = Image(MAP.values[:, None] + np.arange(24.0), "bold", "")
+    alone = Image(MAP.values, "bold", "")
+    drawn, first = figure("denoising", series), figure("denoising", alone)
+    half = first.pixels.shape[0] // 2
+    assert (drawn.pixels[:half] == first.pixels[:half]).all()
+    assert drawn.caption.startswith("Bold, channel 1 of 24 on")
+
+
 def test_an_experiment_may_name_the_figure_that_it_answers() -> None:
     assert figure("denoising", MAP, reference="figure 2.2").caption.endswith("Compare figure 2.2 of the dissertation.")
 
