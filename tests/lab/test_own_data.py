@@ -78,6 +78,10 @@ def test_tables_on_own_data_are_called_by_their_task() -> None:
         "Model: rof",
         "Classifier: nearest neighbour",
     ]
+    # a method that is asked for, or several, in place of the experiment's
+    for override, cup in (("model=chan_vese", "Model: chan vese"), ("model=rof,tgv", "Table 4")):
+        words = without_foreign_words(experiment, ["surface=file", override])
+        assert words["variants"][3]["comparison"] == cup and words["variants"][0] == words["variants"][4]
 
 
 @pytest.mark.parametrize(

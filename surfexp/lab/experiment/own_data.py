@@ -36,10 +36,12 @@ def without_foreign_words(configuration: Mapping[str, Any], overrides: Sequence[
     if not heads & DATA and not any(".inputs" in key for key in keys):
         return kept | {"description": f"{configuration.get('description', '')} {CLAIMS_LEFT_OUT}".strip()}
     headings: dict[str, str] = {}
-    variants = [_wordless(variant, headings, kept) for variant in configuration.get("variants") or []]
+    # a method that the command line names is that of all tables
+    asked = dict(text.lstrip("+~").partition("=")[::2] for text in overrides)
+    variants = [_wordless(variant, headings, kept, asked) for variant in configuration.get("variants") or []]
     title = f"{configuration.get('experiment', 'experiment')}: {_data_named(overrides) or 'other data'}"
     words = {"title": title, "description": WORDS_LEFT_OUT}
-    return _wordless(kept, headings, kept) | words | {"variants": variants}
+    return _wordless(kept, headings, kept, asked) | words | {"variants": variants}
 
 
 def _data_named(overrides: Sequence[str]) -> str:
@@ -131,13 +133,13 @@ def _sets_surface(item: Any) -> bool:
     return any(str(option).partition(".")[0] == "surface" for option in options)
 
 
-def _wordless(part: Any, headings: dict[str, str], whole: Mapping[str, Any]) -> Any:
+def _wordless(part: Any, headings: dict[str, str], whole: Mapping[str, Any], asked: Mapping[str, str]) -> Any:
     """A part of a configuration without captions, its figures without theirs, its heading replaced by the task."""
     if not isinstance(part, Mapping):
         return part
     wordless = {key: value for key, value in part.items() if key != "caption"}
     if part.get("comparison"):
-        task = _task(part, whole) or f"Table {len(headings) + 1}"
+        task = _task({**part, **asked}, whole) or f"Table {len(headings) + 1}"
         twins = sum(known == task or known.startswith(f"{task}, ") for known in headings.values())
         wordless["comparison"] = headings.setdefault(part["comparison"], f"{task}, {twins + 1}" if twins else task)
     if part.get("figures"):
@@ -151,7 +153,7 @@ def _task(part: Mapping[str, Any], whole: Mapping[str, Any]) -> str:
     kind = "model" if target == "solver" else target
     stage = part.get(kind) or whole.get(kind)
     name = stage.get("name") if isinstance(stage, Mapping) else stage
-    return f"{kind.capitalize()}: {name}".replace("_", " ") if isinstance(name, str) else ""
+    return f"{kind.capitalize()}: {name}".replace("_", " ") if isinstance(name, str) and name.isidentifier() else ""
 
 
 def _figure(figure: Any) -> Any:
