@@ -14,7 +14,7 @@ import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.export import write_skeleton
-from surfexp.skeleton.radii import branch_paths
+from surfexp.skeleton.radii import branch_paths, contour_radii
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 
@@ -120,6 +120,20 @@ def test_nets_of_tubes_have_many_rings() -> None:
 )
 def test_branches_of_small_graphs(arcs: list[list[int]], paths: list[list[int]]) -> None:
     assert branch_paths(np.array(arcs, dtype=np.int64).reshape(-1, 2), 4) == paths
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_closed_contour_has_one_more_side(closed: bool) -> None:
+    """Far from the middle the distance is nearly quadratic along a side, where Simpson's rule is nearly exact."""
+    corners = np.array([[10.0, 0.0, 0.0], [10.0, 10.0, 0.0], [0.0, -20.0, 0.0]])
+    middle, starts = np.array([[0.0, 0.0, 500.0]]), np.array([0, 3])
+    found = contour_radii(middle, corners, starts, np.array([closed]), np.empty((0, 2), np.int64))
+    ends = np.roll(corners, -1, axis=0)[: 3 if closed else 2]
+    shares = (np.arange(1000) + 0.5)[:, None] / 1000
+    sides = [start + shares * (end - start) for start, end in zip(corners, ends, strict=False)]
+    lengths = [np.linalg.norm(end - start) for start, end in zip(corners, ends, strict=False)]
+    means = [np.linalg.norm(side - middle, axis=1).mean() for side in sides]
+    assert found[0] == pytest.approx(np.average(means, weights=lengths), rel=1e-6)
 
 
 def cone() -> Skeleton:
