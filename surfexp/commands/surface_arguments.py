@@ -260,7 +260,7 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
 def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:
     """Give the columns of a result the names of the maps that it was made of, where its format has room.
 
-    A colour is rounded to whole numbers from 0 to 255 in PLY.
+    A colour is rounded to whole numbers from 0 to 255 in PLY, and a line says so.
     """
     import numpy as np
 
@@ -269,7 +269,8 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     from surfexp.mesh.vertex_colours import NAMES
 
     if len(maps) == 1 and next(iter(maps)) in NAMES and target.suffix.lower() == ".ply" and np.isfinite(values).all():
-        values = np.clip(np.rint(values), 0.0, 255.0)  # viewers show bytes
+        values = np.clip(np.rint(values), 0.0, 255.0)
+        echo(f"{target.name}: colours are rounded to whole numbers from 0 to 255, as viewers read them.", err=True)
     if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
         return {next(iter(maps)): values}
     widths = [1 if part.ndim == 1 else part.shape[1] for part in maps.values()]

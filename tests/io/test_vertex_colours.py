@@ -61,10 +61,11 @@ def test_a_picture_of_bytes_is_that_of_shares() -> None:
     np.testing.assert_array_equal(sx.plot(COLOURED, "color", width=200).figure.pixels, wanted)
 
 
-def test_the_colour_of_a_scan_is_denoised_as_one_map(working_folder: Path) -> None:
+def test_the_colour_of_a_scan_is_denoised_as_one_map(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     sx.write("scan.ply", COLOURED)
     assert main(["denoise", "scan.ply", "color", "--method", "rof", "--to", "clean.ply"]) == 0
     assert _uchar(Path("clean.ply")) == ["red", "green", "blue"]
+    assert "clean.ply: colours are rounded to whole numbers from 0 to 255" in capsys.readouterr().err
     wanted = sx.denoise(COLOURED, CODES.astype(float), method="rof").values
     found = colour_of(sx.read("clean.ply").scalars, "rgb")
     np.testing.assert_array_equal(found, np.clip(np.rint(wanted), 0, 255))
