@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.figures.labelling import Labelling
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.vertex_colours import as_shares, colour_of
+from surfexp.mesh.vertex_colours import are_bytes, as_shares, colour_of
 
 # of a map, in a picture
 MOST_COLUMNS = 6
@@ -24,9 +24,11 @@ def columns_of(given: Any) -> list[Floats]:
 
 
 def is_color(array: Floats) -> bool:
-    """Whether (n, 3) numbers are red, green and blue: all in 0..1."""
+    """Whether (n, 3) numbers are red, green and blue: all in 0..1, or whole numbers up to 255."""
     known = array[np.isfinite(array)] if array.dtype.kind == "f" else array
-    return array.shape[1:] == (3,) and bool(known.size) and bool(known.min() >= 0.0 and known.max() <= 1.0)
+    if array.shape[1:] != (3,) or not known.size:
+        return False
+    return bool(known.min() >= 0.0 and known.max() <= 1.0) or are_bytes(known)
 
 
 def own_colors(surface: Surface) -> Floats | None:

@@ -161,7 +161,7 @@ def test_three_columns_are_colours_only_where_they_can_be() -> None:
     red = np.tile([0.9, 0.1, 0.1], (len(Z), 1))
     ((one,),) = sx.plot(BALL, red, width=300).views
     assert one.values is not None and one.values.shape == (len(Z), 3)
-    assert [len(row) for row in sx.plot(BALL, 40.0 * red, width=300).views] == [1, 1, 1]
+    assert [len(row) for row in sx.plot(BALL, 41.3 * red, width=300).views] == [1, 1, 1]
 
 
 def test_a_scan_is_shown_in_its_own_colours(tmp_path: Path) -> None:
