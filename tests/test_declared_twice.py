@@ -40,6 +40,7 @@ DIFFERENT = {
     "statistic/width_test: false_positive_share(permutations)",
     "surface/file: read(labels)",
     "surface/file: read(maps)",
+    "surface/file: read(path)",
 }
 
 

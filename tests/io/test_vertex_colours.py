@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import trimesh
 
 import surfexp as sx
 from surfexp.commands.command_line import main
@@ -24,6 +23,7 @@ def _uchar(path: Path) -> list[str]:
 
 def test_colours_of_an_obj_are_maps_and_open_in_viewers_as_ply(working_folder: Path) -> None:
     painted = np.c_[CODES, np.full(162, 255)].astype(np.uint8)
+    trimesh = pytest.importorskip("trimesh")
     trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=painted, process=False).export("ball.obj")
     read = sx.read("ball.obj")
     np.testing.assert_array_equal(colour_of(read.scalars, "color"), CODES)

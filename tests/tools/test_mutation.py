@@ -115,12 +115,12 @@ def test_tests_are_chosen_by_imports_and_seconds() -> None:
 
 
 def test_the_page_counts_each_fault_once() -> None:
-    drawn = sample(20, 1)
+    drawn = sample(20, 2)
     verdicts = ["killed"] * 14 + ["timed out", "crashed", "survived", "survived"]
     found = {
         change.identity: {"verdict": verdict, "cpu": 2.0} for change, verdict in zip(drawn, verdicts, strict=False)
     }
-    text = page(drawn, found, 1, 30.0)
+    text = page(drawn, found, 2, 30.0)
     assert "**16 of 18 killed, 88.9%; 2 survive, 0 more are explained.** 2 were not run; 2.0 processor" in text
     assert text.count("\n- line ") == 2
     rows = [row.split("|")[2:7] for row in text.split("| kind |")[0].splitlines() if row.startswith("| ")][1:]

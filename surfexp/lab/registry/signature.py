@@ -60,7 +60,8 @@ def options_and_inputs(
         alone are inputs; every other one is an option. Its bounds and
         description stand in `Annotated[..., Field(...)]`, or its description in the docstring.
     defaults_of : sequence of callable
-        Functions that hold the defaults of options without a default here, under the same name; the first that has one counts.
+        Functions that hold the defaults of options without a default here, under the same name; the first that has one counts,
+        and None only for an option that takes it.
     chosen : dict of str to pydantic's Field, or None
         The parameters that are options, of a function of the library: bounds, description, and a default where the function
         has none; `Annotated[type, Field(...)]` where an experiment takes less than the function. The other parameters keep
@@ -121,7 +122,7 @@ def options_and_inputs(
         if name in described:
             hint = Annotated[hint, Field(description=described[name])]
         if chosen is None:
-            options[shown] = (hint, _default(where, name, parameter, defaults_of))
+            options[shown] = (hint, _default(where, name, parameter, hint, defaults_of))
         else:
             options[shown] = _chosen_option(where, function, parameter, hint, chosen[name])
     try:
@@ -174,10 +175,15 @@ def _group(name: str, hint: Any) -> dict[str, Input]:
     return {role: replace(item, group=name) for role, item in found.items() if item} if all(found.values()) else {}
 
 
-def _default(where: str, name: str, parameter: inspect.Parameter, defaults_of: Sequence[Callable[..., Any]]) -> Any:
-    """The one default of an option; `...` where it is required."""
+def _default(
+    where: str, name: str, parameter: inspect.Parameter, hint: Any, defaults_of: Sequence[Callable[..., Any]]
+) -> Any:
+    """The one default of an option; `...` where it is required, as where None stands for an option that takes no None."""
     known = {one.__name__: inspect.signature(one).parameters.get(name) for one in defaults_of}
     found = {one: other.default for one, other in known.items() if other and other.default is not other.empty}
+    taken = get_args(hint)[0] if get_origin(hint) is Annotated else hint
+    if type(None) not in get_args(taken):
+        found = {one: value for one, value in found.items() if value is not None}
     if parameter.default is not parameter.empty:
         if twice := [one for one, value in found.items() if value == parameter.default]:
             raise UserError(f"{where}: the default of {name!r} stands here and in {twice[0]}; leave it out here")
