@@ -21,6 +21,7 @@ def _uchar(path: Path) -> list[str]:
     return [line.split()[-1] for line in head.splitlines() if line.startswith("property uchar")]
 
 
+@pytest.mark.optional
 def test_colours_of_an_obj_are_maps_and_open_in_viewers_as_ply(working_folder: Path) -> None:
     painted = np.c_[CODES, np.full(162, 255)].astype(np.uint8)
     trimesh = pytest.importorskip("trimesh")
