@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -77,4 +78,6 @@ def read(
         if path is not None or hemisphere:
             raise ValueError("left and right name both hemispheres: give them alone, or path")
         return read_both(left, right, maps, labels, mask, unit, repair)
+    if not isinstance(path, str | Path):
+        raise ValueError(f"path is a {type(path).__name__}, one file is needed; both hemispheres are left= and right=")
     return read_surface(path, maps=maps, labels=labels, mask=mask, unit=unit, hemisphere=hemisphere, repair=repair)

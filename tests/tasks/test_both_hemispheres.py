@@ -361,3 +361,8 @@ def test_pictures_show_the_sides_apart() -> None:
 def test_the_average_cortex_comes_with_both() -> None:
     brain = sx.shape("fsaverage5", hemisphere="both")
     assert brain.hemisphere == "both" and len(brain.vertices) == 20484 and len(brain.scalars["sulc"]) == 20484
+
+
+def test_a_list_of_files_is_refused_with_the_way_for_both() -> None:
+    with pytest.raises(ValueError, match="path is a list, one file is needed; both hemispheres are left= and right="):
+        sx.read(["lh.white", "rh.white"])  # type: ignore[arg-type]
