@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from surfexp.commands.click_command import shown
+from surfexp.commands.given_maps import given_maps
 from surfexp.commands.surface_arguments import (
     finish,
-    given_maps,
     named_as,
     opened,
     progress_line,

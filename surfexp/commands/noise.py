@@ -9,7 +9,8 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, ready_map, result_option, surface_options
+from surfexp.commands.given_maps import map_of
+from surfexp.commands.surface_arguments import finish, opened, ready_map, result_option, surface_options
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to level.shape.gii")

@@ -9,7 +9,8 @@ from typing import Any, Literal
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import finish, map_of, opened, ready_map, result_option, surface_options
+from surfexp.commands.given_maps import map_of
+from surfexp.commands.surface_arguments import finish, opened, ready_map, result_option, surface_options
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white lh.thickness lh.sulc", "lh.white lh.thickness --count 100 --to nulls.npz")

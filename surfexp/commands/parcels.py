@@ -8,7 +8,8 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import map_of, opened, ready_map, shown_labels, surface_options
+from surfexp.commands.given_maps import map_of, shown_labels
+from surfexp.commands.surface_arguments import opened, ready_map, surface_options
 from surfexp.commands.table_file import ready_table, write_table_file
 from surfexp.commands.terminal import echo
 

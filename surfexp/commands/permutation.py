@@ -10,16 +10,8 @@ import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import (
-    finish,
-    given_maps,
-    opened,
-    progress_line,
-    ready_map,
-    result_option,
-    shown_labels,
-    surface_options,
-)
+from surfexp.commands.given_maps import given_maps, shown_labels
+from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
 from surfexp.commands.table_file import ready_table, write_table_file
 from surfexp.commands.terminal import echo
 

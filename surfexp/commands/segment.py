@@ -9,15 +9,8 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import (
-    finish,
-    map_of,
-    opened,
-    progress_line,
-    ready,
-    result_option,
-    surface_options,
-)
+from surfexp.commands.given_maps import map_of
+from surfexp.commands.surface_arguments import finish, opened, progress_line, ready, result_option, surface_options
 
 
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))

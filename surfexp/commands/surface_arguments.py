@@ -6,7 +6,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from surfexp.commands.certificate import Inputs, write_certificate
+from surfexp.commands.given_maps import add_files, both_of, file_of
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
     from surfexp.contract.arrays import Floats
-    from surfexp.mesh.label_map import LabelMap
     from surfexp.mesh.surface import Surface
 
 Command = Callable[..., Any]
@@ -127,7 +126,7 @@ def opened(
         raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
     pair = both_of(path)
     if isinstance(pair, str):
-        files = Inputs(path, *named.values(), *([_file_of(mask)] if mask else []))
+        files = Inputs(path, *named.values(), *([file_of(mask)] if mask else []))
         given: dict[str, Any] = {"maps": named, "mask": mask, "hemisphere": hemisphere or ""}
     else:
         if hemisphere is not None:
@@ -148,113 +147,6 @@ def surface_of(path: str, repair: bool, **given: Any) -> Surface:
     for note in surface.notes:
         echo(f"{path}: {note}", err=True)
     return surface
-
-
-def both_of(given: str) -> str | dict[str, str]:
-    """Return LEFT+RIGHT as a pair of hemispheres, anything else as it is: the name of one file may have a + too."""
-    cuts = [k for k, letter in enumerate(given) if letter == "+"]
-    if not cuts or Path(given).is_file():
-        return given
-    halves = [(given[:k], given[k + 1 :]) for k in cuts]
-    left, right = next((pair for pair in halves if all(Path(_file_of(half)).is_file() for half in pair)), halves[0])
-    return {"left": left, "right": right}
-
-
-def add_files(files: Inputs, given: str | dict[str, str]) -> None:
-    """Add a file, or those of a pair, to the inputs."""
-    for one in [given] if isinstance(given, str) else given.values():
-        files.add(_file_of(one))
-
-
-def _file_of(given: str) -> str:
-    """The file of a mask, which may name labels behind a colon."""
-    return given if Path(given).is_file() else given.partition(":")[0]
-
-
-def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Floats:
-    """Return a map by the name that the surface carries it under, or those of a file side by side."""
-    from surfexp.io.map_files import side_by_side
-
-    return side_by_side(given_maps(surface, given, files, side), given)
-
-
-def shown_map(surface: Surface, given: str | None, files: Inputs, side: str | None) -> Any:
-    """Return what a picture shows: labels as `shown_labels`, a map as `map_of`, or nothing."""
-    if not given:
-        return None
-    labels = shown_labels(surface, given, files, side)
-    return map_of(surface, given, files, side) if labels is None else labels
-
-
-def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) -> LabelMap | None:
-    """Return labels by the name that the surface carries them under, or those of a file of labels, which joins the inputs.
-
-    Raises
-    ------
-    ValueError
-        If the file cannot be read, or is of the other hemisphere.
-    """
-    from surfexp.io.hemisphere import check_same_side
-    from surfexp.io.map_files import LABEL_FILES, read_named_labels
-
-    if given in surface.labels:
-        return surface.labels[given]
-    if given in surface.scalars or not given.lower().endswith(LABEL_FILES):
-        return None
-    if surface.right is not None:
-        from surfexp.tasks.both_files import labels_of_both
-
-        add_files(files, pair := both_of(given))
-        return labels_of_both(surface, pair)
-    files.add(given)
-    if side is None:
-        check_same_side("labels", given, surface.hemisphere)
-    return read_named_labels(given, surface.hemisphere)
-
-
-def shown_borders(surface: Surface, given: str | None, files: Inputs, side: str | None) -> LabelMap | str | None:
-    """Return labels as `shown_labels`; what is neither a name nor a file of labels is left to the picture, which says so."""
-    return given and (shown_labels(surface, given, files, side) or given)
-
-
-def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) -> dict[str, Floats]:
-    """Return a map by the name that the surface carries it under, or those of a file, which joins the inputs.
-
-    Parameters
-    ----------
-    side : {"left", "right"}, optional
-        As the user says; it overrides what the file says.
-
-    Raises
-    ------
-    ValueError
-        If there is neither, the file cannot be read, or it is of the other hemisphere.
-    """
-    from surfexp.io.hemisphere import check_same_side, holds_both
-    from surfexp.io.map_files import read_maps
-    from surfexp.mesh.vertex_colours import colour_of
-
-    if given in surface.scalars:
-        return {given: surface.scalars[given]}
-    if surface.right is not None and (holds_both(Path(given)) or "+" in given):
-        from surfexp.tasks.both_files import maps_of_both
-
-        add_files(files, pair := both_of(given))
-        return maps_of_both(surface, pair)
-    colour = None if Path(given).exists() else colour_of(surface.scalars, given)
-    if colour is not None:
-        return {given: colour}
-    if surface.scalars and not Path(given).exists():
-        known = sorted(surface.scalars)
-        near = get_close_matches(given, known, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"it carries {', '.join(known)}"
-        raise ValueError(f"{given} is no file, and no map that {surface.name} carries; {hint}")
-    if surface.right is not None:
-        raise ValueError(f"{given} is one file, the surface is both hemispheres: write LEFT+RIGHT")
-    files.add(given)
-    if side is None:
-        check_same_side("map", given, surface.hemisphere)
-    return read_maps(given, surface.hemisphere)
 
 
 def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:

@@ -10,9 +10,9 @@ import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
+from surfexp.commands.given_maps import map_of, shown_borders, shown_map
 from surfexp.commands.surface_arguments import (
     finish,
-    map_of,
     opened,
     picture_options,
     progress_line,
@@ -23,8 +23,6 @@ from surfexp.commands.surface_arguments import (
     repair_option,
     result_option,
     save_proof,
-    shown_borders,
-    shown_map,
     surface_of,
     surface_options,
 )

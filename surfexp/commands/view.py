@@ -9,15 +9,8 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import (
-    opened,
-    picture_options,
-    ready,
-    result_option,
-    shown_borders,
-    shown_map,
-    surface_options,
-)
+from surfexp.commands.given_maps import shown_borders, shown_map
+from surfexp.commands.surface_arguments import opened, picture_options, ready, result_option, surface_options
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white", "lh.white lh.thickness --to thickness.html")

@@ -10,7 +10,7 @@ import pytest
 
 import surfexp as sx
 from surfexp.commands.command_line import main
-from surfexp.commands.surface_arguments import both_of
+from surfexp.commands.given_maps import both_of
 from surfexp.io.map_files import read_maps
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
