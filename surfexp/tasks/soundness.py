@@ -7,8 +7,10 @@ from weakref import WeakSet
 import numpy as np
 from numpy.typing import NDArray
 
+from surfexp.contract.arrays import Integers
+from surfexp.mesh.orientation import corner_fans, fans_per_vertex
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_part import surface_part
+from surfexp.mesh.surface_part import SurfacePart, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import require_valid
 
@@ -21,6 +23,7 @@ def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surf
     """Return a surface whose part inside the mask every method can work with.
 
     Vertices that no face names, and those without a finite position, do not matter: `inputs.part_for` leaves them outside.
+    Where a mask leaves faces that touch in a vertex alone, they may.
 
     Parameters
     ----------
@@ -50,9 +53,24 @@ def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surf
     else:
         part = surface_part(mesh, inside)
         faces = np.flatnonzero(inside[mesh.faces].all(axis=1))
-        require_valid(part.mesh, name, repair=repair, numbers=(part.vertices, faces))
+        allow = ("non-manifold vertices",) if _pinched_by_mask(mesh, part) else ()
+        require_valid(part.mesh, name, allow=allow, repair=repair, numbers=(part.vertices, faces))
     _SOUND.add(surface)
     return surface
+
+
+def _pinched_by_mask(mesh: TriangleMesh, part: SurfacePart) -> bool:
+    """Whether the part touches itself only at vertices where the surface is sound: there the mask alone parts the faces.
+
+    No method minds, and no repair could help: the surface has nothing to split.
+    """
+    pinched = part.vertices[_fans(part.mesh) > 1]
+    return len(pinched) > 0 and bool((_fans(mesh)[pinched] == 1).all())
+
+
+def _fans(mesh: TriangleMesh) -> Integers:
+    """(n,) fans of faces at each vertex."""
+    return fans_per_vertex(mesh, corner_fans(mesh, np.ones(len(mesh.edges), dtype=bool)))
 
 
 def usable_vertices(mesh: TriangleMesh) -> NDArray[np.bool_]:

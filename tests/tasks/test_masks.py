@@ -7,11 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 import surfexp as sx
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.operators.fem import fem
+from surfexp.spectrum.surface_spectrum import elements_of
 
 WHOLE = sx.shape("icosphere", levels=3)
 INSIDE = WHOLE.mesh.vertices[:, 2] + 0.2 * WHOLE.mesh.vertices[:, 0] > -0.4
@@ -111,3 +114,40 @@ def test_what_a_map_does_not_know_inside_the_mask_is_outside() -> None:
         assert said in found.notes
     with pytest.raises(ValueError, match=r"map is NaN at all \d+ vertices inside the mask: give another mask"):
         sx.denoise(masked, np.where(mask, np.nan, values))
+
+
+def scattered(seed: int, share: float) -> np.ndarray:
+    """Holes of single vertices, between which the faces left touch in a vertex alone."""
+    return np.random.default_rng(seed).random(len(INSIDE)) >= share
+
+
+@pytest.mark.parametrize(("seed", "share"), [(0, 0.05), (1, 0.1), (2, 0.2)])
+def test_a_mask_may_leave_faces_that_touch_in_a_vertex(seed: int, share: float) -> None:
+    inside = scattered(seed, share)
+    masked = Surface(WHOLE.mesh, mask=inside)
+    holed = np.where(inside, NOISY, np.nan)
+    assert sx.check(surface_part(WHOLE.mesh, inside).mesh).count("non-manifold vertices") > 0
+    for task in (lambda s, f: sx.smooth(s, f, 0.3), lambda s, f: sx.denoise(s, f, method="rof")):
+        assert np.array_equal(task(masked, NOISY).values, task(WHOLE, holed).values, equal_nan=True)
+    part = surface_part(WHOLE.mesh, inside)
+    elements = elements_of(Surface(part.mesh), fem(part.mesh), 1)
+    expected = scipy.linalg.eigh(elements.stiffness.toarray(), elements.mass.toarray(), eigvals_only=True)[:8]
+    found = sx.eigenpairs(masked, 8)
+    assert found.complete
+    assert found.values == pytest.approx(expected, abs=1e-9 * expected[-1])
+    assert np.isfinite(sx.mean_curvature(masked)[part.vertices]).all()
+
+
+def test_faces_that_touch_in_a_vertex_of_the_surface_itself_are_refused_under_a_mask() -> None:
+    mesh = WHOLE.mesh
+    vertices = np.r_[mesh.vertices, mesh.vertices + 2.0 * mesh.vertices[0]]
+    far = int(np.linalg.norm(mesh.vertices + mesh.vertices[0], axis=1).argmin())
+    touching = mesh.faces + len(mesh.vertices)
+    touching[touching == len(mesh.vertices) + far] = 0
+    inside = np.r_[scattered(0, 0.05), scattered(1, 0.05)]
+    inside[[0, *np.unique(mesh.faces[(mesh.faces == 0).any(axis=1)])]] = True
+    inside[len(mesh.vertices) + np.unique(mesh.faces[(mesh.faces == far).any(axis=1)])] = True
+    both = Surface(TriangleMesh(vertices, np.r_[mesh.faces, touching]), mask=inside)
+    with pytest.raises(ValueError, match="non-manifold vertices"):
+        sx.eigenpairs(both, 4)
+    assert sx.eigenpairs(sx.repair(both), 4).complete
