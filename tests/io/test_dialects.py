@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surfexp.io import polygons
 from surfexp.io.polygons import triangulate
 from surfexp.io.reading import read_mesh, read_mesh_file
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -193,6 +194,25 @@ def test_a_vertex_on_a_straight_side_stays_a_corner() -> None:
     y = np.array([0, 1, 3.5, 6, 2, 1, 0, -3, -9, -4.5])
     faces, _ = triangulate([list(range(10))], points := np.column_stack([x, y, 0 * x]))
     assert len(faces) == 8 and TriangleMesh(points, faces).areas.min() > 0.1
+
+
+@pytest.mark.parametrize("kind", ["crossing", "around"])
+def test_a_long_polygon_that_runs_over_itself_ends_soon(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+    ears = polygons.triangulate_float64
+
+    def counted(*arguments: np.ndarray) -> np.ndarray:
+        calls.append(1)
+        return ears(*arguments)
+
+    monkeypatch.setattr(polygons, "triangulate_float64", counted)
+    angle = np.linspace(0.0, 2.0 * np.pi, 800, endpoint=False)
+    points = np.c_[np.sin(2.0 * angle), np.sin(3.0 * angle + 0.3), 0.0 * angle]
+    corners = list(range(800)) if kind == "crossing" else [0, 200, 400, 600] * 100
+    faces, notes = triangulate([corners], points)
+    assert len(faces) == len(corners) - 2
+    assert "cross themselves" in notes[0]
+    assert len(calls) <= (1 if kind == "crossing" else 24)
 
 
 def test_bent_and_crossing_polygons_are_said() -> None:
