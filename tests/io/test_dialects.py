@@ -83,6 +83,13 @@ OFF = {
 }
 
 
+@pytest.mark.parametrize("text", ["OFF\n", "OFF\n4\n", "OFF 4\n"])
+def test_off_without_its_counts_is_refused_by_name(tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.off").write_text(text)
+    with pytest.raises(ValueError, match="the counts of vertices and faces are missing"):
+        read_mesh(tmp_path / "a.off")
+
+
 @pytest.mark.parametrize("kind", OFF)
 def test_dialects_of_off(tmp_path: Path, kind: str) -> None:
     (tmp_path / "a.off").write_text(OFF[kind])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import networkx
 import numpy as np
 import pytest
@@ -244,6 +246,10 @@ def test_simplification_cuts_noise_and_keeps_what_is_large():
         simplified(noisy, -1.0)
 
 
+def contours_of(graph):
+    return [graph.contour_points[start:stop] for start, stop in pairwise(graph.contour_starts)]
+
+
 def test_pruning_cuts_teeth_and_neither_loops_nor_ends():
     mesh = SURFACES[2]
     height = mesh.vertices[:, 0] + 0.2 * mesh.vertices[:, 1]
@@ -255,6 +261,10 @@ def test_pruning_cuts_teeth_and_neither_loops_nor_ends():
     assert mended.metrics["b1"] == rough.metrics["b1"] == 2 and mended.metrics["components"] == 1
     assert mended.contour_starts[-1] == len(mended.contour_points) < len(rough.contour_points)
     assert mended.metrics["cut_branches"] >= rough.metrics["leaves"] - 2
+    before, after = (
+        {tuple(graph.positions[k]): points for k, points in enumerate(contours_of(graph))} for graph in (rough, mended)
+    )
+    assert all(np.array_equal(points, before[node]) for node, points in after.items())
     assert pruned(clean, 1.0).metrics["b1"] == 2
     with pytest.raises(ValueError, match=r"0\.\.1"):
         pruned(clean, -0.1)

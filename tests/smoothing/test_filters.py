@@ -14,7 +14,12 @@ from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.fem import fem
-from surfexp.smoothing.heat_polynomial import _coefficients, heat_polynomial, largest_eigenvalue_bound
+from surfexp.smoothing.heat_polynomial import (
+    _coefficients,
+    heat_polynomial,
+    heat_polynomials,
+    largest_eigenvalue_bound,
+)
 from surfexp.smoothing.neighbour_mean import neighbour_mean
 from surfexp.variational.surface_flows import heat_flow
 
@@ -42,6 +47,13 @@ def test_the_bound_counts_every_term_that_is_left_out(half: float, tolerance: fl
     kept, rest = _coefficients(half, tolerance)
     left = 1.0 - np.abs(kept).sum()
     assert left - 1e-12 <= rest <= tolerance
+
+
+def test_nobody_who_names_no_tolerance_gets_a_coarse_one() -> None:
+    operator = fem(SHAPES["torus"].mesh)
+    values = np.random.default_rng(1).standard_normal(operator.vertex_count)
+    assert heat_polynomial(operator, values, 0.1)[2] <= 1e-8
+    assert all(bound <= 1e-8 for _, _, bound in heat_polynomials(operator, values, [0.01, 0.1]))
 
 
 def test_a_constant_stays_on_slivers_whatever_the_tolerance() -> None:
