@@ -14,8 +14,8 @@ from surfexp.mesh.given_arrays import index_array
 
 FLATNESS = 0.01
 ROUNDING = 1e-12
-# first ears that are tried: a polygon without sound ears from any of these runs over itself
-FIRST_EARS = 24
+# first ears after which triangles of another area than the polygon's say that it crosses itself
+CROSSED = 64
 
 
 def triangulate(
@@ -111,19 +111,27 @@ def _ears(polygon: Floats) -> tuple[Integers, bool]:
     plane = centred @ frame.T
     x, y = plane.T
     area = float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
-    count = len(polygon)
-    for turn in np.unique(np.linspace(0, count - 1, FIRST_EARS).astype(np.int64)).tolist():
+    count, missed = len(polygon), 0
+    for turn in range(count):
         # which ear comes first decides whether a vertex on a straight side stays a corner
         order = np.roll(np.arange(count), -turn)
         ears = order[triangulate_float64(plane[order], np.array([count], np.uint32)).reshape(-1, 3).astype(np.int64)]
         first, second = plane[ears[:, 1]] - plane[ears[:, 0]], plane[ears[:, 2]] - plane[ears[:, 0]]
         areas = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-        if abs(np.abs(areas).sum() - area) > 1e-9 * area:
-            # it crosses itself, which no other first ear changes
+        whole = abs(np.abs(areas).sum() - area) <= 1e-9 * area
+        missed += not whole
+        if missed == CROSSED or (turn == 1 and _has_a_side_twice(polygon)):
             break
-        if len(ears) == count - 2 and np.abs(areas).min() > ROUNDING * area:
+        if len(ears) == count - 2 and whole and np.abs(areas).min() > ROUNDING * area:
             return np.where((areas < 0)[:, None], ears[:, ::-1], ears), True
     return np.zeros((0, 3), dtype=np.int64), False
+
+
+def _has_a_side_twice(polygon: Floats) -> bool:
+    """Whether a side is walked twice in one direction; the two sides of a cut to a hole are walked in both, once each."""
+    corner = np.unique(polygon, axis=0, return_inverse=True)[1].ravel()
+    sides = corner * len(polygon) + np.roll(corner, -1)
+    return len(np.unique(sides)) < len(sides)
 
 
 def polygons_between(starts: Sequence[int], corners: Sequence[int]) -> list[Sequence[int]]:
