@@ -222,6 +222,24 @@ def test_a_long_polygon_that_runs_over_itself_ends_soon(kind: str, monkeypatch: 
     assert len(calls) <= (64 if kind == "crossing" else 2)
 
 
+def test_sound_ears_are_found_however_late_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first 80 cuts are fans around a vertex of a straight side: of the right area, with triangles without area."""
+    side = np.c_[np.linspace(0.0, 1.0, 100, endpoint=False), np.zeros((100, 2))]
+    points = np.vstack([side, [[1, 0, 0], [1, 1, 0], [0, 1, 0]]])
+    ears, calls = polygons.triangulate_float64, []
+
+    def late(plane: np.ndarray, ends: np.ndarray) -> np.ndarray:
+        calls.append(1)
+        place = np.arange(1, len(plane) - 1)
+        return np.c_[0 * place, place, place + 1].ravel() if len(calls) <= 80 else ears(plane, ends)
+
+    monkeypatch.setattr(polygons, "triangulate_float64", late)
+    faces, notes = triangulate([list(range(103))], points)
+    mesh = TriangleMesh(points, faces)
+    assert notes == () and len(calls) == 81
+    assert mesh.areas.min() > 1e-4 and mesh.area == pytest.approx(1.0, rel=1e-12)
+
+
 def test_bent_and_crossing_polygons_are_said() -> None:
     square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0]])
     assert "1 polygons are bent" in triangulate([[0, 1, 2, 3]], square)[1][0]

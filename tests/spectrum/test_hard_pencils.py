@@ -18,6 +18,7 @@ from surfexp.spectrum import components, dense, eigensolver
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, measure
+from surfexp.spectrum.pencil_checks import certified
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 
 BALL = icosphere(2).mesh
@@ -310,6 +311,16 @@ def test_drawn_pencils_equal_dense_algebra(drawn: tuple[Pencil, int]) -> None:
 @given(pencils_and_counts())
 def test_five_hundred_drawn_pencils_equal_dense_algebra(drawn: tuple[Pencil, int]) -> None:
     check_drawn(*drawn)
+
+
+@pytest.mark.parametrize("pair", [0, 1, 2])
+def test_one_pair_beyond_the_tolerance_is_refused_by_number(pair: int) -> None:
+    residuals = np.full(3, 1e-12)
+    residuals[pair] = 1e-3
+    system = EigenSystem(np.array([0.0, 1.0, 2.0]), np.eye(3), residuals, 0.0, True, ((2.5, 3),), spacing=1.0)
+    with pytest.raises(EigensolverError, match=f"pair {pair} has residual 1.0e-03, above tolerance 1e-08"):
+        certified(system, 3, 1e-8)
+    assert certified(system, 3, 1e-2) is system
 
 
 def test_a_diagonal_mass_needs_no_factorisation() -> None:

@@ -14,6 +14,7 @@ from surfexp.operators.elements_surface import surface_elements
 from surfexp.operators.fem import fem
 from surfexp.spectrum.brainprint import brainprint
 from surfexp.spectrum.eigensolver import eigenpairs
+from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.pointwise_signatures import global_point_signature, wave_kernel_signature
 from surfexp.spectrum.shape_dna import shape_dna
 from surfexp.spectrum.surface_spectrum import surface_spectrum
@@ -53,6 +54,13 @@ def test_point_signatures_keep_the_symmetry_of_the_ellipsoid() -> None:
     assert waves.std(axis=0).min() > 0.0
     points = global_point_signature(system, 1.0)
     assert np.allclose(np.abs(points), np.abs(points[mirror]), atol=1e-6)
+
+
+def test_a_band_of_the_wave_kernel_is_a_gaussian_of_the_stated_width() -> None:
+    """With two modes and eight bands a width of seven bands is the distance of their energies."""
+    two = EigenSystem(np.array([2.0, 5.0]), np.eye(2), np.zeros(2), 0.0, True)
+    near, far = wave_kernel_signature(two, 8, 7.0)[:, 0]
+    assert far / near == pytest.approx(np.exp(-0.5), rel=1e-12) and near + far == pytest.approx(1.0, rel=1e-12)
 
 
 def test_published_point_signature_diverges_and_the_biharmonic_one_does_not() -> None:
