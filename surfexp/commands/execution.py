@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from surfexp.commands import slurm_jobs
+from surfexp.commands.executors import check_executor, said_at_submission
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
 from surfexp.commands.terminal import echo
@@ -38,8 +39,8 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
     StageFailure if a stage failed.
     """
     profile = _profile(plan.settings.profile or "default")
-    if plan.settings.profile and slurm_jobs.settings_of(profile).get("executor") == "slurm":
-        slurm_jobs.check_slurm(plan.settings.profile)
+    if plan.settings.profile:
+        check_executor(plan.settings.profile, slurm_jobs.settings_of(profile))
     results = Path(plan.settings.results).resolve()
     for mark in str(results):
         if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):
@@ -139,8 +140,11 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     if slurm:
         slurm_jobs.tell_of_ended(log.read_text(), missing, results)
     if code and not any(read_event(results, node.kind, node.key).get("failure") for node in missing):
-        tail = [line for line in log.read_text().splitlines() if line.strip()]
-        reason = f"Snakemake stopped: {tail[-1] if tail else 'no message'}; see {log}"
+        said = log.read_text()
+        last = said_at_submission(said) or next(
+            (line for line in said.splitlines()[::-1] if line.strip()), "no message"
+        )
+        reason = f"Snakemake stopped: {last}; see {log}"
         if code < 0:
             reason = f"Snakemake was killed by signal {-code}; the same command continues"
         if shutil.disk_usage(results).free < 2**20:
