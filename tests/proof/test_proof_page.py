@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -224,6 +225,23 @@ def test_results_without_a_certificate_are_refused(tmp_path: Path) -> None:
             sx.proof_page(result, *surfaces)
     with pytest.raises(ValueError, match=r"choose \.html"):
         sx.proof_page(sx.denoise(sphere, values, method="rof")).save(tmp_path / "page.txt")
+
+
+def test_a_pair_that_is_none_is_refused_however_right_its_value() -> None:
+    """A thousandth of another mode leaves the value right to 1e-6 and the residual wrong."""
+    system = sx.eigenpairs(first := bodies()[0], 12)
+    vectors = system.vectors.copy()
+    vectors[:, 3] += 2e-4 * vectors[:, 4]
+    with pytest.raises(ValueError, match=r"residual .* from those of linear elements"):
+        sx.proof_page(replace(system, vectors=vectors), first)
+
+
+def test_a_distance_says_whether_other_signs_give_less() -> None:
+    first, second = bodies()
+    found = sx.distance(first, second, 6)
+    sure, open_ = (sx.proof_page(one, first, second).claims[-1] for one in (found, replace(found, optimal=False)))
+    assert sure.heading.endswith(", and no other signs give less")
+    assert f"no signs give less than {found.lower_bound:.10g}" in open_.heading
 
 
 def test_a_page_above_five_megabytes_is_refused(pages: dict[str, Any]) -> None:

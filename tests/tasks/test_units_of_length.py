@@ -16,6 +16,7 @@ from surfexp.mesh.shapes.ellipsoid import ellipsoid
 
 BODY = ellipsoid(semiaxes=(1.0, 1.3, 1.7), levels=3).mesh
 V, F = BODY.vertices, BODY.faces
+RAMP = V[:, 2] + 0.4 * np.random.default_rng(0).standard_normal(len(V))
 MAP = np.sign(V[:, 2]) + 0.2 * np.random.default_rng(0).standard_normal(len(V))
 
 
@@ -27,7 +28,8 @@ def answers(unit: float, folder: Path) -> dict[str, tuple[Any, int]]:
     modes = sx.eigenpairs(body, 12)
     upper, lower = sx.geodesic(body, 0, bounds=True)
     parts, curved = sx.segment(body, MAP), sx.segment(body)
-    automatic = sx.denoise(body, MAP, method="auto")
+    automatic, wide = sx.denoise(body, MAP), sx.denoise(body, RAMP)
+    assert (automatic.certificate["chosen"], wide.certificate["chosen"]) == ("edge_weighted_variation", "heat_kernel")
     graph = sx.reeb_graph(body, V[:, 2], count=9)
     sx.write(folder / "body.npz", body)
     row = sx.fingerprint(folder / "body.npz", 5).columns["body"]
@@ -47,7 +49,8 @@ def answers(unit: float, folder: Path) -> dict[str, tuple[Any, int]]:
         "lower bound": (parts.lower_bound, 1),
         "gap": (parts.labelling_gap, 0),
         "mean of curvature": (curved.c1, -1),
-        "chosen": (automatic.certificate["parameter"], int(automatic.certificate["chosen"] == "heat")),
+        "chosen": (automatic.certificate["parameter"], 0),
+        "chosen width": (wide.certificate["parameter"], 1),
         "automatic": (automatic.values, 0),
         "smooth": (sx.smooth(body, MAP, 0.4 * unit).values, 0),
         "time": (sx.smooth(body, MAP, 0.4 * unit).certificate["time"], 2),
