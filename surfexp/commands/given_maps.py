@@ -59,7 +59,8 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
         If the file cannot be read, or is of the other hemisphere.
     """
     from surfexp.io.hemisphere import check_same_side
-    from surfexp.io.map_files import LABEL_FILES, read_named_labels
+    from surfexp.io.label_colours import read_coloured_labels
+    from surfexp.io.map_files import LABEL_FILES
 
     if given in surface.labels:
         return surface.labels[given]
@@ -73,7 +74,7 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
     files.add(given)
     if side is None:
         check_same_side("labels", given, surface.hemisphere)
-    return read_named_labels(given, surface.hemisphere)
+    return read_coloured_labels(given, surface.hemisphere)
 
 
 def shown_borders(surface: Surface, given: str | None, files: Inputs, side: str | None) -> LabelMap | str | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.hemisphere import check_given_side, common_name, holds_both
-from surfexp.io.map_files import name_of_map, read_maps, read_named_labels
+from surfexp.io.label_colours import coloured_as, read_coloured_labels
+from surfexp.io.map_files import name_of_map, read_maps
 from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
@@ -46,7 +48,12 @@ def read_both(
             files[side], maps=own_maps, labels=own_labels, mask=own_mask, unit=unit, hemisphere=side, repair=repair
         )
     names = [Path(files[side]).name for side in HEMISPHERES]
-    return joined(parts["left"], parts["right"], name_of_map(common_name(*names)) or "both hemispheres")
+    both = joined(parts["left"], parts["right"], name_of_map(common_name(*names)) or "both hemispheres")
+    tables = {
+        name: coloured_as(table, *(parts[side].labels[name] for side in HEMISPHERES))
+        for name, table in both.labels.items()
+    }
+    return replace(both, labels=tables)
 
 
 def of_side(given: Pair, side: str, what: str) -> Any:
@@ -95,8 +102,10 @@ def labels_of_both(surface: Surface, given: Pair) -> LabelMap:
     ValueError
         As `maps_of_both`.
     """
-    left, right = joined_labels(*(read_named_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES))
-    return LabelMap(of_both(surface, left.keys, right.keys, "labels").astype(np.int64), left.names)
+    tables = [read_coloured_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES]
+    left, right = joined_labels(*tables)
+    keys = of_both(surface, left.keys, right.keys, "labels").astype(np.int64)
+    return coloured_as(LabelMap(keys, left.names), *tables)
 
 
 def _by_name(given: Any, what: str) -> dict[str, Pair]:

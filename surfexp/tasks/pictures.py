@@ -97,7 +97,8 @@ def plot(
     surface : Surface, path, or (vertices, faces); or a list of them
         Several stand side by side, at one scale. So do the hemispheres of a surface that is both, in four pictures.
     values : str, (n,) array, `LabelMap`, or a result, optional
-        A map, or labels: integers and truth values are labels, in flat colours with a legend. A list has one for each of
+        A map, or labels: integers and truth values are labels, in flat colours with a legend; labels of a file have those
+        of its table (.annot, .label.gii, .dlabel.nii). A list has one for each of
         several surfaces, or of one surface a row for each; so has a dict, with their names. Of a map of several columns,
         as a time series, six are shown, in colours that they share; (n, 3) numbers in 0..1 are colours. Without a map a
         scan has its own colours. Eigenpairs are rows of

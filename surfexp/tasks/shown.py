@@ -21,7 +21,8 @@ from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
 from surfexp.io.hemisphere import check_same_side
-from surfexp.io.map_files import LABEL_FILES, read_named_labels
+from surfexp.io.label_colours import ColouredLabels, read_coloured_labels
+from surfexp.io.map_files import LABEL_FILES
 from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.label_map import LabelMap
@@ -189,9 +190,12 @@ def _labels(owner: Surface, given: Any) -> Labelling | None:
         given = owner.labels[given]
     if isinstance(given, str | Path) and str(given).lower().endswith(LABEL_FILES) and Path(given).is_file():
         check_same_side("labels", given, owner.hemisphere)
-        given = read_named_labels(given, owner.hemisphere)
+        given = read_coloured_labels(given, owner.hemisphere)
     if isinstance(given, LabelMap):
-        return labelling(as_labels(owner, given.keys), given.names)
+        found = labelling(as_labels(owner, given.keys), given.names)
+        own = given.by_name if isinstance(given, ColouredLabels) else {}
+        colors = [own.get(name, made) for name, made in zip(found.names, found.colors, strict=True)]
+        return replace(found, colors=np.array(colors, dtype=np.float64).reshape(-1, 3))
     if isinstance(given, str | Path) or given is None or hasattr(given, "values"):
         return None
     array = np.asarray(given)

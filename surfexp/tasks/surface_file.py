@@ -8,11 +8,13 @@ from typing import Any
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
-from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask, read_named_labels
+from surfexp.io.label_colours import read_coloured_labels
+from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import read_mesh_file
 from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
+from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -48,7 +50,7 @@ def read_surface(
     notes = (*file_read.notes, *_overridden(hemisphere, path))
     for name, file in map_files.items():
         scalars |= _named(name, read_maps(file, side), count, file)
-    tables = {name: read_named_labels(file, side) for name, file in label_files.items()}
+    tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side) for name, file in label_files.items()}
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
