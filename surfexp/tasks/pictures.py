@@ -105,7 +105,9 @@ def plot(
         eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed. A distance on
         [source, target] is shown by the colours that its correspondence carries over.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
-        By default lateral and medial for a hemisphere, otherwise one oblique view.
+        By default lateral and medial for a hemisphere. Another body is seen from where most of it faces the eye, a little
+        from above, and stands upright: with y up if it stands at least twice as firmly on that as on z, as most scans and
+        animals do, and the file names no space of the brain. Views by name or angle are those of the file's axes, z up.
     colormap : str, optional
         A name of matplotlib's; a diverging one for maps of both signs if not given.
     limits : (float, float), optional

@@ -32,6 +32,7 @@ from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.default_view import standing
 from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
@@ -114,7 +115,8 @@ def shown_surfaces(
         rows.append(row)
     if len(rows) == 1 and len(rows[0]) == 1:
         rows = [[replace(rows[0][0], title="")]]
-    return rows
+    of_brain = any(one.hemisphere for one in shown)
+    return rows if chosen or of_brain else standing(rows, shown[0])
 
 
 def apart(surfaces: Sequence[Surface]) -> list[Surface]:

@@ -113,7 +113,7 @@ def view(
         surface a panel for each; so has a dict, with their names. A map of several columns, as a time series, has a
         slider; (n, 3) numbers in 0..1 are colours. Without one a scan has its own colours.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
-        Where panels look from at first: one for each. By default one, lateral for a hemisphere.
+        Where panels look from at first: one for each. By default one, lateral for a hemisphere; else as in `plot`.
     colormap : str, optional
     limits : (float, float), optional
     contours : sequence of float, optional
@@ -148,11 +148,12 @@ def view(
     in_one = skeleton is not None or isinstance(values, Skeleton)
     owners = given if in_one else apart(given)
     hemispheres = all(owner.hemisphere in HEMISPHERES for owner in owners)
+    usual = "lateral" if hemispheres else "oblique" if any(owner.hemisphere for owner in owners) else None
     columns = [] if several else columns_of(values)
     rows = shown_surfaces(
         given if several else given[0],
         values,
-        views=views or ("lateral" if hemispheres else "oblique"),
+        views=views or usual,
         colormap=colormap,
         limits=limits,
         contours=contours,
