@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -16,6 +17,8 @@ from surfexp.io.csv_cells import cells
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Leaf, Plan
 
+# numbers of a note that tables write with spaces between thousands
+LONG = re.compile(r"(?<![\w./,-])-?(?:\d{5,6}(?:\.\d+)?|\d{4}\.\d+)(?!\.?\w)")
 # what tables call the processor time of a stage
 SECONDS = "seconds"
 # the kinds whose results are given: rows on other data have no common best
@@ -186,7 +189,7 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
         data = _data(plan, leaf.key, known)
         node = plan.nodes[leaf.key]
         measured = node.kind == "statistic" and "solver" in node.inputs
-        notes = list(found.notes)
+        notes = [as_in_tables(note) for note in found.notes]
         rows.append(Row(leaf, parameters, found.metrics, found.seconds, notes, found.failure, data, measured))
     return rows
 
@@ -246,6 +249,17 @@ def format_number(value: float | None) -> str:
         return f"{value:.4g}" if abs(value) < 999.95 else f"{value:,.0f}".replace(",", "\u202f")
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{mantissa}e{int(exponent)}"
+
+
+def as_in_tables(note: str) -> str:
+    """Return a note whose long numbers are written as tables write them, so that the two can be compared.
+
+    Examples
+    --------
+    >>> as_in_tables("The energy, -39102.7, exceeds that of 25075 vertices by 0.5.").replace("\u202f", "_")
+    'The energy, -39_103, exceeds that of 25_075 vertices by 0.5.'
+    """
+    return LONG.sub(lambda found: format_number(float(found[0])), note)
 
 
 def short_name(parameter: str) -> str:

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+import surfexp.records.table
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.contract.metric import Metric, find_metric
 from surfexp.figures.figure import whole
-from surfexp.lab.plan.outcome import event_path
+from surfexp.lab.plan.outcome import Outcome, event_path
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row, comparisons, format_number, number_notes, rows_of
+from surfexp.records.table import Comparison, Row, as_in_tables, comparisons, format_number, number_notes, rows_of
 from surfexp.report import page
 from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report
@@ -99,6 +100,12 @@ def test_rows_on_another_image_or_surface_have_other_data(tmp_path: Path) -> Non
     by_seed = {row.parameters["image.seed"]: row.data for row in rows}
     assert len({row.data for row in rows}) == len(set(by_seed.values())) == 2
     assert all(row.data == by_seed[row.parameters["image.seed"]] and len(row.data) == 2 for row in rows)
+
+
+def test_notes_of_rows_have_the_numbers_of_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_of(sweep(2), tmp_path)
+    monkeypatch.setattr(surfexp.records.table, "outcome", lambda *_: Outcome(notes=("The energy is -39102.7.",)))
+    assert rows_of(plan, tmp_path)[0].notes == ["The energy is -39\u202f103."]
 
 
 def test_a_long_table_is_an_excerpt_that_says_so_and_nothing_is_lost(
@@ -199,6 +206,19 @@ def test_thousands_are_apart_in_every_number() -> None:
     shown = [format_number(value) for value in (999.94, 1203.4, 8417.0, 8416.7, -45437.2, 10437, 999.96)]
     assert shown == ["999.9", "1\u202f203", "8\u202f417", "8\u202f417", "-45\u202f437", "10\u202f437", "1\u202f000"]
     assert whole(8416.7) == shown[3]
+
+
+@pytest.mark.parametrize(
+    "note, written",
+    [
+        ("The energy of the field, -39102.7, exceeds that.", "The energy of the field, -39_103, exceeds that."),
+        ("It has 25075 vertices (of 160000), 0.125 mm apart.", "It has 25_075 vertices (of 160_000), 0.125 mm apart."),
+        ("As Okabe and Ito (2008), 8417.3.", "As Okabe and Ito (2008), 8_417."),
+        ("seed 1234567890, v2.10.34567, a-12345, 12345e-3", "seed 1234567890, v2.10.34567, a-12345, 12345e-3"),
+    ],
+)
+def test_numbers_of_notes_are_written_as_those_of_tables(note: str, written: str) -> None:
+    assert as_in_tables(note) == written.replace("_", "\u202f")
 
 
 def test_gaps_of_different_problems_have_no_best() -> None:
