@@ -16,16 +16,15 @@ from audits.benchmarks.line import Line
 from audits.benchmarks.record import Record, load, save
 from audits.benchmarks.table import conditions, describe, page, section_of
 from surfexp.figures.convergence_plot import convergence_plot
-from surfexp.figures.encode import encode_png
 from surfexp.figures.figure import Figure
 from surfexp.reproduction.stamp import state_of_code
 
 PAGE = ROOT / "BENCHMARKS.md"
-PICTURE = ROOT / "docs" / "gap_against_time.png"
-# heading of a section, the figure of its lines that have points, and its horizontal axis
+PICTURE = ROOT / "docs" / "gap_against_time.svg"
+# heading of a section, the figure of its lines that have points, and its axes
 FIGURES = {
-    "Growth": (ROOT / "docs" / "seconds_against_vertices.png", "vertices"),
-    "What a user waits for": (ROOT / "docs" / "seconds_against_stages.png", "stages"),
+    "Growth": (ROOT / "docs" / "seconds_against_vertices.svg", "vertices", "seconds of processor"),
+    "What a user waits for": (ROOT / "docs" / "seconds_against_stages.svg", "stages", "seconds by the clock"),
 }
 
 SECTIONS = {
@@ -94,19 +93,19 @@ def _write_page(names: list[str]) -> None:
         print(f"{PAGE.name} is as it was: it has no section {', '.join(unknown)}")
         return
     if sections["Variational image processing"]:
-        PICTURE.write_bytes(encode_png(gap_curves().pixels))
-    for heading, (file, axis) in FIGURES.items():
+        PICTURE.write_text(gap_curves().svg, encoding="utf-8")
+    for heading, (file, axis, cost) in FIGURES.items():
         found = [line for record in sections[heading].values() for line in record.lines if line.points]
         if found:
-            file.write_bytes(encode_png(growth_plot(found, axis).pixels))
+            file.write_text(growth_plot(found, axis, cost).svg, encoding="utf-8")
     PAGE.write_text(page(sections, earlier), encoding="utf-8")
 
 
-def growth_plot(lines: Sequence[Line], axis: str) -> Figure:
+def growth_plot(lines: Sequence[Line], axis: str, cost: str) -> Figure:
     """Draw how the seconds of lines grow."""
     columns = {line.curve: np.array(line.points).T for line in lines}
     curves = {name: (sizes, seconds) for name, (sizes, seconds) in columns.items()}
-    return convergence_plot(curves, x_label=axis, y_label="seconds", title=f"Seconds against {axis}")
+    return convergence_plot(curves, x_label=axis, y_label=cost, title=f"Seconds against {axis}")
 
 
 if __name__ == "__main__":

@@ -77,11 +77,11 @@ def page(sections: Mapping[str, Mapping[str, Record]], earlier: str = "") -> str
         parts.append("\n".join(detail for line in lines if (detail := _detail(line))) + "\n")
     parts.append(
         "## Seconds against size\n\n"
-        "![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.png)\n"
-        "\n![Wall seconds of whole runs against their stages](docs/seconds_against_stages.png)\n"
+        "![Processor seconds of the kernels against vertices](docs/seconds_against_vertices.svg)\n"
+        "\n![Wall seconds of whole runs against their stages](docs/seconds_against_stages.svg)\n"
     )
     parts.append(
-        "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.png)\n"
+        "## Gap against time\n\n![Certified relative gap of ROF against processor seconds](docs/gap_against_time.svg)\n"
     )
     kept = (
         "Ratios hold, seconds vary with the machine and the hour. Compilation is that of the "
