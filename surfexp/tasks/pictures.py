@@ -23,6 +23,8 @@ from surfexp.tasks.shown import shown_surfaces
 
 # columns of a map seen from one side
 ABREAST = 3
+# surfaces in a row
+LONGEST_ROW = 6
 # pixels
 NARROWEST, WIDEST = 200, 20_000
 SUFFIXES = (".png", ".svg", ".pdf")
@@ -95,7 +97,8 @@ def plot(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces); or a list of them
-        Several stand side by side, at one scale. So do the hemispheres of a surface that is both, in four pictures.
+        Several stand side by side, six in a row at most, at one scale. So do the hemispheres of a surface that is both, in
+        four pictures.
     values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend; labels of a file have those
         of its table (.annot, .label.gii, .dlabel.nii). A list has one for each of
@@ -158,6 +161,9 @@ def plot(
     if len(rows) > ABREAST and all(len(row) == 1 for row in rows) and columns_of(values):
         single = [row[0] for row in rows]
         rows = [single[k : k + ABREAST] for k in range(0, len(single), ABREAST)]
+    if len(rows) == 1 and len(rows[0]) > LONGEST_ROW:
+        per_row = -(-len(rows[0]) // -(-len(rows[0]) // LONGEST_ROW))
+        rows = [rows[0][k : k + per_row] for k in range(0, len(rows[0]), per_row)]
     return picture_of(rows, width)
 
 

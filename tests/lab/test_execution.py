@@ -8,7 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from numba import njit
 
 from surfexp.commands import execution, request
 from surfexp.contract.metric import Metric
@@ -300,3 +302,18 @@ def test_a_results_folder_whose_name_nobody_can_carry_is_refused_before_anything
     with pytest.raises(UserError, match="choose another name"):
         execution.run(plan)
     assert sorted(tmp_path.iterdir()) == before
+
+
+def test_a_stage_that_does_not_compile_says_so_in_a_sentence(
+    plan: Plan, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    @njit
+    def least(numbers: Any) -> Any:
+        return min(0.0, numbers)
+
+    monkeypatch.setattr(stage, "make", lambda *_: least(np.zeros(3)))
+    with pytest.raises(StageFailure):
+        run()
+    event = json.loads(event_path(tmp_path / "results", plan.stored[0].kind, plan.stored[0].key).read_text())
+    assert "does not compile for these inputs" in event["failure"] and "TypingError" in event["failure"]
+    assert len(event["failure"]) < 250 and "nopython" not in event["failure"]

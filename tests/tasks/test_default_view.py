@@ -115,6 +115,12 @@ def test_a_flat_thing_is_seen_from_above_and_an_open_one_from_outside() -> None:
         assert side * np.cos(np.radians(azimuth)) > 0.5
 
 
+@pytest.mark.parametrize("count, rows", [(4, [4]), (6, [6]), (7, [4, 3]), (10, [5, 5]), (13, [5, 5, 3])])
+def test_many_bodies_stand_in_rows_of_six_at_most(count: int, rows: list[int]) -> None:
+    views = sx.plot([Surface(ANIMAL)] * count, width=400).views
+    assert [len(row) for row in views] == rows
+
+
 def test_vertices_without_a_face_or_position_do_not_count() -> None:
     points = np.concatenate([LYING.vertices, [[0.0, -50.0, 0.0], [np.nan, 0.0, 0.0]]])
     assert upright(Surface(TriangleMesh(points, LYING.faces))) is Y_UP

@@ -64,7 +64,7 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
         )  # the first fills caches, and one clock of a short call is chance
         store.save(results, node.kind, key, result)
     except Exception as error:
-        failure = f"{node.kind}/{node.plugin}: {' '.join(str(error).split()) or type(error).__name__}"
+        failure = f"{node.kind}/{node.plugin}: {told(error)}"
         if os.environ.get("SURFEXP_DEBUG"):
             traceback.print_exc()
         print(failure, file=sys.stderr)
@@ -75,6 +75,23 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     event["peak_memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0
+
+
+def told(error: Exception) -> str:
+    """Return what a person is told of an error, on one line; of numba's, which are about its own types, what they come to.
+
+    Examples
+    --------
+    >>> told(ValueError("weight is -1,\\n  choose a positive one")), told(KeyError())
+    ('weight is -1, choose a positive one', 'KeyError')
+    """
+    kind = type(error)
+    if kind.__module__.partition(".")[0] == "numba":
+        return (
+            "it does not compile for these inputs, as for a map of several channels where one value a vertex is needed "
+            f"(numba's {kind.__name__}, which SURFEXP_DEBUG=1 shows)"
+        )
+    return " ".join(str(error).split()) or kind.__name__
 
 
 def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
