@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import base64
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 from browser import PROGRAM, Browser, browser
 from turning_page import turning_page
@@ -47,6 +49,23 @@ def test_its_pictures_are_on_paper(one_browser: Browser, alone: Path, tmp_path: 
     (tmp_path / "page.pdf").write_bytes(base64.b64decode(paper))
     found = subprocess.run(["pdfimages", "-list", tmp_path / "page.pdf"], capture_output=True, text=True, check=True)
     assert found.stdout.count(" image ") >= one_browser.run("document.images.length")
+
+
+@needs_browser
+@pytest.mark.skipif(shutil.which("pdfimages") is None, reason="needs pdfimages")
+def test_a_picture_and_its_caption_are_on_one_sheet(one_browser: Browser, alone: Path, tmp_path: Path) -> None:
+    square = f"data:image/png;base64,{base64.b64encode(encode_png(np.zeros((1000, 1000, 3), np.uint8))).decode()}"
+    figures = "".join(f'<figure><img src="{square}"><figcaption>caption{k}</figcaption></figure>' for k in range(7))
+    text = re.sub("<figure.*</figure>", figures, alone.read_text(encoding="utf-8"), flags=re.DOTALL)
+    (tmp_path / "report.html").write_text(text, encoding="utf-8")
+    one_browser.open(tmp_path / "report.html", 1400)
+    paper = tmp_path / "page.pdf"
+    paper.write_bytes(base64.b64decode(one_browser.call("Page.printToPDF", preferCSSPageSize=True)["data"]))
+    listed = subprocess.run(["pdfimages", "-list", paper], capture_output=True, text=True, check=True).stdout
+    words = subprocess.run(["pdftotext", paper, "-"], capture_output=True, text=True, check=True).stdout
+    pictures = [int(line.split()[0]) for line in listed.splitlines() if " image " in line]
+    captions = [k for k, sheet in enumerate(words.split("\f"), 1) for _ in re.findall(r"caption\d", sheet)]
+    assert len(captions) == 7 and sorted(pictures) == captions and len({*captions}) <= 4
 
 
 @needs_browser
