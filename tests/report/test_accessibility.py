@@ -11,6 +11,7 @@ import pytest
 from browser import PROGRAM, Browser, browser
 from turning_page import turning_page
 
+import surfexp as sx
 from surfexp.report.overview import write_overview
 
 RULES = importlib.util.find_spec("axe_core_python")
@@ -54,6 +55,32 @@ def test_the_overview(one_browser: Browser, report: Path, width: int, dark: bool
     write_overview(report.parent.parent)
     one_browser.open(report.parent.parent / "index.html", width, 900, dark)
     assert violations(one_browser) == []
+
+
+@pytest.mark.parametrize(("width", "dark"), WINDOWS)
+def test_a_view(one_browser: Browser, tmp_path: Path, width: int, dark: bool) -> None:
+    ball = sx.shape("icosphere", levels=2)
+    height = ball.mesh.vertices[:, 2]
+    page = tmp_path / "view.html"
+    sx.view(ball, {"height": height, "side": (height > 0).astype(int)}, title="a ball").save(page)
+    one_browser.open(page, width, 900, dark)
+    one_browser.wait("turning[0].panels.length === 2 && !waiting.size && !moving.size && !turning[0].button.disabled")
+    assert violations(one_browser) == []
+    assert one_browser.run("document.documentElement.scrollWidth <= innerWidth")
+    for _ in range(20):
+        press(one_browser, "Tab")
+        if one_browser.run("document.activeElement.textContent") == "left":
+            break
+    press(one_browser, "Enter")
+    assert one_browser.run("[turning[0].view.azimuth, turning[0].view.elevation].join()") == "180,0"
+
+
+def press(tab: Browser, key: str) -> None:
+    """Press a key as a person does who has no mouse."""
+    text = {"text": "\r"} if key == "Enter" else {}
+    code = {"Tab": 9, "Enter": 13}[key]
+    for kind in ("keyDown", "keyUp"):
+        tab.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, **text)
 
 
 def test_a_page_with_a_fault_is_seen(one_browser: Browser, report: Path, tmp_path: Path) -> None:
