@@ -39,7 +39,7 @@ def ui(runs: tuple[str, ...], port: int, results: Path) -> int:
     client = MlflowClient(tracking_uri(results))
     places = [_place(client, name, results) for name in runs]
     if len(places) == 1:
-        page = "experiments/{}/runs/{}".format(*places[0])
+        page = "experiments/{}/runs/{}?workflowType=machine_learning".format(*places[0])
     elif places:
         page = _compared(client, places)
     else:

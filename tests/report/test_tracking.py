@@ -15,8 +15,10 @@ from typing import Any
 
 import pytest
 import sqlalchemy
+from click.testing import CliRunner
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
+from surfexp.commands import ui
 from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
@@ -377,3 +379,15 @@ def test_views_are_tags_of_the_experiment_and_are_written_once(results: Path) ->
     with statements() as again:
         recording.attach(results / "views", {"mlflow.sharedViewState.surfexp": "{}"})
     assert not again
+
+
+def test_every_address_of_the_dashboard_opens_the_pages_of_experiments(
+    results: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = recorded(finished(2, results), results)
+    names = [run.info.run_id[:8] for leaf, run in found.items() if leaf != "plan"]
+    monkeypatch.setattr(ui, "served", lambda *_: 0)
+    monkeypatch.setattr(ui, "_check_free", lambda _: None)
+    for given in ([], names[:1], names[:2]):
+        said = CliRunner().invoke(ui.ui, [*given, "--results", str(results)]).output
+        assert "#/experiments/" in said and "workflowType=machine_learning" in said, said
