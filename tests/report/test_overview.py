@@ -81,5 +81,13 @@ def test_a_report_adds_its_experiment_and_says_how_it_was_made(tmp_path: Path) -
     assert (
         "surfexp run experiment=synthetic &#39;grid.x=[1, 2]&#39;" in second and read_origin(folder)["commit"] in second
     )
+    for commit, said in (
+        ("0123abcd", "surfexp 1.2.3 at commit 0123abcd, Python"),
+        ("release 1.2.3", "surfexp release 1.2.3, Python"),
+    ):
+        origin = read_origin(folder) | {"version": "1.2.3", "commit": commit}
+        (folder / "origin.json").write_text(json.dumps(origin))
+        third = (write_report(plan, tmp_path) / "report.html").read_text()
+        assert said in third and "working folder" not in third
     (folder / "origin.json").write_text("[]")
     assert "Last computed" not in (write_report(plan, tmp_path) / "report.html").read_text()
