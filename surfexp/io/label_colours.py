@@ -1,49 +1,18 @@
-"""Labels with the colours that their file gives them, as atlases are known by."""
+"""Labels with the colours that their file gives them, read and written."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from surfexp.io.cifti import is_cifti
 from surfexp.io.foreign import parsing
-from surfexp.io.label_files import label_colors
+from surfexp.io.label_files import label_colors, write_label_map
 from surfexp.io.map_files import read_named_labels
+from surfexp.io.replacing import replacing
+from surfexp.mesh.coloured_labels import Colour, ColouredLabels
 from surfexp.mesh.label_map import LabelMap
-
-# red, green and blue in 0..1
-Colour = tuple[float, float, float]
-
-
-@dataclass(frozen=True, eq=False)
-class ColouredLabels(LabelMap):
-    """One label a vertex, with a colour for labels that have one.
-
-    Parameters
-    ----------
-    keys : (n,) or (n, 1) int64
-    names : dict of int to str
-        Both as in `LabelMap`.
-    colors : dict of int to (float, float, float)
-        Red, green and blue in 0..1 by label; of one that it lacks no colour is known.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> table = ColouredLabels(np.array([4, 4, 7]), {4: "insula", 7: "cuneus"}, {4: (1.0, 0.75, 0.125)})
-    >>> table.by_name
-    {'insula': (1.0, 0.75, 0.125)}
-    """
-
-    colors: Mapping[int, Colour] = field(default_factory=dict)
-
-    @property
-    def by_name(self) -> dict[str, Colour]:
-        """The colours by the names of their labels."""
-        return {self.names[key]: color for key, color in self.colors.items() if key in self.names}
 
 
 def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabels:
@@ -76,24 +45,26 @@ def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabe
     return ColouredLabels(found.keys, found.names, colors if says else {})
 
 
-def coloured_as(table: LabelMap, *files: LabelMap) -> LabelMap:
-    """Return labels in the colours that other labels have under the same names; of two the first counts.
+def write_coloured_labels(path: Path | str, table: LabelMap, hemisphere: str = "") -> None:
+    """Write labels as `write_label_map` does, in their own colours where they have some.
+
+    An annotation knows a label by its colour: black, and a colour of another label, are left out of it.
 
     Parameters
     ----------
+    path : path
     table : LabelMap
-    *files : LabelMap
+    hemisphere : {"", "left", "right"}
 
-    Returns
-    -------
-    LabelMap
-        With `colors`, where one of the others has them.
+    Raises
+    ------
+    ValueError
+        As `write_label_map`.
     """
-    known: dict[str, Colour] = {}
-    for file in reversed(files):
-        known |= file.by_name if isinstance(file, ColouredLabels) else {}
-    colors = {key: known[name] for key, name in table.names.items() if name in known}
-    return ColouredLabels(table.keys, table.names, colors) if colors else table
+    write_label_map(path, table, hemisphere)
+    if isinstance(table, ColouredLabels) and table.colors:
+        with replacing(Path(path)) as temporary:
+            _recolour(Path(path), temporary, table)
 
 
 def _table(path: Path) -> dict[int, Colour]:
@@ -113,6 +84,27 @@ def _table(path: Path) -> dict[int, Colour]:
     # some programs write bytes where the formats ask for shares
     whole = 255.0 if any(max(rgba[:3]) > 1.0 for rgba in known.values()) else 1.0
     return {key: _colour([channel / whole for channel in rgba[:3]]) for key, rgba in known.items()}
+
+
+def _recolour(written: Path, target: Path, table: ColouredLabels) -> None:
+    """Write a file of labels once more, in the colours of a table."""
+    import nibabel
+
+    if written.suffix != ".annot":
+        image = nibabel.load(written)
+        for entry in image.labeltable.labels:
+            if entry.key in table.colors:
+                entry.red, entry.green, entry.blue = table.colors[entry.key]
+        nibabel.save(image, target)
+        return
+    places, rows, names = nibabel.freesurfer.read_annot(written)
+    used = {tuple(row) for row in rows[:, :3].tolist()} | {(0, 0, 0)}
+    for row, key in zip(rows, table.names, strict=True):
+        color = tuple(round(255.0 * channel) for channel in table.colors.get(key, (0.0, 0.0, 0.0)))
+        if color not in used:
+            used = (used - {tuple(row[:3].tolist())}) | {color}
+            row[:3] = color
+    nibabel.freesurfer.write_annot(target, places, rows[:, :4], names, fill_ctab=True)
 
 
 def _colour(channels: list[float]) -> Colour:

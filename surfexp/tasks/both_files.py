@@ -11,9 +11,10 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.hemisphere import check_given_side, common_name, holds_both
-from surfexp.io.label_colours import coloured_as, read_coloured_labels
+from surfexp.io.label_colours import read_coloured_labels
 from surfexp.io.map_files import name_of_map, read_maps
 from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
+from surfexp.mesh.coloured_labels import coloured_as
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.tasks.surface_file import PathLike, read_surface

@@ -21,9 +21,10 @@ from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
 from surfexp.io.hemisphere import check_same_side
-from surfexp.io.label_colours import ColouredLabels, read_coloured_labels
+from surfexp.io.label_colours import read_coloured_labels
 from surfexp.io.map_files import LABEL_FILES
 from surfexp.mesh.both_hemispheres import vertices_of
+from surfexp.mesh.coloured_labels import ColouredLabels
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import length_scale

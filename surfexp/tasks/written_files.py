@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.hemisphere import check_named_side, files_of_sides, hemisphere_of_name, holds_both, holds_hemisphere
-from surfexp.io.label_files import write_label_map
+from surfexp.io.label_colours import write_coloured_labels
 from surfexp.io.map_files import check_map_target, write_maps
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
@@ -101,7 +101,7 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
     if table is not None and (target.name.endswith(LABEL_SUFFIXES) or isinstance(what, LabelMap)):
         _check_rows(len(table.keys), surface, "labels")
-        write_label_map(target, replace(table, keys=_on_file(table.keys, surface)), side)
+        write_coloured_labels(target, replace(table, keys=_on_file(table.keys, surface)), side)
         return unsaid
     if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
         check_named_side(target, side)

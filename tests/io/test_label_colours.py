@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import surfexp as sx
-from surfexp.io.label_colours import ColouredLabels, coloured_as, read_coloured_labels
+from surfexp.io.label_colours import read_coloured_labels
+from surfexp.mesh.coloured_labels import ColouredLabels, coloured_as
 from surfexp.mesh.label_map import LabelMap
 
 nibabel = pytest.importorskip("nibabel")
@@ -110,3 +111,27 @@ def test_a_label_without_a_colour_takes_a_made_one() -> None:
         "insula": (1.0, 0.0, 0.0),
         "precuneus": (0.1, 0.2, 0.3),
     }
+
+
+@pytest.mark.parametrize("name", ["lh.again.annot", "lh.again.label.gii"])
+def test_colours_are_written_again(tmp_path: Path, name: str) -> None:
+    _annot(tmp_path / "lh.parts.annot", BYTES)
+    table = read_coloured_labels(tmp_path / "lh.parts.annot")
+    none = ColouredLabels(np.where(KEYS == 1, -1, KEYS), table.names, table.colors)
+    sx.write(tmp_path / name, none, BALL)
+    again = read_coloured_labels(tmp_path / name)
+    assert np.array_equal(again.keys, none.keys) and again.names == table.names
+    assert sorted(again.colors) == [0, 1, 2]
+    for key, color in table.colors.items():
+        np.testing.assert_allclose(again.colors[key], color, atol=1e-6)
+
+
+def test_black_and_a_colour_of_another_label_do_not_join_labels_of_an_annotation(tmp_path: Path) -> None:
+    red, black = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    keys = np.where(np.arange(N) % 5, KEYS, -1)
+    table = ColouredLabels(keys, {0: "a", 1: "b", 2: "c"}, {0: red, 1: red, 2: black})
+    for name in ("lh.alike.annot", "lh.alike.label.gii"):
+        sx.write(tmp_path / name, table, BALL)
+        again = read_coloured_labels(tmp_path / name)
+        assert np.array_equal(again.keys, keys) and again.colors[0] == red
+    assert again.colors == table.colors
