@@ -70,6 +70,7 @@ reproduction: .venv/ready
 			case $$? in 3) ;; 1) failed="$$failed $$name" ;; *) exit 2 ;; esac; \
 	done && \
 	$(BIN)/surfexp report --claims $$beside --preface docs/_static/new_in_the_field.md --pages docs --results $$results $$names && \
+	{ $(BIN)/python -m audits.page_numbers $$results || echo "these numbers of docs are in no result of their experiments"; } && \
 	if [ -n "$$failed" ]; then echo "failed:$$failed"; exit 1; fi
 
 # Only experiments of which a stage's key or a claim has changed; the other sections of the page are still true.
