@@ -10,6 +10,7 @@ import click
 
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
+from surfexp.commands.given_maps import both_of
 from surfexp.commands.surface_arguments import NOT_CERTIFIED
 from surfexp.commands.terminal import echo
 
@@ -25,7 +26,7 @@ SPOKEN_EVERY = 30.0
 def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: bool, target: Path) -> int:
     """Write area, volume and lowest eigenvalues of many surfaces as a table.
 
-    SOURCES are files, a folder, a SUBJECTS_DIR or BIDS derivatives.
+    SOURCES are files, LEFT+RIGHT, a folder, a SUBJECTS_DIR or BIDS derivatives. Each hemisphere has a column of its own.
 
     Of FreeSurfer subjects surf/?h.white, surf/?h.pial and the structures of mri/aseg.mgz are taken.
 
@@ -40,12 +41,13 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
         raise ValueError(f"{target} has an unknown format, choose .csv")
     check_writable(target)
     count = whole_number(count, "count", 1)
-    known = structures(list(sources))
+    given = [file for source in sources for file in _files(source)]
+    known = structures(given)
     # hashed before they are read, each once
     files = Inputs(*(source if isinstance(source, Path) else source.file for source in known.values()))
     files.refuse_to_overwrite(target)
     started = time.monotonic()
-    table = task(list(sources), count, repair=not strict, tolerance=tolerance, progress=_Clock())
+    table = task(given, count, repair=not strict, tolerance=tolerance, progress=_Clock())
     if sys.stderr.isatty():
         echo("\r\x1b[K", nl=False, err=True)
     for note in table.notes:
@@ -68,6 +70,12 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     said = f"{len(table.columns)} structures, {len(table.refused)} left out, residual {facts['residual']:.1e}"
     echo(f"{target}: {said} (certificate: {proof.name})")
     return 0 if facts["complete"] else NOT_CERTIFIED
+
+
+def _files(source: str) -> list[str]:
+    """LEFT+RIGHT as two files, anything else as it is."""
+    both = source if Path(source).exists() else both_of(source)
+    return [both] if isinstance(both, str) else list(both.values())
 
 
 class _Clock:

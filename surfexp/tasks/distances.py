@@ -242,7 +242,7 @@ def embedded_pairs(
     """Return the same with the eigenpairs behind it."""
     owner = as_surface(given)
     part = part_for(owner)
-    require_connected(part, "spectral distances")
+    require_connected(part, "spectral distances", both=owner.right is not None)
     n = whole_number(n, name, 1, len(part.vertices) - 1 - more) + more
     _, system = lowest_pairs(Surface(part.mesh, owner.name, owner.unit), n + 1)
     return spectral_embedding(system, part.mesh.vertex_areas, n, weighting), system, part

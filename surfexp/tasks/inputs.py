@@ -214,7 +214,7 @@ def as_single_map(surface: Surface, given: MapLike) -> Floats:
     return values.reshape(-1)
 
 
-def require_connected(part: SurfacePart, what: str) -> None:
+def require_connected(part: SurfacePart, what: str, both: bool = False) -> None:
     """Refuse a part of several pieces, naming the smallest.
 
     Parameters
@@ -222,6 +222,8 @@ def require_connected(part: SurfacePart, what: str) -> None:
     part : SurfacePart
     what : str
         What needs one piece, in the plural.
+    both : bool
+        Whether the surface is both hemispheres, so that each of them is what to take.
 
     Raises
     ------
@@ -233,6 +235,11 @@ def require_connected(part: SurfacePart, what: str) -> None:
     if len(sizes) > 1:
         smallest = int(np.argmin(sizes))
         first = int(part.vertices[np.argmax(labels == smallest)])
+        if both:
+            raise ValueError(
+                f"the surface is both hemispheres, {what} need one: give the file of one side, or "
+                "surface.hemispheres()['left']"
+            )
         raise ValueError(
             f"the surface has {len(sizes)} pieces inside its mask, {what} need one: the smallest has {sizes[smallest]} "
             f"vertices, vertex {first} among them; take the largest: a mask of it, or surfexp repair FILE --largest-component"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.commands.command_line import main
 from surfexp.io.label_files import read_label_map
 from surfexp.io.map_files import read_maps
 from surfexp.mesh.both_hemispheres import joined, joined_labels
@@ -366,3 +368,20 @@ def test_the_average_cortex_comes_with_both() -> None:
 def test_a_list_of_files_is_refused_with_the_way_for_both() -> None:
     with pytest.raises(ValueError, match="path is a list, one file is needed; both hemispheres are left= and right="):
         sx.read(["lh.white", "rh.white"])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("task", [sx.distance, sx.align])
+def test_spectral_distances_of_both_are_refused_with_the_way_for_one(task: Callable[..., object]) -> None:
+    with pytest.raises(ValueError, match=r"both hemispheres, .* need one: .* surface.hemispheres\(\)\['left'\]"):
+        task(BRAIN, BRAIN, 3)
+    right = BRAIN.hemispheres()["right"]
+    task(right, right, 3)
+
+
+def test_fingerprints_of_both_are_a_column_for_each_side(working_folder: Path) -> None:
+    for side, name in (("left", "lh.ply"), ("right", "rh.ply")):
+        sx.write(name, SIDES[side])
+    assert main(["fingerprint", "lh.ply+rh.ply", "-k", "4", "--to", "both.csv"]) == 0
+    assert main(["fingerprint", "lh.ply", "rh.ply", "-k", "4", "--to", "apart.csv"]) == 0
+    assert Path("both.csv").read_text() == Path("apart.csv").read_text()
+    assert "lh" in Path("both.csv").read_text() and main(["fingerprint", "lh.ply+no.ply", "--to", "c.csv"]) == 2
