@@ -48,7 +48,8 @@ def upright(surface: Surface) -> Floats:
     """
     if surface.frame is not None and (surface.frame.volume or surface.frame.metadata or surface.frame.transforms):
         return Z_UP
-    points, centre = visible_points(surface.mesh), _centre(surface.mesh)
+    mesh = _finite(surface.mesh)
+    points, centre = visible_points(mesh), _centre(mesh)
     along_y, along_z = (_footing(points @ turn.T, turn @ centre) for turn in (Y_UP, Z_UP))
     return Y_UP if along_y > BETTER * along_z else Z_UP
 
@@ -84,7 +85,7 @@ def projected_areas(mesh: TriangleMesh, view: tuple[float, float]) -> tuple[floa
     Both are the area of the shadow of a convex body.
     """
     heights = 0.5 * (mesh.face_cross_products @ view_axes(*view)[2])
-    return float(np.nansum(np.maximum(heights, 0.0))), float(np.nansum(np.maximum(-heights, 0.0)))
+    return float(np.maximum(heights, 0.0).sum()), float(np.maximum(-heights, 0.0).sum())
 
 
 def standing(rows: Sequence[Sequence[SurfaceView]], surface: Surface) -> list[list[SurfaceView]]:
@@ -102,13 +103,21 @@ def standing(rows: Sequence[Sequence[SurfaceView]], surface: Surface) -> list[li
     """
     rotation = upright(surface)
     turned = [[_turned(one, rotation) for one in row] for row in rows]
-    view = fullest_view(turned[0][0].mesh)
+    view = fullest_view(_finite(turned[0][0].mesh))
     return [[replace(one, view=view) for one in row] for row in turned]
+
+
+def _finite(mesh: TriangleMesh) -> TriangleMesh:
+    """The faces whose corners are all somewhere; a picture leaves out the others."""
+    known = np.asarray(np.isfinite(mesh.vertices).all(axis=1))
+    if known.all():
+        return mesh
+    return TriangleMesh(np.where(known[:, None], mesh.vertices, 0.0), mesh.faces[known[mesh.faces].all(axis=1)])
 
 
 def _centre(mesh: TriangleMesh) -> Floats:
     weighted = mesh.areas[:, None] * mesh.vertices[mesh.faces].mean(axis=1)
-    return np.asarray(np.nansum(weighted, axis=0) / max(np.nansum(mesh.areas), 1e-300))
+    return np.asarray(weighted.sum(axis=0) / max(mesh.areas.sum(), 1e-300))
 
 
 def _footing(points: Floats, centre: Floats) -> float:
@@ -133,4 +142,5 @@ def _turned(shown: SurfaceView, rotation: Floats) -> SurfaceView:
     lines = tuple(
         replace(line, points=line.points @ rotation.T) if isinstance(line, Lines) else line for line in shown.contours
     )
-    return replace(shown, mesh=TriangleMesh(shown.mesh.vertices @ rotation.T, shown.mesh.faces), contours=lines)
+    vertices = np.where(np.isfinite(shown.mesh.vertices), shown.mesh.vertices, np.nan)
+    return replace(shown, mesh=TriangleMesh(vertices @ rotation.T, shown.mesh.faces), contours=lines)

@@ -7,10 +7,11 @@ import pytest
 
 import surfexp as sx
 from surfexp.figures.lines import Lines
+from surfexp.figures.render import SurfaceView
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.tasks.default_view import HIGH, LOW, Y_UP, Z_UP, fullest_view, projected_areas, upright
+from surfexp.tasks.default_view import HIGH, LOW, Y_UP, Z_UP, fullest_view, projected_areas, standing, upright
 
 CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
 # corners of each side, and two triangles of each
@@ -125,3 +126,15 @@ def test_vertices_without_a_face_or_position_do_not_count() -> None:
     points = np.concatenate([LYING.vertices, [[0.0, -50.0, 0.0], [np.nan, 0.0, 0.0]]])
     assert upright(Surface(TriangleMesh(points, LYING.faces))) is Y_UP
     assert upright(Surface(TriangleMesh(np.zeros((0, 3)), np.zeros((0, 3), int)))) is Z_UP
+
+
+@pytest.mark.parametrize("nowhere", [np.nan, np.inf])
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_a_vertex_that_is_nowhere_does_not_turn_a_body(nowhere: float) -> None:
+    far = np.vstack([LYING.vertices, [[nowhere, 0.0, 1.0]]])
+    holed = TriangleMesh(far, np.vstack([LYING.faces, [[0, 1, len(far) - 1]]]))
+    assert upright(Surface(holed)) is Y_UP
+    shown = standing([[SurfaceView(holed)]], Surface(holed))[0][0]
+    whole = standing([[SurfaceView(LYING)]], Surface(LYING))[0][0]
+    assert shown.view == whole.view
+    np.testing.assert_array_equal(shown.mesh.vertices[:-1], whole.mesh.vertices)
