@@ -7,15 +7,14 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 import surfexp as sx
 from audits.benchmarks.noisy_maps import NOISES, NoisyMap, half_cortex, smooth_field, with_noise
 from surfexp.anatomy.subcortical import subcortical_surface
-from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.operators.fem import fem
+from surfexp.smoothing.noisy_phases import two_means
 from surfexp.variational.truth_metrics import dice
 
 SHARES = (0.5, 0.1, 0.02)
@@ -49,23 +48,6 @@ def scores(clean: NoisyMap, noise: str, seed: int) -> dict[str, float]:
         "two means of the denoised map": two_means(sx.denoise(clean.surface, rough).values, clean.operator.mass),
     }
     return {rule: dice(clean.operator.mass, region, truth) for rule, region in regions.items()}
-
-
-def two_means(values: Floats, weights: Floats) -> NDArray[np.bool_]:
-    """Return which values are nearer to the larger of two means, from the least and the largest value on."""
-    low, high = float(values.min()), float(values.max())
-    for _ in range(100):
-        brighter = values > 0.5 * (low + high)
-        if not 0 < brighter.sum() < len(values):
-            break
-        means = (
-            np.average(values[~brighter], weights=weights[~brighter]),
-            np.average(values[brighter], weights=weights[brighter]),
-        )
-        if means == (low, high):
-            break
-        low, high = (float(mean) for mean in means)
-    return values > 0.5 * (low + high)
 
 
 def judging_surfaces() -> Iterator[tuple[str, Surface]]:
