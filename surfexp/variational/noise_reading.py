@@ -128,10 +128,10 @@ def _fitted(statistics: NoiseStatistics, values: Floats, free: np.ndarray, noise
 
 
 def _step(values: Floats, tied: float) -> float:
-    """Of a rounded map: many pairs are tied, and the distinct values are few beside the others."""
+    """Of a rounded map: many pairs are tied, and most values that occur do so more than once, not zero alone."""
     if tied < TIED:
         return 0.0
-    distinct = np.unique(values)
-    if 2 * len(distinct) > (1.0 - tied) * len(values):
+    distinct, counts = np.unique(values, return_counts=True)
+    if 2 * int((counts > 1).sum()) < len(distinct):
         return 0.0
     return float(np.median(np.diff(distinct)))

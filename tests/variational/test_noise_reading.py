@@ -71,3 +71,17 @@ def test_zeros_do_not_count_as_noise_of_zero() -> None:
     found = read_noise(OPERATOR, values)
     assert found.level == pytest.approx(0.1, rel=0.2) and "58 % of the surface" in found.notes[0]
     assert found.step == 0.0
+
+
+@pytest.mark.parametrize("share", [0.2, 0.6, 0.9])
+def test_many_zeros_are_no_rounding(share: float) -> None:
+    rng = np.random.default_rng(1)
+    values = np.where(rng.random(len(X)) < share, 0.0, SMOOTH + 0.3 * rng.standard_normal(len(X)))
+    found = read_noise(OPERATOR, values)
+    assert found.step == 0.0 and not any("rounded" in note for note in found.notes)
+
+
+def test_a_map_that_is_clipped_at_both_ends_is_not_rounded() -> None:
+    rough = SMOOTH + 0.3 * np.random.default_rng(2).standard_normal(len(X))
+    found = read_noise(OPERATOR, np.clip(rough, *np.quantile(rough, [0.35, 0.65])))
+    assert found.step == 0.0
