@@ -47,7 +47,7 @@ SECTIONS = {
     ),
     "Sparse factorisation": ("factorisation",),
     "Null models": ("nulls", "permutations"),
-    "Skeletons": ("skeleton",),
+    "Skeletons": ("skeleton", "vessels"),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),
     "What a user waits for": ("whole_calls", "waiting", "commands", "cohort"),

@@ -24,6 +24,8 @@ PACKAGES = (
     "lapy",
     "scikit-sparse",
     "potpourri3d",
+    "skeletor",
+    "kimimaro",
     "vtk",
 )
 HEAD = """# Benchmarks
