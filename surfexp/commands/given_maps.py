@@ -43,11 +43,17 @@ def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Flo
 
 
 def shown_map(surface: Surface, given: str | None, files: Inputs, side: str | None) -> Any:
-    """Return what a picture shows: labels as `shown_labels`, a map as `map_of`, or nothing."""
+    """Return what a picture shows: labels as `shown_labels`, maps by name where they have their own, a map, or nothing."""
+    from surfexp.io.map_files import side_by_side
+    from surfexp.tasks.inputs import MapsOfFile, have_own_names
+
     if not given:
         return None
     labels = shown_labels(surface, given, files, side)
-    return map_of(surface, given, files, side) if labels is None else labels
+    if labels is not None:
+        return labels
+    found = given_maps(surface, given, files, side)
+    return MapsOfFile(found) if have_own_names(found) else side_by_side(found, given)
 
 
 def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) -> LabelMap | None:

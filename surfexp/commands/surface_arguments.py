@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
@@ -66,9 +66,7 @@ def picture_options(command: Command) -> Command:
         looks = {name: given.pop(name) or None for name in ("views", "colormap", "limits", "contours", "borders")}
         if looks["views"]:
             looks["views"] = [name.strip() for name in looks["views"].split(",")]
-        from surfexp.io.quantity_of_file import quantity_named
-
-        looks["label"] = given.pop("label") or quantity_named(_shown_name(map_name or ""))
+        looks["label"] = given.pop("label") or ""
         return command(map_name=map_name, looks=looks, **given)
 
     decorated: Command = gathered
@@ -77,12 +75,16 @@ def picture_options(command: Command) -> Command:
     return decorated
 
 
-def _shown_name(given: str) -> str:
-    """The name of a file without its folder; of a pair what both names have in common."""
+def label_of_bar(values: Any, map_name: str | None) -> str:
+    """What the colour bar of a file's map is called: by its name without folder and format, or by that of each map in it."""
     from surfexp.io.hemisphere import common_name
+    from surfexp.io.quantity_of_file import quantity_named
 
-    pair = both_of(given)
-    return Path(pair).name if isinstance(pair, str) else common_name(*(Path(one).name for one in pair.values()))
+    if isinstance(values, Mapping) or not map_name:
+        return ""
+    pair = both_of(map_name)
+    name = Path(pair).name if isinstance(pair, str) else common_name(*(Path(one).name for one in pair.values()))
+    return quantity_named(name)
 
 
 def result_option(required: bool = True) -> Callable[[Command], Command]:

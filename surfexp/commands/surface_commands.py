@@ -13,6 +13,7 @@ from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of, shown_borders, shown_map
 from surfexp.commands.surface_arguments import (
     finish,
+    label_of_bar,
     opened,
     picture_options,
     progress_line,
@@ -273,6 +274,7 @@ def plot(
 
     surface, files = opened(path, **given)
     values = shown_map(surface, map_name, files, given["hemisphere"])
+    looks["label"] = looks["label"] or label_of_bar(values, map_name)
     looks["borders"] = shown_borders(surface, looks["borders"], files, given["hemisphere"])
     ready(target, files, check_picture_target)
     task(surface, values, width=width, **looks).save(target)

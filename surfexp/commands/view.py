@@ -10,7 +10,14 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import shown_borders, shown_map
-from surfexp.commands.surface_arguments import opened, picture_options, ready, result_option, surface_options
+from surfexp.commands.surface_arguments import (
+    label_of_bar,
+    opened,
+    picture_options,
+    ready,
+    result_option,
+    surface_options,
+)
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white", "lh.white lh.thickness --to thickness.html")
@@ -40,6 +47,7 @@ def view(
 
     surface, files = opened(path, **given)
     values = shown_map(surface, map_name, files, given["hemisphere"])
+    looks["label"] = looks["label"] or label_of_bar(values, map_name)
     looks["borders"] = shown_borders(surface, looks["borders"], files, given["hemisphere"])
     if target is not None:
         ready(target, files, check_view_target)

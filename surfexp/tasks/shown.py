@@ -48,6 +48,8 @@ FREESURFER = {
 }
 POWERS = {-1: "1/{}", 0: "", 1: "{}", 2: "{}²"}
 INSIDE = "inside the mask"
+# percentiles between which the colours of a map lie
+CENTRAL = (1.0, 99.0)
 Rows = list[list[SurfaceView]]
 
 
@@ -97,14 +99,13 @@ def shown_surfaces(
         maps, outlined = list(made.maps), [borders] * len(surfaces)
         if not in_one:
             maps, outlined = _maps_apart(surfaces, maps), _maps_apart(surfaces, outlined)
-        for owner, one, border in zip(shown, maps, outlined, strict=True):
+        bases = [_coloured(owner, one) for owner, one in zip(shown, maps, strict=True)]
+        ends = limits or made.limits or _whole_range([base.values for base in bases if base.is_scalar])
+        for owner, one, base, border in zip(shown, maps, bases, outlined, strict=True):
             called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
-            base = _coloured(owner, one)
             if base.is_scalar:
                 known = unit or (_unit(owner, made.quantity) if made.quantity else "")
-                base = replace(
-                    base, scale=_scale(base, owner, called, known, colormap or made.colormap, limits or made.limits)
-                )
+                base = replace(base, scale=_scale(base, owner, called, known, colormap or made.colormap, ends))
             drawn = _lines(owner, base, levels or made.levels, border, skeleton or made.skeleton)
             row += [
                 replace(base, view=_direction(view, owner), contours=drawn, title=_title(view, owner, shown))
@@ -217,6 +218,16 @@ def _scale(
     return ColorScale(called or name, unit or _unit(owner, name), colormap or _colormap_for(base.values), limits)
 
 
+def _whole_range(fields: Sequence[Floats | None]) -> tuple[float, float] | None:
+    """The least and the largest value of a map of which nearly all values are the same, as one of p-values."""
+    known = np.concatenate([np.empty(0), *(np.ravel(field) for field in fields if field is not None)])
+    known = known[np.isfinite(known)]
+    if not known.size or not known.min() < known.max():
+        return None
+    low, high = np.percentile(known, CENTRAL)
+    return None if low < high else (float(known.min()), float(known.max()))
+
+
 def _unit(owner: Surface, name: str) -> str:
     """The unit of a map of FreeSurfer's, where that of the surface is known."""
     _, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
@@ -271,5 +282,5 @@ def _title(view: View, owner: Surface, surfaces: Sequence[Surface]) -> str:
 def _colormap_for(field: Floats | None) -> str:
     if field is None or field.ndim > 1 or not np.isfinite(field).any():
         return "viridis"
-    low, high = np.nanpercentile(field, [1.0, 99.0])
+    low, high = np.nanpercentile(field, CENTRAL)
     return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"
