@@ -15,9 +15,9 @@ from surfexp.inference.permutation_inference import BATCH
 from surfexp.inference.rearrangements import Rearrangements, sign_flips, unchanged
 from surfexp.inference.vertex_graph import VertexGraph, vertex_graph
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.skeleton.geodesic_distance import geodesic_distance
 from surfexp.statistics.resampling import exact_interval
 from surfexp.statistics.statistic import Statistic
-from surfexp.tasks.skeletons import geodesic
 
 Flags = NDArray[np.bool_]
 LEVEL, BOOTSTRAPS, CENTRAL = 0.05, 2000, (2.5, 97.5)
@@ -146,7 +146,7 @@ def step_decisions(mesh: TriangleMesh, fields: Floats, effect: Effect) -> Statis
     rejected, hit, apart = [], [], []
     for data in np.split(fields.T, sets):
         middle = int(random.integers(len(mesh.vertices)))
-        disk = geodesic(mesh, middle) <= effect.radius
+        disk = geodesic_distance(mesh, np.array([middle])) <= effect.radius
         model = contrast_model(data + effect.height * disk, np.ones((effect.maps, 1)), np.ones(1))
         named = named_vertices(model, sign_flips(np.arange(effect.maps), effect.flips, random), graph)
         rejected.append(named.any(axis=1))

@@ -45,7 +45,7 @@ def map_of(surface: Surface, given: str, files: Inputs, side: str | None) -> Flo
 def shown_map(surface: Surface, given: str | None, files: Inputs, side: str | None) -> Any:
     """Return what a picture shows: labels as `shown_labels`, maps by name where they have their own, a map, or nothing."""
     from surfexp.io.map_files import side_by_side
-    from surfexp.tasks.inputs import MapsOfFile, have_own_names
+    from surfexp.tasks.maps_of_file import MapsOfFile, have_own_names
 
     if not given:
         return None

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.hemisphere import check_same_side
-from surfexp.io.map_files import LABEL_FILES, name_of_map, read_maps, read_scalars, side_by_side
+from surfexp.io.map_files import name_of_map, read_scalars, side_by_side
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.mesh.both_hemispheres import joined, of_both
 from surfexp.mesh.given_arrays import index_array, real_array
@@ -152,31 +151,6 @@ def as_map(surface: Surface, given: MapLike) -> Floats:
     if array.shape[:1] != (len(surface.mesh.vertices),) or array.ndim > 2:
         raise ValueError(f"map has shape {array.shape}, the surface has {len(surface.mesh.vertices)} vertices")
     return array.copy() if array is given else array
-
-
-class MapsOfFile(dict[str, Floats]):
-    """Maps of one file, or of one for each hemisphere, by the names that it gives them."""
-
-
-def maps_of_file(surface: Surface, given: Any) -> MapsOfFile:
-    """Return the maps of a file, or of one for each hemisphere, by name; none of anything else, and of labels."""
-    if not _is_of_files(given, surface) or str(given).lower().endswith(LABEL_FILES):
-        return MapsOfFile()
-    if surface.right is not None:
-        return MapsOfFile(maps_of_both(surface, given))
-    check_same_side("map", given, surface.hemisphere)
-    return MapsOfFile(read_maps(given, surface.hemisphere))
-
-
-def have_own_names(names: Iterable[str]) -> bool:
-    """Whether names of maps are those of different things, not of a series, which differ by numbers alone.
-
-    Examples
-    --------
-    >>> have_own_names(["t", "p_t"]), have_own_names(["frame 1", "frame 2"]), have_own_names(["thickness"])
-    (True, False, False)
-    """
-    return len({re.sub(r"\d+", "", name) for name in names}) > 1
 
 
 def _is_of_files(given: MapLike, surface: Surface) -> bool:

@@ -13,10 +13,11 @@ from surfexp.contract.drawable import Drawable
 from surfexp.io.hemisphere import common_name
 from surfexp.io.map_files import side_by_side
 from surfexp.io.quantity_of_file import quantity_named
-from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.tasks.inputs import MapsOfFile, as_map, have_own_names, maps_of_file, name_of
+from surfexp.mesh.surface import Surface
+from surfexp.tasks.inputs import as_map, name_of
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, spread_over
 from surfexp.tasks.map_row import MapRow
+from surfexp.tasks.maps_of_file import MapsOfFile, have_own_names, is_pair, maps_of_file
 
 
 def rows_of_maps(values: Any, surfaces: Sequence[Surface], most_columns: int = MOST_COLUMNS) -> list[MapRow]:
@@ -66,11 +67,6 @@ def _rows_by_name(maps: Mapping[str, Floats]) -> list[MapRow]:
 def _are_shares(values: Floats) -> bool:
     known = values[np.isfinite(values)]
     return values.ndim == 1 and bool(known.size) and bool(known.min() >= 0.0 and known.max() <= 1.0)
-
-
-def is_pair(given: Any) -> bool:
-    """Whether a map is given for the left and for the right hemisphere."""
-    return isinstance(given, Mapping) and set(given) == set(HEMISPHERES)
 
 
 def _quantity_of_pair(given: Mapping[str, Any]) -> str:
