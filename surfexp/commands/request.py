@@ -76,10 +76,11 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
 
     def check_and_act(plan: Plan) -> None:
         replaced = [] if "columns" in named else sorted(named & set(KINDS))
-        if left_out := leave_out_columns(plan, replaced):
-            echo(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", err=True)
+        left_out = leave_out_columns(plan, replaced)
         check_names(plan)
         check_combinations(plan)
+        if left_out:
+            echo(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", err=True)
         for line in leave_out_figures(plan):
             echo(f"surfexp: {line}", err=True)
         # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment

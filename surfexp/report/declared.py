@@ -72,6 +72,8 @@ def check_names(plan: Plan) -> None:
 def leave_out_columns(plan: Plan, replaced: Collection[str]) -> list[str]:
     """Leave out the columns that only another plugin of the replaced kinds declares; return their names.
 
+    A solver may take no model: those of kinds that live inside a job and that the plan has no more count too.
+
     Parameters
     ----------
     plan : Plan
@@ -83,7 +85,9 @@ def leave_out_columns(plan: Plan, replaced: Collection[str]) -> list[str]:
     here = {name: metric for known in metrics for name, metric in known.items()}
     asked = dict.fromkeys(name for leaf in plan.leaves for name in leaf.settings["columns"])
     missing = [name for name in asked if find_metric(name, here) is None]
-    elsewhere = _of_kinds(replaced) if missing else {}
+    present = {node.kind for node in plan.nodes.values()}
+    gone = [name for name, kind in KINDS.items() if replaced and not kind.stored and name not in present]
+    elsewhere = _of_kinds([*replaced, *gone]) if missing else {}
     left_out = [name for name in missing if find_metric(name, elsewhere) is not None]
     changed: dict[int, dict[str, Any]] = {}  # leaves share their settings
     for leaf in plan.leaves if left_out else ():

@@ -136,6 +136,17 @@ def test_columns_of_a_plugin_that_a_request_replaced_are_left_out() -> None:
     check_names(plan)
 
 
+def test_a_solver_without_a_model_leaves_out_the_columns_of_models(working_folder: Path) -> None:
+    left_out: list[str] = []
+
+    def check(plan: Plan) -> None:
+        left_out.extend(leave_out_columns(plan, ["solver"]))
+        check_names(plan)
+
+    launch(["solver=chan_vese"], check)
+    assert "labelling_gap" in left_out
+
+
 def test_columns_that_no_plugin_has_stay_and_are_refused() -> None:
     for replaced, columns in ((["model"], ["labeling_gap"]), ([], ["labelling_gap"]), (["surface"], ["labelling_gap"])):
         plan = plan_of(columns=columns)
