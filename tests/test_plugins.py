@@ -470,6 +470,22 @@ def test_no_plugin_is_left_out() -> None:
     assert not registry.BROKEN
 
 
+def test_no_option_is_infinite_or_no_number() -> None:
+    """A bound from one side lets infinity pass, and a flow of infinite time ends nowhere."""
+    tried = 0
+    for key in PLUGINS:
+        options = registry.PLUGINS[key].options
+        for name, field in options.model_fields.items():
+            if field.annotation is not float:
+                continue
+            for value in (float("inf"), float("-inf"), float("nan")):
+                with pytest.raises(ValidationError) as refused:
+                    options.model_validate({name: value})
+                assert name in {error["loc"][0] for error in refused.value.errors()}, (key, name, value)
+            tried += 1
+    assert tried > 100
+
+
 @pytest.mark.parametrize(("kind", "name"), PLUGINS)
 def test_options_are_documented_and_bounded(kind: str, name: str) -> None:
     method = registry.plugin(kind, name)

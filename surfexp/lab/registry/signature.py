@@ -23,7 +23,7 @@ SHAPES = {list: "list", dict: "dict", Mapping: "dict"}
 class Options(BaseModel):
     """Base class of plugin options: unknown names are refused."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
 
 
 @dataclass(frozen=True)
