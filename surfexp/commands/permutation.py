@@ -180,7 +180,7 @@ def _say(found: PermutationTest, both: bool) -> None:
     for one in found.regions:
         parcel = f", {next(iter(one.parcels))}" if one.parcels else ""
         side = f"{one.hemisphere} hemisphere, " if both else ""
-        peak = f"{side}t {one.t:.2f} at vertex {one.peak}{parcel}, p {one.p_tfce:.3g}"
+        peak = f"{side}t {one.t:.2f} at vertex {one.peak}{parcel}, p of TFCE {one.p_tfce:.3g}"
         echo(f"region of {one.vertices} vertices, area {one.area:.4g}: {peak}")
     if not found.regions:
         echo(f"no vertex has a family-wise p of TFCE up to {found.level:g}; the least is {_least(found.p_tfce):.3g}")

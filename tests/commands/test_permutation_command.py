@@ -51,7 +51,7 @@ def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFi
     assert len(rows) == len(wanted.clusters) > 0 and rows[0]["parcels"].startswith("north")
     assert [float(row["p_mass"]) for row in rows] == [one.p_mass for one in wanted.clusters]
     said = capsys.readouterr().out
-    assert said.count("region of") == len(wanted.regions) and ", north, p " in said
+    assert said.count("region of") == len(wanted.regions) and ", north, p of TFCE " in said
 
 
 def test_rows_belong_to_the_maps_that_they_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
