@@ -27,6 +27,7 @@ FACE = {
     "plot": "surfexp.tasks.pictures",
     "proof_page": "surfexp.tasks.proving",
     "read": "surfexp.tasks.files",
+    "reeb_distance": "surfexp.tasks.reeb_distances",
     "reeb_graph": "surfexp.tasks.skeletons",
     "repair": "surfexp.tasks.repairing",
     "run": "surfexp.experiments",
