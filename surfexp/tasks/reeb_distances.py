@@ -35,7 +35,7 @@ def reeb_distance(first: Skeleton, second: Skeleton, *, effort: int = 10_000) ->
 
     References
     ----------
-    Bauer, Landi, Memoli: The Reeb graph edit distance is universal (2021), doi 10.1007/s10208-020-09488-3.
+    Bauer, Landi, Memoli: The Reeb graph edit distance is universal (2020), doi 10.4230/LIPIcs.SoCG.2020.15.
 
     Examples
     --------

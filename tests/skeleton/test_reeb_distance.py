@@ -303,6 +303,10 @@ def test_interleaving_is_no_less_than_the_bottleneck_distance_and_gives_up_safel
     one, other = (merge_tree(height_graph(*some)) for some in JOINED)
     assert not may_be_interleaved(one, other, 0.99, 10_000) and may_be_interleaved(one, other, 1.0, 10_000)
     assert may_be_interleaved(one, other, 0.5, 1)
+    # a second minimum of height 4 costs 2, on either side
+    valleys, slope = (merge_tree(height_graph(*some)) for some in (path(0, 5, 1, 6), path(0, 6)))
+    for ours, theirs in ((valleys, slope), (slope, valleys)):
+        assert not may_be_interleaved(ours, theirs, 1.9, 100) and may_be_interleaved(ours, theirs, 2.0, 100)
 
 
 def test_maps_on_one_surface_have_graphs_no_farther_apart_than_the_maps() -> None:

@@ -109,6 +109,12 @@ def test_mesh_repair(printed: list[str]) -> None:
     assert "1 non-manifold edges" in words and "genus 0, 643 vertices, area error 0.0e+00" in words
 
 
+def test_noise_on_a_reeb_graph(printed: list[str]) -> None:
+    rows = [numbers([line]) for line in printed]
+    assert all(0 < lower <= upper <= largest for largest, lower, upper in rows[:-1])
+    assert rows[-1] == pytest.approx([0.6, 0.6], abs=0.01) and Path("noise_on_a_reeb_graph.png").exists()
+
+
 def test_part_of_a_plate(printed: list[str]) -> None:
     free, exactly, held, exactly_held, known, vertices = numbers(printed)
     assert free == pytest.approx(exactly, rel=0.005) and held == pytest.approx(exactly_held, rel=0.01)

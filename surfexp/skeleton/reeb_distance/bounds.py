@@ -55,7 +55,7 @@ def reeb_distance_bounds(
     """Bound the universal distance of two Reeb graphs.
 
     It is the least e such that both are Reeb graphs of functions on one connected space that differ by e at most (Bauer, Landi,
-    Memoli 2021). From below: heights at the ends, diagrams of loops, and interleavings of the merge trees of both sides. From
+    Memoli 2020). From below: heights at the ends, diagrams of loops, and interleavings of the merge trees of both sides. From
     above: a space that is made of both graphs after chains have been drawn together.
 
     Parameters
