@@ -31,7 +31,9 @@ def reeb_distance(first: Skeleton, second: Skeleton, *, effort: int = 10_000) ->
     Raises
     ------
     ValueError
-        If a graph has several pieces.
+        If a graph has several pieces, or more than 300 arcs.
+    TypeError
+        If it is no result of `reeb_graph`.
 
     References
     ----------

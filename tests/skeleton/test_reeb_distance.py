@@ -20,6 +20,7 @@ from surfexp.skeleton.reeb_distance.height_graph import height_graph
 from surfexp.skeleton.reeb_distance.interleaving import may_be_interleaved
 
 Graph = tuple[Floats, Integers]
+EFFORT = 2_000
 
 
 def graph(heights: list[float], *arcs: tuple[int, int]) -> Graph:
@@ -153,22 +154,22 @@ def test_all_common_spaces_of_tiny_graphs_are_above_the_lower_bound(first: Graph
     )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(graphs(), graphs())
 def test_the_bounds_are_in_order_in_either_order(first: Graph, second: Graph) -> None:
     pair = height_graph(*first), height_graph(*second)
-    persistence, lower = lower_bounds(pair, 10_000)
-    upper, complete = upper_bound(pair, 10_000)
+    persistence, lower = lower_bounds(pair, EFFORT)
+    upper, complete = upper_bound(pair, EFFORT)
     assert persistence <= lower <= upper + 1e-9
     # no more than where both are drawn together to a point
     assert upper <= max(first[0].max() - second[0].min(), second[0].max() - first[0].min()) + 1e-9
-    back = reeb_distance_bounds(second, first)
+    back = reeb_distance_bounds(second, first, EFFORT)
     assert back.lower == pytest.approx(min(lower, upper))
     if complete and back.complete:
         assert back.upper == pytest.approx(upper)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(graphs(7, 2), st.integers(0, 10**6), st.floats(-5, 5), st.sampled_from([0.5, 2.0]))
 def test_renumbered_graphs_are_at_distance_0_and_units_scale_it(
     one: Graph, seed: int, shift: float, unit: float
@@ -177,9 +178,9 @@ def test_renumbered_graphs_are_at_distance_0_and_units_scale_it(
     moved = reeb_distance_bounds(one, (one[0] + shift, one[1]))
     assert moved.lower == pytest.approx(abs(shift)) and moved.upper == pytest.approx(abs(shift)) and moved.proved
     other = (unit * one[0], one[1])
-    found = reeb_distance_bounds(one, other)
-    down = reeb_distance_bounds((-one[0], one[1]), (-other[0], one[1]))
-    twice = reeb_distance_bounds((2 * one[0], one[1]), (2 * other[0], one[1]))
+    found = reeb_distance_bounds(one, other, EFFORT)
+    down = reeb_distance_bounds((-one[0], one[1]), (-other[0], one[1]), EFFORT)
+    twice = reeb_distance_bounds((2 * one[0], one[1]), (2 * other[0], one[1]), EFFORT)
     assert [down.lower, twice.lower / 2] == pytest.approx([found.lower] * 2)
     if found.complete and down.complete and twice.complete:
         assert [down.upper, twice.upper / 2] == pytest.approx([found.upper] * 2)
@@ -327,11 +328,21 @@ def test_maps_on_one_surface_have_graphs_no_farther_apart_than_the_maps() -> Non
         (graph([0, np.nan], (0, 1)), "finite"),
         (graph([0, 1, 2], (0, 1)), "2 pieces"),
         (graph([0, 1], (0, 2)), "nodes are 0..1"),
+        (
+            graph([0, *range(1, 302)], *((0, k) for k in range(1, 302))),
+            "301 arcs, the search takes 300: cut short branches",
+        ),
     ],
 )
 def test_graphs_without_a_distance_are_refused(given_graph: Graph, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         reeb_distance_bounds(path(0, 1), given_graph)
+
+
+def test_the_largest_graphs_that_are_taken_have_bounds() -> None:
+    stars = [graph([0, *range(1, 301)], *((0, k) for k in range(1, 301))) for _ in range(2)]
+    found = reeb_distance_bounds(stars[0], (stars[1][0] + 0.25, stars[1][1]), effort=400)
+    assert 0.25 <= found.lower <= found.upper
 
 
 def test_what_is_no_reeb_graph_is_refused() -> None:

@@ -9,6 +9,9 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.skeleton.skeleton import arc_components
 
+# ten seconds, and no deeper than Python recurses
+MOST_ARCS = 300
+
 
 @dataclass(frozen=True)
 class HeightGraph:
@@ -41,7 +44,8 @@ def height_graph(heights: Floats, arcs: Integers) -> HeightGraph:
     Raises
     ------
     ValueError
-        If the graph is empty or has several pieces, a height is not finite, or an arc names a node that is not there.
+        If the graph is empty or has several pieces, a height is not finite, an arc names a node that is not there, or
+        more than 300 arcs are left.
     """
     heights = np.asarray(heights, dtype=np.float64)
     arcs = np.asarray(arcs, dtype=np.int64).reshape(-1, 2)
@@ -65,6 +69,10 @@ def height_graph(heights: Floats, arcs: Integers) -> HeightGraph:
             del ends[above[0]]
     kept = sorted({node for arc in ends for node in arc} or {merged[0]})
     number = {node: at for at, node in enumerate(kept)}
+    if len(ends) > MOST_ARCS:
+        raise ValueError(
+            f"the Reeb graph has {len(ends)} arcs, the search takes {MOST_ARCS}: cut short branches by `persistence` of reeb_graph"
+        )
     return HeightGraph(tuple(heights[kept].tolist()), tuple((number[a], number[b]) for a, b in ends))
 
 
