@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.contract.arrays import Floats
+from surfexp.io.gifti import is_gifti
 from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
 from surfexp.io.label_colours import read_coloured_labels
 from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask
 from surfexp.io.map_shapes import scalar_channels
-from surfexp.io.reading import read_mesh_file
+from surfexp.io.reading import READERS, read_mesh_file
 from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
@@ -36,6 +37,8 @@ def read_surface(
     """
     if hemisphere != "":
         one_of(hemisphere, "hemisphere", HEMISPHERES)
+    if Path(path).is_dir():
+        raise ValueError(f"{path} is a folder: give one file of it{_surface_in(Path(path))}")
     file_read = read_mesh_file(Path(path))
     vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
     if isinstance(mask, Mapping):
@@ -75,6 +78,14 @@ def read_surface(
         if not repair:
             raise
     return sound_part(repaired(surface), str(path), repair="")
+
+
+def _surface_in(folder: Path) -> str:
+    """An example of a surface in a folder, of a subject of FreeSurfer's or of meshes; nothing where there is none."""
+    names = [f"{part}lh.{sheet}" for part in ("", "surf/") for sheet in ("white", "pial")]
+    meshes = sorted(file.name for file in folder.iterdir() if file.suffix.lower() in READERS or is_gifti(file))
+    found = next((name for name in [*names, *meshes] if (folder / name).is_file()), None)
+    return "" if found is None else f", as {folder / found}"
 
 
 def by_name(given: Any, what: str) -> dict[str, PathLike]:

@@ -206,3 +206,14 @@ def test_a_format_that_is_too_narrow_is_refused_before_anything_is_computed(
     assert main(arguments) == 2
     said = capsys.readouterr().err
     assert says in said and len(said.strip().splitlines()) == 1 and len(said) < 120
+
+
+@pytest.mark.parametrize("inside", ["surf/lh.pial", "ball.ply", ""])
+def test_a_folder_is_refused_with_a_surface_in_it(tmp_path: Path, inside: str) -> None:
+    if inside:
+        (tmp_path / inside).parent.mkdir(exist_ok=True)
+        sx.write(tmp_path / inside, sx.shape("icosphere", levels=1))
+    with pytest.raises(ValueError) as refused:
+        sx.read(tmp_path)
+    rest = f", as {tmp_path / inside}" if inside else ""
+    assert str(refused.value) == f"{tmp_path} is a folder: give one file of it{rest}"
