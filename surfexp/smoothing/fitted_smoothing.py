@@ -96,12 +96,12 @@ def fitted_smoothing(
     trials = list(fitted_trials(operator, plain, noise, tolerance))
     rough = noise.growth > ROUGH
     mixture, drawn = stein_mixture(operator, plain, noise, trials, 1.0 if rough else CAUTION), 0
-    heaviness = _tails(plain - mixture.values, noise)[1]
+    heaviness = tails(plain - mixture.values, noise)[1]
     if heaviness > HEAVY and not noise.step and not rough:
         mixture = stein_mixture(operator, plain, noise, trials, CAUTION_OF_PILOT)
         for _ in range(PASSES):
             rest = plain - mixture.values
-            bounds = DRAWN_FROM * _tails(rest, noise)[0] * noise.levels
+            bounds = DRAWN_FROM * tails(rest, noise)[0] * noise.levels
             drawn = int((np.abs(rest) > bounds).sum())
             nearer = mixture.values + np.clip(rest, -bounds, bounds)
             again = read_noise(operator, nearer)
@@ -127,8 +127,15 @@ def fitted_smoothing(
     )
 
 
-def _tails(rest: Floats, noise: FittedNoise) -> tuple[float, float]:
-    """The deviation by the median of what is removed, in levels, and its root mean square over that."""
+def tails(rest: Floats, noise: FittedNoise) -> tuple[float, float]:
+    """Return the deviation by the median of what is removed, in levels, and its root mean square over that.
+
+    Parameters
+    ----------
+    rest : (n,) float64
+        What is removed.
+    noise : FittedNoise
+    """
     usual = np.ones(len(rest), dtype=bool)
     usual[noise.outliers] = False
     sizes = np.abs(rest / noise.levels)[usual]

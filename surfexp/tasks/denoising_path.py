@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.mesh.given_arrays import real_array
 from surfexp.mesh.given_numbers import real_number, real_pair
 from surfexp.mesh.surface_part import SurfacePart
+from surfexp.smoothing.path_risk import PathRisk, path_risk
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike
 from surfexp.tasks.noisy_image import noisy_image
+from surfexp.tasks.risk_curve import AT_AN_END, HEAVY_TAILS, RiskCurve
 from surfexp.variational.rof_path import RofPath, rof_path
+
+# weights at which the risk is estimated by default, for each factor of ten
+PER_DECADE = 20
+# tails are those of what a weight that is smoother than the best removes
+OF_LEAST = 0.5
 
 Progress = Callable[[int, float], None]
 
@@ -65,18 +75,71 @@ class DenoisingPath(Summarized):
             If the weight is outside of the range.
         """
         assert self._path is not None and self._part is not None  # noqa: S101, narrows a type
+        solution = self._path.at(self._mu(weight))
+        error = float((solution.error_bound or 0.0) / np.sqrt(self._path.operator.mass.sum()))
+        facts = {"noise": self.certificate["noise"], "weight": weight}
+        facts |= {"relative_gap": solution.relative_gap, "error_bound": error}
+        return DenoisedMap(self._part.extend(solution.values), "rof", facts, self.notes, self.name)
+
+    def risk(self, weights: ArrayLike | None = None) -> RiskCurve:
+        """Estimate the risk at some weights, by Stein's unbiased estimate with one probe drawn from the fitted noise.
+
+        The first call solves the map with the probe at each of `weights` again, which takes about as long as the path.
+
+        Parameters
+        ----------
+        weights : (k,) float64, optional
+            Between the first and the last of `weights`, growing; by default 20 for each factor of ten, evenly spaced in the
+            logarithm.
+
+        Returns
+        -------
+        RiskCurve
+            `risks` and `errors` over the variance of the noise, `weight` where it is least.
+
+        Raises
+        ------
+        ValueError
+            If a weight is outside of the range, they do not grow, or the map has several channels.
+
+        References
+        ----------
+        Stein: Estimation of the mean of a multivariate normal distribution (1981).
+        """
+        low, high = float(self.weights[0]), float(self.weights[-1])
+        if weights is None:
+            asked = np.geomspace(low, high, max(2, round(PER_DECADE * np.log10(high / low)) + 1))
+            asked[0], asked[-1] = low, high
+        else:
+            asked = np.atleast_1d(real_array(weights, "weights"))
+        if asked.ndim != 1 or not len(asked) or not (np.diff(asked) > 0.0).all():
+            raise ValueError(f"weights = {np.array2string(asked, threshold=6)}, one row of numbers that grow is needed")
+        known = self._known_risk
+        found = np.array([known.at(self._mu(float(weight))) for weight in asked])
+        curve = RiskCurve(asked, found[:, 0], found[:, 1])
+        notes: tuple[str, ...] = (AT_AN_END.format(weight=curve.weight),) if curve.weight in (low, high) else ()
+        notes += (HEAVY_TAILS,) if known.has_heavy_tails(self._mu(max(OF_LEAST * curve.weight, low))) else ()
+        return replace(curve, notes=notes)
+
+    @cached_property
+    def _known_risk(self) -> PathRisk:
+        assert self._path is not None  # noqa: S101, narrows a type
+        if self._path.image.ndim > 1:
+            raise ValueError(
+                f"the risk is estimated of one channel, the map has {self._path.image.shape[1]}: give each by itself"
+            )
+        return path_risk(self._path, float(self.certificate["noise"]))
+
+    def _mu(self, weight: float) -> float:
+        """The weight of the model in the unit of the map."""
+        assert self._path is not None  # noqa: S101, narrows a type
         weight = real_number(weight, "weight", above=0.0)
         if not self.weights[0] <= weight <= self.weights[-1]:
             raise ValueError(
                 f"weight = {weight:g} is outside of the path, choose one from {self.weights[0]:g} to {self.weights[-1]:g}"
             )
         mus = self._path.mus
-        scale = float(mus[0] / self.weights[0])
-        solution = self._path.at(float(np.clip(weight * scale, mus[0], mus[-1])))
-        error = float((solution.error_bound or 0.0) / np.sqrt(self._path.operator.mass.sum()))
-        facts = {"noise": self.certificate["noise"], "weight": weight}
-        facts |= {"relative_gap": solution.relative_gap, "error_bound": error}
-        return DenoisedMap(self._part.extend(solution.values), "rof", facts, self.notes, self.name)
+        return float(np.clip(weight * float(mus[0] / self.weights[0]), mus[0], mus[-1]))
 
     def _summary(self) -> Summary:
         facts = {"weights": f"{self.weights[0]:g} to {self.weights[-1]:g}"}

@@ -61,8 +61,8 @@ class RofPath:
         """Proved bound of the relative gap at every weight of the range."""
         return max(interval.largest_gap for interval in self.intervals)
 
-    def at(self, mu: float) -> Solution:
-        """Return the interpolated minimiser at a weight, with its own energy, lower bound and gap.
+    def place(self, mu: float) -> tuple[int, float]:
+        """Return the interval of a weight, and how far between its knots the interpolated minimiser lies.
 
         Parameters
         ----------
@@ -78,8 +78,23 @@ class RofPath:
         if not mus[0] <= mu <= mus[-1]:
             raise ValueError(f"mu = {mu:g} is outside of the path, {mus[0]:g} to {mus[-1]:g}")
         place = int(np.clip(np.searchsorted(mus, mu) - 1, 0, len(self.intervals) - 1))
+        return place, self.intervals[place].parameter(mu * self.own.unit)
+
+    def at(self, mu: float) -> Solution:
+        """Return the interpolated minimiser at a weight, with its own energy, lower bound and gap.
+
+        Parameters
+        ----------
+        mu : float
+            Within the range.
+
+        Raises
+        ------
+        ValueError
+            If the weight is outside of the range.
+        """
+        place, t = self.place(mu)
         before, after = self.knots[place], self.knots[place + 1]
-        t = self.intervals[place].parameter(mu * self.own.unit)
         values = self.own.normalised(self.image) + (1.0 - t) * before.difference + t * after.difference
         load = (1.0 - t) * before.load + t * after.load
         fidelity = rof(self.operator.mass, self.own.normalised(self.image), mu * self.own.unit)
