@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats
-from surfexp.contract.summary import Summarized, Summary
+from surfexp.contract.drawable import Drawable
+from surfexp.contract.summary import Summary
 from surfexp.mesh.given_arrays import real_array
 from surfexp.mesh.given_numbers import real_number, real_pair
 from surfexp.mesh.surface_part import SurfacePart
@@ -31,7 +33,7 @@ Progress = Callable[[int, float], None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class DenoisingPath(Summarized):
+class DenoisingPath(Drawable):
     """A map denoised by total variation, for every weight of a range.
 
     Parameters
@@ -120,6 +122,57 @@ class DenoisingPath(Summarized):
         notes: tuple[str, ...] = (AT_AN_END.format(weight=curve.weight),) if curve.weight in (low, high) else ()
         notes += (HEAVY_TAILS,) if known.has_heavy_tails(self._mu(max(OF_LEAST * curve.weight, low))) else ()
         return replace(curve, notes=notes)
+
+    @property
+    def given(self) -> Floats:
+        """(n,) or (n, c) the map before; NaN outside the mask."""
+        assert self._path is not None and self._part is not None  # noqa: S101, narrows types
+        return self._part.extend(self._path.image)
+
+    def place(self, weight: float) -> float:
+        """Return where between the solved weights the map at a weight is interpolated.
+
+        Parameters
+        ----------
+        weight : float
+            Between the first and the last of `weights`.
+
+        Returns
+        -------
+        float
+            2.25 is a quarter of the way from the map at the third of them to that at the fourth.
+
+        Raises
+        ------
+        ValueError
+            If the weight is outside of the range.
+        """
+        assert self._path is not None  # noqa: S101, narrows a type
+        interval, share = self._path.place(self._mu(weight))
+        return interval + share
+
+    def view(self, surface: Any, **options: Any) -> Any:
+        """Show the map at every weight on its surface, by a slider: the same as ``surfexp.view(surface, path, **options)``.
+
+        Parameters
+        ----------
+        surface : Surface, path, or (vertices, faces)
+            That of the map.
+        **options
+            Of `surfexp.view`: views, colormap, limits, label, unit, title.
+
+        Returns
+        -------
+        TurningView
+            `save(path)` writes .html, .png, .svg or .pdf.
+
+        Raises
+        ------
+        ValueError
+            If it is not the surface, or the map has several channels.
+        """
+        # by name: drawing stands above what is drawn
+        return import_module("surfexp").view(surface, self, **options)
 
     @cached_property
     def _known_risk(self) -> PathRisk:

@@ -14,6 +14,7 @@ from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.tasks.comparison_of_maps import MapComparison
 from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.distances import ModeAlignment
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.null_maps import NullMaps
@@ -23,6 +24,8 @@ from surfexp.variational.fitted_noise import FittedNoise
 
 # eigenfunctions and null maps that a picture shows
 MODES, NULLS = 6, 4
+# of the weight of least risk, those at which a path is shown
+STILLS = (0.2, 1.0, 5.0)
 # of eigenfunctions in units of their root mean square; of a map and what was taken from it
 MODE_LIMITS, DIVERGING, PERCENTILES = (-2.0, 2.0), "RdBu_r", (1.0, 99.0)
 MODE_BAR = "eigenfunction, units of its root mean square"
@@ -56,6 +59,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
         return _tested(result)
     if isinstance(result, Parcels) and result.means.ndim > 1:
         return [MapRow(f"map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
+    if isinstance(result, DenoisingPath):
+        return _along(result)
     if isinstance(result, DenoisedMap):
         return _before_and_after(result, surface)
     if isinstance(result, ModeAlignment):
@@ -103,6 +108,21 @@ def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
         MapRow(f"after {method.replace('_', ' ')}", [result.values], limits, bar=result.name),
         MapRow("removed", [removed], apart, DIVERGING, quantity=result.name),
     ]
+
+
+def _along(path: DenoisingPath) -> list[MapRow]:
+    """The map before, and after at the weight of least risk and at a fifth and five times it, in the same colours."""
+    risk = path.risk()
+    low, high = float(path.weights[0]), float(path.weights[-1])
+    chosen = sorted({float(np.clip(factor * risk.weight, low, high)) for factor in STILLS})
+    said = path.risk(chosen)
+    maps = [path.at(weight).values for weight in chosen]
+    known = np.isfinite(maps[-1])
+    ends = np.percentile(maps[-1][known], PERCENTILES)
+    limits = (float(ends[0]), float(ends[1])) if ends[0] < ends[1] else None
+    names = [f"weight {weight:.3g}, risk {value:.2g}" for weight, value in zip(chosen, said.risks, strict=True)]
+    rows = [MapRow(name, [one], limits, bar=path.name) for name, one in zip(names, maps, strict=True)]
+    return [*rows, MapRow("before", [path.given], limits, bar=path.name)]
 
 
 def _correspondence(found: Distance, surfaces: Sequence[Surface]) -> MapRow:

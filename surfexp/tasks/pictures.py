@@ -17,6 +17,7 @@ from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.inputs import SurfaceLike
 from surfexp.tasks.map_columns import columns_of
 from surfexp.tasks.shown import shown_surfaces
@@ -105,7 +106,8 @@ def plot(
         several surfaces, or of one surface a row for each; so has a dict, with their names. Of a map of several columns,
         as a time series, six are shown, in colours that they share; (n, 3) numbers in 0..1 are colours. Without a map a
         scan has its own colours. Eigenpairs are rows of
-        eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed. A distance on
+        eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed, a denoising path at
+        three weights. A distance on
         [source, target] is shown by the colours that its correspondence carries over.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
         By default lateral and medial for a hemisphere. Another body is seen from where most of it faces the eye, a little
@@ -158,7 +160,10 @@ def plot(
         label=label,
         unit=unit,
     )
-    if len(rows) > ABREAST and all(len(row) == 1 for row in rows) and columns_of(values):
+    alone = all(len(row) == 1 for row in rows)
+    if alone and isinstance(values, DenoisingPath):
+        rows = [[row[0] for row in rows]]
+    if len(rows) > ABREAST and alone and columns_of(values):
         single = [row[0] for row in rows]
         rows = [single[k : k + ABREAST] for k in range(0, len(single), ABREAST)]
     if len(rows) == 1 and len(rows[0]) > LONGEST_ROW:

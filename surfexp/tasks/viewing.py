@@ -18,8 +18,10 @@ from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.surface import HEMISPHERES
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.inputs import SurfaceLike, as_surface
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, flat_colors, is_color, spread_over
+from surfexp.tasks.path_scene import path_columns, path_scene
 from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of
 from surfexp.tasks.shown import apart, is_several, shown_surfaces, sides
 from surfexp.viewer.page import viewer_page
@@ -38,12 +40,13 @@ class TurningView:
     scene : Scene
     rows : tuple of tuples of SurfaceView
         The same as pictures.
-    title : str
+    title, caption : str
     """
 
     scene: Scene
     rows: tuple[tuple[SurfaceView, ...], ...]
     title: str = ""
+    caption: str = ""
 
     def html(self) -> str:
         """Return the page: it holds all that it needs, asks no host, and runs no script but the viewer's.
@@ -57,7 +60,7 @@ class TurningView:
         ValueError
             If the surfaces take more than 40 MB.
         """
-        return viewer_page(self.scene, title=self.title, budget=LARGEST)
+        return viewer_page(self.scene, title=self.title, caption=self.caption, budget=LARGEST)
 
     def save(self, path: Path | str) -> None:
         """Write the view as .html, or its first look as .png, .svg or .pdf.
@@ -83,7 +86,8 @@ class TurningView:
         return f"<TurningView: {len(self.scene.panels)} panels of {len(self.scene.surfaces)} surfaces>"
 
     def _repr_html_(self) -> str:
-        height = ROW_HEIGHT * -(-len(self.scene.panels) // PANELS_ABREAST)
+        count = len(self.scene.panels) + (self.scene.curve is not None)
+        height = ROW_HEIGHT * -(-count // PANELS_ABREAST)
         frame = f'width="100%" height="{height}" style="border:0" sandbox="allow-scripts"'
         return f'<iframe srcdoc="{escape(self.html())}" {frame} title="{escape(self.title or "surface")}"></iframe>'
 
@@ -111,7 +115,7 @@ def view(
     values : str, (n,) array, `LabelMap`, or a result with `values`, optional
         A map, or labels: integers and truth values are labels. A list has one for each of several surfaces, or of one
         surface a panel for each; so has a dict, with their names. A map of several columns, as a time series, has a
-        slider; (n, 3) numbers in 0..1 are colours. Without one a scan has its own colours.
+        slider, and so has a denoising path; (n, 3) numbers in 0..1 are colours. Without one a scan has its own colours.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
         Where panels look from at first: one for each. By default one, lateral for a hemisphere; else as in `plot`.
     colormap : str, optional
@@ -143,6 +147,11 @@ def view(
     >>> seen, len(seen.html()) < 700_000
     (<TurningView: 1 panels of 1 surfaces>, True)
     """
+    if isinstance(values, DenoisingPath):
+        if any(lines is not None for lines in (contours, borders, skeleton)):
+            raise ValueError("a path is shown without contours, borders and skeleton: view path.at(weight) with them")
+        options = {"views": views, "colormap": colormap, "limits": limits, "label": label or values.name, "unit": unit}
+        return _along(surface, values, title, options)
     several = is_several(surface)
     given = [as_surface(one) for one in (surface if several else [surface])]
     in_one = skeleton is not None or isinstance(values, Skeleton)
@@ -170,6 +179,14 @@ def view(
             drawn.fields[0] = _series(drawn, [row[k * looks] for row in rows])
         scene.titles[:] = [title.partition(": ")[2] for title in scene.titles]
     return TurningView(scene, tuple(tuple(rows[k]) for k in spread_over(len(rows), MOST_COLUMNS)), title)
+
+
+def _along(surface: Any, path: DenoisingPath, title: str, options: dict[str, Any]) -> TurningView:
+    """Show a path by a slider over its weights; as a picture by stills."""
+    notes = dict.fromkeys((*path.risk().notes, *path.notes))
+    seen = view(surface, path_columns(path), title=title, **options)
+    rows = tuple(map(tuple, shown_surfaces(surface, path, **options)))
+    return TurningView(path_scene(seen.scene, path), rows, title, " ".join(notes))
 
 
 def check_view_target(target: Path) -> None:

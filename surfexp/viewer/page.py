@@ -14,7 +14,7 @@ from surfexp.viewer.payload import BUDGET, Payload
 from surfexp.viewer.scene import Scene
 
 # in the order in which a page runs them; the library is the largest part of a page without surfaces
-SCRIPTS = ("three.bundle.js", "arrays.js", "surface.js", "panel.js", "turning.js")
+SCRIPTS = ("three.bundle.js", "arrays.js", "surface.js", "panel.js", "curve.js", "turning.js")
 COLORS = """:root { --ink: #1c2330; --soft: #5b6575; --line: #dde2ea; --wash: #f5f7fa; --accent: #9d2235;
   color-scheme: light dark; }
 @media (prefers-color-scheme: dark) {

@@ -48,6 +48,7 @@ class Payload:
                 "that surfaces may take of a page"
             )
         self.arrays = taken.arrays
+        curve = {} if scene.curve is None else {"curve": scene.curve.described()}
         return {
             "surfaces": surfaces,
             "panels": [*map(list, scene.panels)],
@@ -55,6 +56,7 @@ class Payload:
             "eyes": [*map(list, scene.eyes)],
             "view": list(scene.view),
             "views": VIEWS,
+            **curve,
         }
 
     def _surface(self, drawn: Drawn) -> dict[str, Any]:
@@ -86,9 +88,10 @@ class Payload:
             return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": steps}
         values = np.concatenate(numbers)
         scale = one.scale.fitted(values)
+        stops = {"stops": [{"place": stop.place, "name": stop.name} for stop in one.stops]} if one.stops else {}
         return {
             "name": one.name,
-            "start": min(one.start, len(one.steps) - 1),
+            "start": min(one.start, len(one.stops or one.steps) - 1),
             "beyond": list(scale.share_beyond(values)),
             "label": scale.title,
             "unit": scale.unit,
@@ -96,6 +99,7 @@ class Payload:
             "table": self._table(scale.table()),
             "shading": VALUE_SHADING,
             "steps": steps,
+            **stops,
         }
 
     def _strokes(self, line: Lines) -> list[dict[str, Any]]:

@@ -11,6 +11,7 @@ from surfexp.figures.colormap import ColorScale
 from surfexp.figures.labelling import Labelling
 from surfexp.figures.lines import Lines
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.viewer.curve import Curve
 
 Direction = tuple[float, float]
 
@@ -33,6 +34,21 @@ class Step:
     lines: tuple[Lines, ...] = ()
 
 
+@dataclass(frozen=True)
+class Stop:
+    """A place between two steps of a field, whose values are interpolated there.
+
+    Parameters
+    ----------
+    place : float
+        2.25 is a quarter of the way from the third step to the fourth.
+    name : str
+    """
+
+    place: float
+    name: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Field:
     """Functions of one name and scale, with a slider where there are several; the bare surface where there is none.
@@ -48,6 +64,8 @@ class Field:
         Whether names and colours of labels stand below.
     start : int
         The function that is shown at first, where there is one; of eigenfunctions the first is constant.
+    stops : tuple of Stop
+        Where the slider stands, if not at the steps: it is then that of the curve of the scene.
     """
 
     name: str
@@ -56,6 +74,7 @@ class Field:
     labels: Labelling | None = None
     legend: bool = True
     start: int = 1
+    stops: tuple[Stop, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +112,8 @@ class Scene:
         The same for each panel, where they differ at first.
     titles : list of str
         Of the panels, where they have some.
+    curve : Curve, optional
+        Drawn beside the panels, over the stops of their fields.
     """
 
     surfaces: list[Drawn]
@@ -100,3 +121,4 @@ class Scene:
     view: Direction = field(default=VIEWS["oblique"])
     eyes: list[Direction] = field(default_factory=list)
     titles: list[str] = field(default_factory=list)
+    curve: Curve | None = None

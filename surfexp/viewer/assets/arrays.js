@@ -41,3 +41,10 @@ async function numbersOf(described) {
   };
   return Object.assign(at, { rows: codes.length / columns });
 }
+
+// The numbers between those of two steps of a field; those of one of its steps where it has no stops.
+async function numbersAt({ values, next, share = 0 }) {
+  const [first, second] = await Promise.all([numbersOf(values), next && numbersOf(next)]);
+  if (!share) return first;
+  return Object.assign((row) => (1 - share) * first(row) + share * second(row), { rows: first.rows });
+}

@@ -13,6 +13,13 @@ function element(name, properties = {}, ...children) {
 const digits = (value, count) =>
   value.toLocaleString("en", { maximumSignificantDigits: count, useGrouping: false }).replace("-", "−");
 
+// What a field shows at a position of its slider.
+function stepAt({ steps, stops }, at) {
+  if (!stops) return steps[at];
+  const { place, name } = stops[at], first = Math.floor(place), last = Math.min(first + 1, steps.length - 1);
+  return { ...steps[first], name, next: steps[last].values, share: place - first };
+}
+
 class Panel {
   constructor(figure, surface, described, field, title = "") {
     Object.assign(this, { figure, surface, described, scene: new THREE.Scene(), lines: [], turn: 0, offset: [0, 0] });
@@ -39,7 +46,7 @@ class Panel {
     const name = title || (figure.scene.surfaces.length > 1 ? described.name : "");
     if (name) head.prepend(element("b", { textContent: name }));
     this.element = element("div", { className: "panel" }, head, this.canvas, this.told, this.colours, this.names);
-    this.fields.addEventListener("change", () => this.show(0));
+    this.fields.addEventListener("change", () => this.show(this.field.stops ? this.figure.stop : 0));
     this.slider.addEventListener("input", () => this.show(Number(this.slider.value)));
   }
 
@@ -53,7 +60,7 @@ class Panel {
 
   // Colour the surface; of several requests the last one counts.
   async show(at) {
-    const field = this.field, step = field.steps[at], turn = ++this.turn;
+    const field = this.field, step = stepAt(field, at), turn = ++this.turn;
     const lines = await Promise.all((step?.lines ?? []).map((one, k) => lineMesh(one, this.surface.middle, k)));
     if (field.labels && !this.flat) this.scene.add((this.flat = flatMesh(this.surface)));
     const drawn = field.labels ? this.flat : this.mesh;
@@ -65,7 +72,7 @@ class Panel {
     this.lines.forEach((old) => this.scene.remove(release(old)));
     this.lines = lines;
     lines.forEach((one) => this.scene.add(one));
-    this.sliding.hidden = field.steps.length < 2;
+    this.sliding.hidden = !!field.stops || field.steps.length < 2;
     this.fields.hidden = this.described.fields.length < 2;
     this.slider.max = Math.max(field.steps.length - 1, 0);
     this.slider.value = at;

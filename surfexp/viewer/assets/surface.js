@@ -125,7 +125,7 @@ async function readTable(described) {
 
 async function colour(mesh, field, step, corners) {
   const shade = mesh.geometry.attributes.shade, { uniforms } = mesh.material;
-  const pixels = await readTable(field.table), values = step?.values && (await numbersOf(step.values));
+  const pixels = await readTable(field.table), values = step?.values && (await numbersAt(step));
   const [low, high] = field.limits ?? [0, 1];
   for (let row = 0; shade && row < shade.count; row++) {
     const value = values ? values(row) : low, missing = Number.isNaN(value);

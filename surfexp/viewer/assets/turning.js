@@ -52,7 +52,7 @@ class TurningFigure {
     }
     this.tools = element("div", { className: "tools" }, this.button, this.views, this.note);
     this.place = element("div", { className: "panels" });
-    this.place.dataset.count = this.scene.panels.length;
+    this.place.dataset.count = this.scene.panels.length + (this.scene.curve ? 1 : 0);
     const still = element_.querySelector(":scope > a, :scope > img");
     if (still) still.after(this.place, this.tools);
     else element_.prepend(this.place, this.tools);
@@ -86,6 +86,7 @@ class TurningFigure {
       });
       this.start();
       this.place.append(...this.panels.map((panel) => panel.element));
+      if (this.scene.curve) this.drawCurve();
       this.element.classList.add("turns");
       this.panels.forEach((panel) => this.listen(panel));
       await Promise.all(this.panels.map((panel) => panel.show(panel.field.start ?? 0)));
@@ -101,6 +102,17 @@ class TurningFigure {
       this.note.textContent = `Stays still: ${error.message}.`;
     }
     this.button.disabled = false;
+  }
+
+  // One slider for all panels that have stops, over the curve.
+  drawCurve() {
+    const [{ field }] = this.panels.filter(({ field: { stops } }) => stops);
+    this.stop = field.start;
+    this.curve = new Curve(this.scene.curve, field, (at) => {
+      this.stop = at;
+      this.panels.filter((panel) => panel.field.stops).forEach((panel) => panel.show(at));
+    });
+    this.place.append(this.curve.element);
   }
 
   // Milliseconds that a frame with all faces takes here.
