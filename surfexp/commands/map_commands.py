@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_maps import given_maps
+from surfexp.commands.given_maps import given_maps, map_of
 from surfexp.commands.surface_arguments import (
     finish,
     named_as,
@@ -47,6 +47,9 @@ EXAMPLES = {
 @click.option("--weight", type=float, help="of rof and tgv: dimensionless, smaller is smoother; 0.9 if not given")
 @click.option("--ratio", type=float, help="of tgv: over how many edge lengths a slope may change; 2 if not given")
 @click.option("--noise", type=float, help="standard deviation of the noise; estimated if not given")
+@click.option(
+    "--second", "second_name", type=click.Path(), help="another measurement of the map, by which its noise is known"
+)
 @click.option("--tolerance", type=float, help="largest relative duality gap; 1e-3 for auto, else 1e-4")
 @surface_options
 @proof_option
@@ -58,6 +61,7 @@ def denoise(
     weight: float | None,
     ratio: float | None,
     noise: float | None,
+    second_name: str | None,
     tolerance: float | None,
     target: Path,
     proof: Path | None,
@@ -71,6 +75,7 @@ def denoise(
     """
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.denoising import denoise as task
+    from surfexp.tasks.noise_of_map import noise as noise_task
 
     surface, files = opened(path, **given)
     maps = given_maps(surface, map_name, files, given["hemisphere"])
@@ -80,10 +85,14 @@ def denoise(
     ready_proof(proof, files)
     if proof is not None and method == "auto":
         raise ValueError("--proof with method auto, which proves no gap: choose method rof or tgv")
+    if noise is not None and second_name:
+        raise ValueError("--noise and --second both say what the noise is: give one of them")
+    second = map_of(surface, second_name, files, given["hemisphere"]) if second_name else None
     started = time.perf_counter()
+    known = noise if second is None else noise_task(surface, values, second)
     with progress_line("denoise") as progress:
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
-        clean = task(surface, values, noise=noise, progress=progress, **options)
+        clean = task(surface, values, noise=known, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
     save_proof(proof, clean)
     chosen = {name: value for name, value in options.items() if name != "method" and value is not None}

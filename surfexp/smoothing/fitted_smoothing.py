@@ -55,7 +55,11 @@ class FittedSmoothing:
 
 
 def fitted_smoothing(
-    operator: SurfaceOperator, values: Floats, level: float | None = None, tolerance: float = 1e-3
+    operator: SurfaceOperator,
+    values: Floats,
+    level: float | None = None,
+    tolerance: float = 1e-3,
+    known: FittedNoise | None = None,
 ) -> FittedSmoothing:
     """Smooth a map by the mixture of heat kernel, total variation and edge-weighted total variation of least risk.
 
@@ -72,6 +76,8 @@ def fitted_smoothing(
         Standard deviation of the noise; read from the map if not given.
     tolerance : float
         Of the relative gap of total variation.
+    known : FittedNoise, optional
+        In the unit of the map, as read from two measurements; where values are drawn in, only its level is read again.
 
     Raises
     ------
@@ -86,11 +92,12 @@ def fitted_smoothing(
     own = own_unit(values)
     sign = odd_sign(own.normalised(values))
     unit = sign * own.normalised(values)
-    noise = read_noise(operator, unit)
+    read = read_noise(operator, unit)
+    noise = read if known is None else known.in_unit(1.0 / own.unit)
     target = noise.level if level is None else level / own.unit
     if not target > 0:
         raise ValueError(f"noise is {target:g}, it must be positive: give the noise of the map")
-    factor = target / noise.level if noise.level > 0 else 1.0
+    factor = target / read.level if read.level > 0 else 1.0
     noise = noise.with_level(target)
     plain = without_outliers(operator, unit, noise.outliers)
     trials = list(fitted_trials(operator, plain, noise, tolerance))
@@ -105,7 +112,7 @@ def fitted_smoothing(
             drawn = int((np.abs(rest) > bounds).sum())
             nearer = mixture.values + np.clip(rest, -bounds, bounds)
             again = read_noise(operator, nearer)
-            again = again.with_level(factor * again.level)
+            again = (again if known is None else noise).with_level(factor * again.level)
             trials = list(fitted_trials(operator, nearer, again, tolerance))
             mixture = stein_mixture(operator, nearer, again, trials)
     solutions = [one.solution for one in trials if one.solution is not None]

@@ -80,7 +80,7 @@ class PathRisk:
         return Trial("total_variation", mu, values, response, at_the_end=False)
 
 
-def path_risk(path: RofPath, level: float, seed: int = 0) -> PathRisk:
+def path_risk(path: RofPath, level: float, seed: int = 0, known: FittedNoise | None = None) -> PathRisk:
     """Solve the map with a probe at each solved weight, and keep how the minimisers respond.
 
     The probe b is drawn from the noise that is read from the map, and the response is ``b (F(y + e b) - F(y)) / e`` with
@@ -94,6 +94,8 @@ def path_risk(path: RofPath, level: float, seed: int = 0) -> PathRisk:
         Standard deviation of the noise, in the unit of the map.
     seed : int
         Of the probe.
+    known : FittedNoise, optional
+        In the unit of the map, such as that of two measurements; read from the map if not given.
 
     Returns
     -------
@@ -104,7 +106,8 @@ def path_risk(path: RofPath, level: float, seed: int = 0) -> PathRisk:
     Stein: Estimation of the mean of a multivariate normal distribution (1981). Ramani et al.: Monte-Carlo SURE (2008).
     """
     operator, target = path.operator, path.own.normalised(path.image)
-    noise = read_noise(operator, target).with_level(level / path.own.unit)
+    kind = read_noise(operator, target) if known is None else known
+    noise = kind.with_level(level / path.own.unit)
     probe = odd_sign(target) * noise.draw(operator, seed)
     probed = target + PROBE_STEP * probe
     tolerance = OF_GAP * path.largest_gap

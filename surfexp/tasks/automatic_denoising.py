@@ -4,39 +4,36 @@ from __future__ import annotations
 
 from typing import Any
 
-from surfexp.contract.arrays import Floats
-from surfexp.mesh.surface_part import SurfacePart
-from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.fitted_smoothing import FittedSmoothing, fitted_smoothing
 from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.noisy_image import NoisyImage
 
 HEAT = {"heat_polynomial": "heat_kernel", "heat_flow": "heat_kernel"}
 NAMED = 0.005
 AT_THE_END = (
-    "A parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: choose the width "
-    "by a second measurement."
+    "A parameter is an end of its grid. Where the noise itself is smooth, no estimate from one map sees it: give the noise "
+    "that `noise` reads from a second measurement (--second)."
 )
 
 
-def automatically_denoised(
-    part: SurfacePart, operator: SurfaceOperator, image: Floats, noise: float | None, tolerance: float
-) -> DenoisedMap:
+def automatically_denoised(image: NoisyImage, tolerance: float) -> DenoisedMap:
     """Denoise a map by the mixture of filters that promises the least error for the noise that was read from it.
 
     Parameters
     ----------
-    part : SurfacePart
-    operator : SurfaceOperator
-        On the part.
-    image : (p,) float64
-    noise : float, optional
-        Standard deviation; read from the map if not given.
+    image : NoisyImage
+        Of one channel.
     tolerance : float
         Of the relative gap of the minimisations.
     """
-    found = fitted_smoothing(operator, image, noise, tolerance)
+    part = image.part
+    found = fitted_smoothing(image.operator, image.values, image.given_noise, tolerance, image.known_noise)
     mixture, read = found.mixture, found.noise
-    facts = {"noise": read.level, "noise_estimated": noise is None, "noise_kind": ", ".join(read.kinds) or "white"}
+    facts = {
+        "noise": read.level,
+        "noise_estimated": image.given_noise is None,
+        "noise_kind": ", ".join(read.kinds) or "white",
+    }
     facts |= {"outliers": len(read.outliers)} | _choice(found, part.length)
     facts |= {"relative_gap": found.largest_gap, "error_bound": found.error_bound, "converged": found.converged}
     notes = part.notes + read.notes
@@ -51,7 +48,7 @@ def automatically_denoised(
             "No estimate of the error holds then.",
         )
     ends = [one.at_the_end for one, share in zip(mixture.members, mixture.shares, strict=True) if share > NAMED]
-    notes += (AT_THE_END,) if any(ends) else ()
+    notes += (AT_THE_END,) if any(ends) and read.measurements == 1 else ()
     return DenoisedMap(part.extend(mixture.values), "auto", facts, notes, outliers=part.vertices[read.outliers])
 
 

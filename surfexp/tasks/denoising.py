@@ -20,6 +20,7 @@ from surfexp.tasks.denoised_map import DenoisedMap, Evidence
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
 from surfexp.tasks.noisy_image import noisy_image
 from surfexp.variational.fidelity import Progress
+from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.generalised_variation import GeneralisedVariation
 from surfexp.variational.own_unit import own_unit
 from surfexp.variational.separable_quadratic import SeparableQuadratic, rof
@@ -46,7 +47,7 @@ def denoise(
     method: Literal["auto", "rof", "tgv"] = "auto",
     weight: float | None = None,
     ratio: float | None = None,
-    noise: float | None = None,
+    noise: float | FittedNoise | None = None,
     tolerance: float | None = None,
     progress: Progress | None = None,
 ) -> DenoisedMap:
@@ -74,8 +75,9 @@ def denoise(
         Of "rof" and "tgv", dimensionless, 0.9 if not given; smaller is smoother. The error is smallest near 1.
     ratio : float, optional
         Of "tgv": the length over which a slope may change, in edge lengths h, 2 if not given; a large ratio acts like "rof".
-    noise : float, optional
-        Standard deviation of the noise, in the unit of the map; estimated from the map if not given.
+    noise : float or FittedNoise, optional
+        Standard deviation of the noise, in the unit of the map, or what `noise` has read, as from a second measurement;
+        estimated from the map if not given.
     tolerance : float, optional
         Largest relative duality gap: 1e-3 for "auto", 1e-4 for the others if not given.
     progress : callable, optional
@@ -121,7 +123,7 @@ def denoise(
     notes = part.notes
     if method == "auto":
         if image.values.ndim == 1:
-            found = automatically_denoised(part, operator, image.values, image.given_noise, tolerance)
+            found = automatically_denoised(image, tolerance)
             return replace(found, name=image.name)
         method, tolerance = "rof", min(tolerance, TOLERANCE)
         notes += (f"The map has {image.values.shape[1]} channels: method auto takes one, they were denoised by rof.",)

@@ -22,6 +22,7 @@ from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike
 from surfexp.tasks.noisy_image import noisy_image
 from surfexp.tasks.risk_curve import AT_AN_END, HEAVY_TAILS, RiskCurve
+from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.rof_path import RofPath, rof_path
 
 # weights at which the risk is estimated by default, for each factor of ten
@@ -49,6 +50,8 @@ class DenoisingPath(Drawable):
         What `at` interpolates.
     _part : SurfacePart
         Where its values lie on the surface.
+    _noise : FittedNoise, optional
+        Where more than its level was given.
     """
 
     weights: Floats
@@ -57,6 +60,7 @@ class DenoisingPath(Drawable):
     name: str = "map"
     _path: RofPath | None = field(default=None, repr=False)
     _part: SurfacePart | None = field(default=None, repr=False)
+    _noise: FittedNoise | None = field(default=None, repr=False)
 
     def at(self, weight: float) -> DenoisedMap:
         """Return the denoised map at a weight.
@@ -181,7 +185,7 @@ class DenoisingPath(Drawable):
             raise ValueError(
                 f"the risk is estimated of one channel, the map has {self._path.image.shape[1]}: give each by itself"
             )
-        return path_risk(self._path, float(self.certificate["noise"]))
+        return path_risk(self._path, float(self.certificate["noise"]), known=self._noise)
 
     def _mu(self, weight: float) -> float:
         """The weight of the model in the unit of the map."""
@@ -205,7 +209,7 @@ def denoise_path(
     values: MapLike,
     *,
     weights: tuple[float, float] = (0.03, 30.0),
-    noise: float | None = None,
+    noise: float | FittedNoise | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
 ) -> DenoisingPath:
@@ -223,8 +227,9 @@ def denoise_path(
         Name of a map of the surface, or the map; NaN where nothing is known.
     weights : (float, float)
         The range, dimensionless; small is smooth. The default is a factor of 1,000 about 0.9, the weight of `denoise`.
-    noise : float, optional
-        Standard deviation of the noise, in the unit of the map; estimated from the map if not given.
+    noise : float or FittedNoise, optional
+        Standard deviation of the noise, in the unit of the map, or what `noise` has read, as from a second measurement;
+        estimated from the map if not given.
     tolerance : float
         Largest relative duality gap at any weight of the range.
     progress : callable, optional
@@ -260,4 +265,4 @@ def denoise_path(
     solved = np.clip(path.mus / scale, low, high)
     solved[0], solved[-1] = low, high
     certificate = {"relative_gap": path.largest_gap, "solves": len(solved), "noise": sigma}
-    return DenoisingPath(solved, certificate, image.part.notes + said, image.name, path, image.part)
+    return DenoisingPath(solved, certificate, image.part.notes + said, image.name, path, image.part, image.known_noise)

@@ -9,7 +9,7 @@ from surfexp.operators.fem import fem
 from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.variational.fitted_noise import FittedNoise
-from surfexp.variational.noise_reading import read_noise
+from surfexp.variational.noise_reading import ROUNDING, read_noise
 
 
 def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) -> FittedNoise:
@@ -17,7 +17,7 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
 
     What is affine on a pair of triangles is none of the noise; a median over the pairs gives its level. Noise of a full
     width of 2 edges and more cannot be told from the map. A second measurement of the same map tells any noise, for the
-    map is not in the difference.
+    map is not in the difference. `denoise` and `denoise_path` take what was found as their `noise`.
 
     Parameters
     ----------
@@ -37,7 +37,8 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
     Raises
     ------
     ValueError
-        If the map does not fit, has several channels, is constant, or has values far from all others (a code for no data).
+        If the map does not fit, has several channels, is constant, or has values far from all others (a code for no data);
+        if the second differs from it by nothing or by a constant.
 
     Examples
     --------
@@ -55,7 +56,16 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
         refuse_absurd_values(one, part.vertices)
     if np.ptp(inside[0]) == 0:
         raise ValueError(f"map is constant at {inside[0][0]:g}: it has no noise")
+    if second is not None:
+        _refuse_the_same(*inside)
     return read_noise(fem(part.mesh), inside[0], inside[1] if second is not None else None).on_whole(part)
+
+
+def _refuse_the_same(first: Floats, second: Floats) -> None:
+    difference = second - first
+    if np.ptp(difference) <= ROUNDING * max(np.abs(first).max(), np.abs(second).max()):
+        by = f"differs from the first by {np.median(difference):.3g} everywhere"
+        raise ValueError(f"the second measurement {by}: it shows no noise, give one that was measured again")
 
 
 def _one_channel(values: np.ndarray) -> Floats:

@@ -13,6 +13,7 @@ from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.noise_reading import read_noise
 
@@ -29,6 +30,8 @@ class NoisyImage:
     values : (p,) or (p, c) float64
     given_noise : float, optional
         Standard deviation, as the caller says.
+    known_noise : FittedNoise, optional
+        On the part, as it was read before: from two measurements, say.
     name : str
         Under which the surface carries the map.
     """
@@ -37,6 +40,7 @@ class NoisyImage:
     operator: SurfaceOperator
     values: Floats
     given_noise: float | None
+    known_noise: FittedNoise | None
     name: str
 
     def noise(self) -> tuple[float, tuple[str, ...]]:
@@ -52,7 +56,7 @@ class NoisyImage:
         notes: tuple[str, ...] = ()
         level = self.given_noise
         if self.values.ndim == 1:
-            found = read_noise(self.operator, self.values)
+            found = self.known_noise or read_noise(self.operator, self.values)
             level, notes = (found.level if level is None else level), found.notes
         elif level is None:
             level = noise_level(self.operator, self.values)
@@ -65,19 +69,20 @@ class NoisyImage:
         return weight / (noise * self.operator.edge_length)
 
 
-def noisy_image(surface: SurfaceLike, values: MapLike, noise: float | None) -> NoisyImage:
+def noisy_image(surface: SurfaceLike, values: MapLike, noise: float | FittedNoise | None) -> NoisyImage:
     """Check a map and cut it out of its surface.
 
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
     values : str or (n,) or (n, c) float64
-    noise : float, optional
+    noise : float or FittedNoise, optional
 
     Raises
     ------
     ValueError
-        If the map does not fit, has values far from all others, or is constant while its noise is not given.
+        If the map does not fit, has values far from all others, or is constant while its noise is not given; if noise was read
+        on another surface or mask.
     """
     owner = as_surface(surface)
     noisy = as_map(owner, values)
@@ -86,5 +91,7 @@ def noisy_image(surface: SurfaceLike, values: MapLike, noise: float | None) -> N
     refuse_absurd_values(image, part.vertices)
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
-    given = None if noise is None else real_number(noise, "noise", above=0.0)
-    return NoisyImage(part, fem(part.mesh), image, given, name_of(values))
+    known = noise.on_part(part) if isinstance(noise, FittedNoise) else None
+    level = noise if known is None else known.level
+    given = None if level is None else real_number(level, "noise", above=0.0)
+    return NoisyImage(part, fem(part.mesh), image, given, known, name_of(values))

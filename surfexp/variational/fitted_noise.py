@@ -27,7 +27,10 @@ HIDDEN = 2.2
 LEAST_WEIGHT, LARGEST_WEIGHT = 0.1, 10.0
 # outliers that a text names
 MOST_SHOWN = 8
-ONE_MAP = "Smooth noise cannot be told from the map by one measurement for certain: give a second measurement, if there is one."
+ONE_MAP = (
+    "Smooth noise cannot be told from the map by one measurement for certain: give a second measurement, if there is one "
+    "(`second`, --second)."
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -82,7 +85,7 @@ class FittedNoise(Drawable):
             "smooth": self.width > 0,
             "rounded": self.step > 0,
             "partly constant": self.step == 0 and self.tied >= TIED,
-            "hidden": self.growth > HIDDEN,
+            "hidden": self.measurements == 1 and self.growth > HIDDEN,
         }
         return tuple(kind for kind, said in found.items() if said)
 
