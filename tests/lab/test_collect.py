@@ -171,6 +171,7 @@ def test_collect_refuses_in_one_line(
     assert message in error and len(error.splitlines()) == 1
 
 
+@pytest.mark.optional
 def test_fetch_pins_the_first_download(working_folder: Path, shapes: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("pooch")
     site = working_folder / "site"

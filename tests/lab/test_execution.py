@@ -245,7 +245,7 @@ def loose(tmp_path: Path, target: str = "solver", **options: Any) -> Plan:
     ("options", "said"),
     [
         ({"gap": 1.45}, "its relative gap is 1.45, over 1"),
-        ({"gap": float("nan")}, "its relative gap is nan, over 1"),
+        ({"gap": None}, "its relative gap is nan, over 1"),
         ({"gap": 1e-5, "converged": False}, "did not converge"),
     ],
 )

@@ -108,12 +108,12 @@ def toy_failure(surface: Surface) -> Pairing:
 def toy_loose(
     surface: Surface,
     *,
-    gap: Annotated[float, Field(description="relative gap that it claims")] = 1.45,
+    gap: Annotated[float | None, Field(description="relative gap that it claims; null is no number")] = 1.45,
     converged: Annotated[bool, Field(description="whether it claims to have converged")] = True,
     tolerance: Annotated[float | None, Field(description="bound of its gap")] = None,
 ) -> Solution:
     """A solver whose certificate is what it is told."""
-    return Solution(np.zeros(3), 1.0, converged=converged, metrics={"relative_gap": gap})
+    return Solution(np.zeros(3), 1.0, converged=converged, metrics={"relative_gap": np.nan if gap is None else gap})
 
 
 @register("pairing", "toy_judge", metrics={"energy": Metric("energy of the solution")})
