@@ -1,4 +1,7 @@
-"""Skeletons of nets of tubes of known radii and loops, beside skeletor and kimimaro."""
+"""Skeletons of nets of tubes of known radii and loops, beside skeletor and kimimaro.
+
+Both are under the GPL and come with no extra: `pip install skeletor kimimaro` to run their lines.
+"""
 
 from __future__ import annotations
 
