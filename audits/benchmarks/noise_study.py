@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 import surfexp as sx
-from audits.benchmarks.noisy_maps import NOISES, SEEDS, NoisyMap, rough_maps, study_maps, with_noise
+from audits.benchmarks.noisy_maps import NOISES, SEEDS, NoisyMap, conte69_maps, rough_maps, study_maps, with_noise
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.fem import fem
@@ -20,14 +20,14 @@ from surfexp.smoothing.parameter_choice import smooth_on_grid
 from surfexp.variational.noise_reading import read_noise, without_outliers
 from surfexp.variational.own_unit import own_unit
 
-HALVES = ("first", "second")
+HALVES = ("first", "second", "conte69")
 IN_HINDSIGHT: dict[str, MethodName] = {
     "heat in hindsight": "heat_polynomial",
     "neighbours in hindsight": "neighbour_mean",
     "Gaussian in hindsight": "geodesic_gaussian",
 }
 RULES = ("default", "rule of before", "rof", *IN_HINDSIGHT)
-ALARM_LEVELS, ALARM_DRAWS = (0.1, 0.3, 1.0), {"first": 6, "second": 4}
+ALARM_LEVELS, ALARM_DRAWS = (0.1, 0.3, 1.0), {"first": 6, "second": 4, "conte69": 2}
 # a table's cell: errors by rule
 Cells = dict[tuple[str, str], list[dict[str, float]]]
 
@@ -45,7 +45,7 @@ class Filters:
     def errors(self, noise: str, seed: int) -> dict[str, float]:
         """Root mean square errors of every rule, and "best", the least of all filters with all their parameters."""
         rough = with_noise(self.clean, noise, seed)
-        before, tried = self._rule_of_before(rough)
+        before, tried = self.rule_of_before(rough)
         tried += self._filters_of_default(rough)
         found = {
             "default": self._error(sx.denoise(self.clean.surface, rough).values),
@@ -57,7 +57,7 @@ class Filters:
             found[rule] = min(self._error(smoother(rough[:, None], parameter)[:, 0]) for parameter in grid)
         return found | {"best": min(*found.values(), *tried)}
 
-    def _rule_of_before(self, rough: Floats) -> tuple[float, list[float]]:
+    def rule_of_before(self, rough: Floats) -> tuple[float, list[float]]:
         """The error of the least estimate for white noise after outliers are replaced, and those of all its filters."""
         operator = self.clean.operator
         values = without_outliers(operator, rough, read_noise(operator, rough).outliers)
@@ -84,8 +84,10 @@ class Filters:
 
 
 def chosen_maps(halves: Iterable[str]) -> Iterator[NoisyMap]:
-    """The maps of some halves."""
-    return (clean for clean in study_maps() if clean.half in halves)
+    """The maps of some halves; those of conte69 need brainspace."""
+    yield from (clean for clean in study_maps() if clean.half in halves)
+    if "conte69" in halves:
+        yield from conte69_maps()
 
 
 def cells(halves: Iterable[str], seeds: Iterable[int]) -> Cells:
@@ -134,11 +136,11 @@ def main() -> None:
     """Print the tables that are named, all by default."""
     parser = argparse.ArgumentParser(prog="noise_study", description=__doc__)
     parser.add_argument("tables", nargs="*", metavar="TABLE", help="errors, alarms")
-    parser.add_argument("--half", choices=HALVES, help="one half of the maps")
+    parser.add_argument("--half", choices=HALVES, help="one half of the maps, both if not given, or those of conte69")
     parser.add_argument("--seeds", type=int, default=SEEDS, help="seeds of each noise")
     parser.add_argument("--first-seed", type=int, default=0, help="where the seeds begin")
     options = parser.parse_args()
-    halves = (options.half,) if options.half else HALVES
+    halves = (options.half,) if options.half else HALVES[:2]
     seeds = range(options.first_seed, options.first_seed + options.seeds)
     for half in halves:
         if not options.tables or "errors" in options.tables:

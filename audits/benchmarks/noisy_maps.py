@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from surfexp.anatomy.conte69 import conte69
 from surfexp.anatomy.fsaverage5 import Hemisphere, fsaverage5
 from surfexp.anatomy.subcortical import subcortical_surface
 from surfexp.contract.arrays import Floats
@@ -69,6 +70,13 @@ def rough_maps() -> Iterator[NoisyMap]:
         yield standardised("first", f"sphere, {name}", ball, picture)
 
 
+def conte69_maps() -> Iterator[NoisyMap]:
+    """Yield three maps of the left side of conte69, 29,300 vertices, on which nothing was fixed; needs brainspace."""
+    surface = conte69()
+    for name in ("thickness", "t1wt2w", "fc_gradient0"):
+        yield standardised("conte69", f"conte69, {name}", surface, surface.scalars[name])
+
+
 def standardised(half: str, name: str, surface: Surface, values: Floats) -> NoisyMap:
     """Return a map with mean 0 and deviation 1 by area."""
     operator = fem(surface.mesh)
@@ -84,11 +92,11 @@ def half_cortex(hemisphere: Hemisphere, side: float) -> Surface:
     return cut_to_mask(surface, (surface.scalars["thickness"] > 0) & (along > np.median(along)))
 
 
-def smooth_field(surface: Surface, seed: int) -> Floats:
-    """Return white noise after heat flow with a full width of 12 edges."""
+def smooth_field(surface: Surface, seed: int, width: float = FIELD_WIDTH) -> Floats:
+    """Return white noise after heat flow with a full width in edges."""
     operator = fem(surface.mesh)
     white = np.random.default_rng(seed).standard_normal(operator.vertex_count)
-    return heat_flow(operator, white, heat_time(FIELD_WIDTH * operator.edge_length))
+    return heat_flow(operator, white, heat_time(width * operator.edge_length))
 
 
 def parcels(surface: Surface, seed: int) -> Floats:

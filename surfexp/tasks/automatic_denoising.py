@@ -36,11 +36,11 @@ def automatically_denoised(image: NoisyImage, tolerance: float) -> DenoisedMap:
     }
     facts |= {"outliers": len(read.outliers)} | _choice(found, part.length)
     facts |= {"relative_gap": found.largest_gap, "error_bound": found.error_bound, "converged": found.converged}
-    notes = part.notes + read.notes
+    notes = part.notes + tuple(sentence for kind, sentence in read.sentences.items() if kind != "outliers")
     if len(read.outliers):
         notes += (
-            f"{len(read.outliers)} values far from all their neighbours were replaced by the median of these before: "
-            "`outliers` lists them.",
+            f"{len(read.outliers)} of {len(image.values)} values are far from those of all their neighbours and were replaced by "
+            "the median of these: `outliers` lists them.",
         )
     if found.drawn_in:
         notes += (

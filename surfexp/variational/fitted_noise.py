@@ -92,6 +92,11 @@ class FittedNoise(Drawable):
     @property
     def notes(self) -> tuple[str, ...]:
         """The same in sentences, where there is something to be said."""
+        return tuple(self.sentences.values())
+
+    @property
+    def sentences(self) -> dict[str, str]:
+        """The notes by kind."""
         known = self.levels[np.isfinite(self.levels)]
         low, high = np.quantile(known, [0.1, 0.9]) if len(known) else (0.0, 0.0)
         sentences = {
@@ -108,7 +113,7 @@ class FittedNoise(Drawable):
             "hidden": f"The map is smooth down to its mesh: what counts as noise, {self.level:.3g}, may be the map's own. "
             f"{ONE_MAP}",
         }
-        return tuple(sentences[kind] for kind in self.kinds)
+        return {kind: sentences[kind] for kind in self.kinds}
 
     @property
     def facts(self) -> dict[str, Any]:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from audits.benchmarks.noise_study import RULES, Filters, alarm_table, ratio_table
 from audits.benchmarks.noisy_maps import smooth_field, standardised, with_noise
+from audits.benchmarks.noisy_retest import Pair, distances
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 
 def test_no_rule_is_better_than_the_best_in_hindsight() -> None:
@@ -26,6 +29,17 @@ def test_the_table_takes_means_over_maps_and_the_largest_of_a_map() -> None:
     assert lines[2].startswith("| white | 2.250 (3.00) |")
     # without noise no ratio exists
     assert lines[-1].startswith("| none | 4.500 (6.00) |")
+
+
+def test_a_retest_shows_smooth_noise_that_the_test_alone_does_not() -> None:
+    ball = icosphere(4)
+    head = Surface(TriangleMesh(100.0 * ball.mesh.vertices, ball.mesh.faces), "head", "mm")
+    clean = standardised("", "head", head, head.mesh.vertices[:, 2] > 0)
+    noises = [4.0 * smooth_field(head, seed, width=3.0) for seed in range(3)]
+    found = distances(Pair("head", head, clean.operator, *(clean.values + noise for noise in noises)))
+    assert found["heat, hold-out"] >= 1.0 and found["level alone over both"] < 0.7
+    assert found["default, noise from both"] < found["default"] <= found["nothing"]
+    assert found["said by both: smooth"] == 1.0
 
 
 def test_alarms_of_no_map_are_no_rows() -> None:
