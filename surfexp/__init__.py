@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from surfexp.tasks.permutation_testing import permutation_test as permutation_test
     from surfexp.tasks.pictures import plot as plot
     from surfexp.tasks.proving import proof_page as proof_page
+    from surfexp.tasks.reeb_distances import check_reeb_distance as check_reeb_distance
     from surfexp.tasks.reeb_distances import reeb_distance as reeb_distance
     from surfexp.tasks.repairing import check as check
     from surfexp.tasks.repairing import repair as repair

@@ -9,6 +9,7 @@ FACE = {
     "Surface": "surfexp.mesh.surface",
     "align": "surfexp.tasks.distances",
     "check": "surfexp.tasks.repairing",
+    "check_reeb_distance": "surfexp.tasks.reeb_distances",
     "compare_maps": "surfexp.tasks.comparison_of_maps",
     "denoise": "surfexp.tasks.denoising",
     "denoise_path": "surfexp.tasks.denoising_path",

@@ -1,8 +1,10 @@
-"""The distance of two Reeb graphs."""
+"""The distance of two Reeb graphs, and the check of what proves it from above."""
 
 from __future__ import annotations
 
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_numbers import whole_number
+from surfexp.skeleton.common_space import common_space_defects
 from surfexp.skeleton.reeb_distance.bounds import ReebDistance, reeb_distance_bounds
 from surfexp.skeleton.skeleton import Skeleton
 
@@ -26,7 +28,8 @@ def reeb_distance(first: Skeleton, second: Skeleton, *, effort: int = 10_000) ->
     Returns
     -------
     ReebDistance
-        `lower`, `upper`, and `proved` where they meet, in the unit of the maps; about the sampled graphs.
+        `lower`, `upper`, and `proved` where they meet, in the unit of the maps; about the sampled graphs. `space` proves the upper
+        bound, `check_reeb_distance` checks it.
 
     Raises
     ------
@@ -48,7 +51,49 @@ def reeb_distance(first: Skeleton, second: Skeleton, *, effort: int = 10_000) ->
     <ReebDistance: distance of Reeb graphs, at least 0.25, at most 0.25, proved yes>
     """
     effort = whole_number(effort, "effort", 1, MOST_EFFORT)
-    for graph in (first, second):
-        if not isinstance(graph, Skeleton):
-            raise TypeError(f"reeb_distance takes results of sx.reeb_graph, not {type(graph).__name__}")
-    return reeb_distance_bounds((first.values, first.arcs), (second.values, second.arcs), effort)
+    return reeb_distance_bounds(_graph(first), _graph(second), effort)
+
+
+def check_reeb_distance(found: ReebDistance, first: Skeleton, second: Skeleton) -> tuple[str, ...]:
+    """Return what keeps the space of a result from proving its upper bound; nothing where it is proved.
+
+    The search is not repeated and nothing of it is used. The Reeb graphs of both functions on the space are computed, at all its
+    levels, and compared with the graphs that are given, heights included.
+
+    Parameters
+    ----------
+    found : ReebDistance
+        As `reeb_distance` returned it.
+    first, second : Skeleton
+        The graphs that it is about.
+
+    Returns
+    -------
+    tuple of str
+        A sentence for each defect: several pieces, functions that differ by more, another Reeb graph.
+
+    Raises
+    ------
+    TypeError
+        If a graph is no result of `reeb_graph`.
+
+    Examples
+    --------
+    >>> import surfexp as sx
+    >>> torus, sphere = sx.shape("torus"), sx.shape("icosphere", levels=3)
+    >>> ring, chain = (sx.reeb_graph(one, one.mesh.vertices[:, 0]) for one in (torus, sphere))
+    >>> found = sx.reeb_distance(ring, chain)
+    >>> found.space
+    <CommonSpace: common space of Reeb graphs, nodes 10, arcs 10, triangles 0, functions differ by 0.5997>
+    >>> sx.check_reeb_distance(found, ring, chain)
+    ()
+    >>> sx.check_reeb_distance(found, ring, ring)
+    ('its Reeb graph by the second function is not the second graph',)
+    """
+    return common_space_defects(found.space, _graph(first), _graph(second), found.upper)
+
+
+def _graph(graph: Skeleton) -> tuple[Floats, Integers]:
+    if not isinstance(graph, Skeleton):
+        raise TypeError(f"reeb_distance takes results of sx.reeb_graph, not {type(graph).__name__}")
+    return graph.values, graph.arcs

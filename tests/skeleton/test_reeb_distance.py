@@ -159,7 +159,7 @@ def test_all_common_spaces_of_tiny_graphs_are_above_the_lower_bound(first: Graph
 def test_the_bounds_are_in_order_in_either_order(first: Graph, second: Graph) -> None:
     pair = height_graph(*first), height_graph(*second)
     persistence, lower = lower_bounds(pair, EFFORT)
-    upper, complete = upper_bound(pair, EFFORT)
+    upper, complete, _ = upper_bound(pair, EFFORT)
     assert persistence <= lower <= upper + 1e-9
     # no more than where both are drawn together to a point
     assert upper <= max(first[0].max() - second[0].min(), second[0].max() - first[0].min()) + 1e-9

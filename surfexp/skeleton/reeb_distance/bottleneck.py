@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_bipartite_matching
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 
 
 def bottleneck_distance(first: Floats, second: Floats) -> float:
@@ -38,9 +38,12 @@ def bottleneck_distance(first: Floats, second: Floats) -> float:
 
 def has_perfect_matching(allowed: NDArray[np.bool_]) -> bool:
     """Whether rows and columns of a square matrix can be paired by entries that are true."""
-    if len(allowed) < 2:
-        return bool(allowed.all())
-    return bool((maximum_bipartite_matching(csr_array(allowed.astype(np.int8)), "column") >= 0).all())
+    return bool(allowed.all()) if len(allowed) < 2 else bool((perfect_matching(allowed) >= 0).all())
+
+
+def perfect_matching(allowed: NDArray[np.bool_]) -> Integers:
+    """Return for each row of a square matrix the column it is paired with by an entry that is true, or -1."""
+    return np.asarray(maximum_bipartite_matching(csr_array(allowed.astype(np.int8)), "column"), dtype=np.int64)
 
 
 def least(candidates: Floats, possible: Callable[[float], bool]) -> float:

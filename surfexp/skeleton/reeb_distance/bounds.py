@@ -9,12 +9,15 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.summary import Summarized, Summary
+from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.reeb_distance.bottleneck import bottleneck_distance, least
-from surfexp.skeleton.reeb_distance.contraction import Contraction, Contractions
+from surfexp.skeleton.reeb_distance.contraction import Contraction
+from surfexp.skeleton.reeb_distance.contraction_order import Contractions
 from surfexp.skeleton.reeb_distance.extended_persistence import loop_diagram, merge_tree, turned_over
 from surfexp.skeleton.reeb_distance.height_graph import HeightGraph, height_graph, with_tails
 from surfexp.skeleton.reeb_distance.interleaving import may_be_interleaved
 from surfexp.skeleton.reeb_distance.matching import Budget, matched
+from surfexp.skeleton.reeb_distance.product_space import Match, common_space
 
 # of the largest height: what rounding may add to a bound
 ROUNDING = 1e-12
@@ -35,6 +38,8 @@ class ReebDistance(Summarized):
         Whether the bounds meet, so that both are the distance.
     complete : bool
         Whether the upper bound is the least that contractions give; else a search gave up and a larger `effort` may lower it.
+    space : CommonSpace
+        Its two functions differ by the upper bound, and their Reeb graphs are those given; `check_reeb_distance` checks it.
     """
 
     lower: float
@@ -42,6 +47,7 @@ class ReebDistance(Summarized):
     by_persistence: float
     proved: bool
     complete: bool
+    space: CommonSpace
 
     def _summary(self) -> Summary:
         facts = {"at least": self.lower, "at most": self.upper, "proved": self.proved}
@@ -77,8 +83,9 @@ def reeb_distance_bounds(
     graphs = height_graph(*first), height_graph(*second)
     _, slack = candidates(graphs)
     by_persistence, lower = lower_bounds(graphs, effort)
-    upper, complete = upper_bound(graphs, effort, lower)
-    return ReebDistance(min(lower, upper), upper, by_persistence, bool(upper - lower <= slack), complete)
+    upper, complete, match = upper_bound(graphs, effort, lower)
+    proved = bool(upper - lower <= slack)
+    return ReebDistance(min(lower, upper), upper, by_persistence, proved, complete, common_space(match))
 
 
 def candidates(graphs: Pair) -> tuple[Floats, float]:
@@ -126,7 +133,7 @@ def lower_bounds(graphs: Pair, effort: int) -> tuple[float, float]:
     return diagrams, max(diagrams, interleaved)
 
 
-def upper_bound(graphs: Pair, effort: int, lower: float = 0.0) -> tuple[float, bool]:
+def upper_bound(graphs: Pair, effort: int, lower: float = 0.0) -> tuple[float, bool, Match]:
     """Return the least distance at which two contractions are found to be the same graph.
 
     Parameters
@@ -141,11 +148,15 @@ def upper_bound(graphs: Pair, effort: int, lower: float = 0.0) -> tuple[float, b
     float
     bool
         Whether no contractions give less.
+    Match
+        The contractions that were found.
     """
     costs, slack = candidates(graphs)
     costs = costs[costs >= lower - slack]
     first, second = (Contractions(with_tails(graph), max(effort // 20, 1)) for graph in graphs)
     whole: dict[float, bool] = {}
+    # at the largest both may be drawn together to a point
+    found = {float(costs[-1]): Match(first.to_a_point(), second.to_a_point(), [], float(costs[-1]))}
 
     def possible(cost: float) -> bool:
         distance, left = cost + slack, effort
@@ -158,7 +169,8 @@ def upper_bound(graphs: Pair, effort: int, lower: float = 0.0) -> tuple[float, b
             # no pair may use up what is there for all
             budget = Budget(min(left, max(effort // 20, 1)))
             left -= budget.left
-            if matched(one, other, distance, budget):
+            if (chains := matched(one, other, distance, budget)) is not None:
+                found[cost] = Match(one, other, chains, distance)
                 return True
             left += max(budget.left, 0)
             whole[cost] &= budget.left >= 0
@@ -169,4 +181,4 @@ def upper_bound(graphs: Pair, effort: int, lower: float = 0.0) -> tuple[float, b
         reach *= 2
     upper = least(costs[reach // 2 : reach], possible)
     below = costs[costs < upper]
-    return upper, not len(below) or whole.get(float(below[-1]), False)
+    return upper, not len(below) or whole.get(float(below[-1]), False), found[upper]

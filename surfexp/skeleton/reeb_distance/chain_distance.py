@@ -2,7 +2,26 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from surfexp.skeleton.reeb_distance.contraction import Chain, Interval
+
+
+class Reached(NamedTuple):
+    """What can be reached of the free space of two chains (Alt and Godau 1995).
+
+    Parameters
+    ----------
+    corner : list of list of bool
+        Whether both can stand at point i of the first and j of the second.
+    along, across : list of list of (float, float), or None
+        Part of arc j of the second that is met at point i of the first; part of arc i of the first that is met at point j of
+        the second.
+    """
+
+    corner: list[list[bool]]
+    along: list[list[Interval | None]]
+    across: list[list[Interval | None]]
 
 
 def within(first: Interval, second: Interval, distance: float) -> bool:
@@ -13,8 +32,7 @@ def within(first: Interval, second: Interval, distance: float) -> bool:
 def walked_together(first: Chain, second: Chain, distance: float) -> bool:
     """Whether two points can go from end to end, never back, with heights within a distance.
 
-    Where one of them stands at what was drawn together, all heights there count. Reachable parts of the free space are
-    intervals on the sides of its cells (Alt and Godau 1995).
+    Where one of them stands at what was drawn together, all heights there count.
 
     Parameters
     ----------
@@ -25,9 +43,23 @@ def walked_together(first: Chain, second: Chain, distance: float) -> bool:
     -------
     bool
     """
+    return reached(first, second, distance).corner[-1][-1]
+
+
+def reached(first: Chain, second: Chain, distance: float) -> Reached:
+    """Find what both can reach from their first ends.
+
+    Parameters
+    ----------
+    first, second : Chain
+    distance : float
+
+    Returns
+    -------
+    Reached
+    """
     rows, columns = len(first.points), len(second.points)
     corner = [[False] * columns for _ in range(rows)]
-    # parts of arcs of the second that are met at points of the first, and the other way
     along: list[list[Interval | None]] = [[None] * columns for _ in range(rows)]
     across: list[list[Interval | None]] = [[None] * columns for _ in range(rows)]
     for i in range(rows):
@@ -44,7 +76,7 @@ def walked_together(first: Chain, second: Chain, distance: float) -> bool:
                 free = _free(second.points[j], first.slopes[i], distance)
                 side = j > 0 and (corner[i][j - 1] or along[i][j - 1])
                 across[i][j] = _entered(free, corner[i][j], bool(side), across[i][j - 1] if j else None)
-    return corner[-1][-1]
+    return Reached(corner, along, across)
 
 
 def _free(point: Interval, slope: Interval, distance: float) -> Interval | None:

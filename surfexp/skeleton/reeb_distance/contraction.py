@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,13 +22,19 @@ class Chain:
         Lowest and highest height of what was drawn together to each point.
     slopes : tuple of (float, float)
         Heights at both ends of each arc between them.
-    arcs : frozenset of int
+    steps : tuple of (int, int)
+        These arcs, and the side at which each is entered: 0 from below, 1 from above.
     """
 
     ends: tuple[int, int]
     points: tuple[Interval, ...]
     slopes: tuple[Interval, ...]
-    arcs: frozenset[int]
+    steps: tuple[tuple[int, int], ...]
+
+    @property
+    def arcs(self) -> frozenset[int]:
+        """All arcs of the path."""
+        return frozenset(at for at, _ in self.steps)
 
     @property
     def width(self) -> float:
@@ -39,7 +44,8 @@ class Chain:
     def reversed(self) -> Chain:
         """Return the same path from its other end."""
         slopes = tuple((b, a) for a, b in self.slopes[::-1])
-        return Chain((self.ends[1], self.ends[0]), self.points[::-1], slopes, self.arcs)
+        steps = tuple((at, 1 - side) for at, side in self.steps[::-1])
+        return Chain((self.ends[1], self.ends[0]), self.points[::-1], slopes, steps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +54,9 @@ class Contraction:
 
     Parameters
     ----------
+    graph : HeightGraph
+    gone : frozenset of int
+        The arcs that are drawn together.
     width : float
         The largest difference of heights that are drawn together.
     hubs : tuple of int
@@ -58,6 +67,8 @@ class Contraction:
         All paths between hubs.
     """
 
+    graph: HeightGraph
+    gone: frozenset[int]
     width: float
     hubs: tuple[int, ...]
     spans: tuple[Interval, ...]
@@ -116,72 +127,21 @@ def contracted(graph: HeightGraph, gone: frozenset[int]) -> Contraction:
             if at in used:
                 continue
             one, points, slopes = hub, [spans[hub]], []
-            along: list[int] = []
+            along: list[tuple[int, int]] = []
             while not along or one not in place:
                 if along:
-                    at, side = next(step for step in sides[one] if step[0] != along[-1])
+                    at, side = next(step for step in sides[one] if step[0] != along[-1][0])
                 slopes.append((heights[arcs[at][side]], heights[arcs[at][1 - side]]))
                 one = point[arcs[at][1 - side]]
                 points.append(spans[one])
-                along.append(at)
-            used |= set(along)
-            chains.append(Chain((place[hub], place[one]), tuple(points), tuple(slopes), frozenset(along)))
+                along.append((at, side))
+            chains.append(Chain((place[hub], place[one]), tuple(points), tuple(slopes), tuple(along)))
+            used |= chains[-1].arcs
     return Contraction(
+        graph,
+        gone,
         max(high - low for low, high in spans.values()),
         tuple(len(sides[one]) for one in hubs),
         tuple(spans[one] for one in hubs),
         tuple(chains),
     )
-
-
-class Contractions:
-    """The contractions of a graph that draw whole chains together one after the other.
-
-    Parameters
-    ----------
-    graph : HeightGraph
-    most : int
-        How many are tried, with the orders that always take the narrowest.
-    """
-
-    def __init__(self, graph: HeightGraph, most: int) -> None:
-        self._graph, self._most = graph, most
-        self._known: dict[frozenset[int], Contraction] = {}
-        self._orders = self._narrowest(True) + self._narrowest(False)
-
-    def up_to(self, width: float) -> tuple[list[Contraction], bool]:
-        """Return those that are no wider: first the orders that always take the narrowest.
-
-        Parameters
-        ----------
-        width : float
-
-        Returns
-        -------
-        list of Contraction
-        bool
-            Whether these are all.
-        """
-        waiting = deque(self._orders)
-        tried: dict[frozenset[int], Contraction] = {}
-        while waiting and len(tried) < self._most:
-            gone = waiting.popleft()
-            if gone not in tried:
-                tried[gone] = self._of(gone)
-                if tried[gone].width <= width:
-                    waiting.extend(gone | chain.arcs for chain in tried[gone].chains)
-        return [one for one in tried.values() if one.width <= width], not waiting
-
-    def _narrowest(self, features: bool) -> list[frozenset[int]]:
-        """Return the contractions of always the narrowest chain, or branch or side of a loop, the last first."""
-        order = [frozenset[int]()]
-        while chains := [
-            one for one in self._of(order[-1]).chains if not features or self._of(order[-1]).is_feature(one)
-        ]:
-            order.append(order[-1] | min(chains, key=lambda chain: chain.width).arcs)
-        return order[::-1]
-
-    def _of(self, gone: frozenset[int]) -> Contraction:
-        if gone not in self._known:
-            self._known[gone] = contracted(self._graph, gone)
-        return self._known[gone]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from surfexp.skeleton.reeb_distance.bottleneck import has_perfect_matching
+from surfexp.skeleton.reeb_distance.bottleneck import has_perfect_matching, perfect_matching
 from surfexp.skeleton.reeb_distance.chain_distance import walked_together, within
-from surfexp.skeleton.reeb_distance.contraction import Contraction
+from surfexp.skeleton.reeb_distance.contraction import Chain, Contraction
 
 
 class Budget:
@@ -26,7 +27,9 @@ class Budget:
         return self.left < 0
 
 
-def matched(first: Contraction, second: Contraction, distance: float, budget: Budget) -> bool:
+def matched(
+    first: Contraction, second: Contraction, distance: float, budget: Budget
+) -> list[tuple[Chain, Chain]] | None:
     """Give each hub of one contraction one of the other, so that the chains between them can be walked along together.
 
     Parameters
@@ -38,11 +41,11 @@ def matched(first: Contraction, second: Contraction, distance: float, budget: Bu
 
     Returns
     -------
-    bool
-        True is proved; false also where the budget was spent.
+    list of (Chain, Chain), or None
+        The chains that are walked along together: none where both are single points. None also where the budget was spent.
     """
     if first.signature != second.signature or not first.hubs:
-        return False
+        return None
     image: dict[int, int] = {}
     order = _outward(first)
 
@@ -68,7 +71,10 @@ def matched(first: Contraction, second: Contraction, distance: float, budget: Bu
                 del image[hub]
         return False
 
-    return extended()
+    if not extended():
+        return None
+    between = [(a, b) for a, b in first.between if a <= b]
+    return [pair for a, b in between for pair in _chain_pairs(first, second, (a, b), (image[a], image[b]), distance)]
 
 
 def _outward(contraction: Contraction) -> list[int]:
@@ -84,18 +90,31 @@ def _parallel(
 ) -> bool:
     """Whether the chains between two hubs can be paired."""
     ours, theirs = first.between.get(pair, []), second.between.get(other, [])
-    if len(ours) != len(theirs):
-        return False
-    turned = pair[0] == pair[1]
-    return has_perfect_matching(
-        np.array(
+    return len(ours) == len(theirs) and has_perfect_matching(_allowed(ours, theirs, pair[0] == pair[1], distance))
+
+
+def _allowed(ours: list[Chain], theirs: list[Chain], turned: bool, distance: float) -> NDArray[np.bool_]:
+    """Which chains can be walked along together, a loop in either direction."""
+    return np.array(
+        [
             [
-                [
-                    walked_together(one, that, distance) or (turned and walked_together(one, that.reversed(), distance))
-                    for that in theirs
-                ]
-                for one in ours
-            ],
-            dtype=bool,
-        )
+                walked_together(one, that, distance) or (turned and walked_together(one, that.reversed(), distance))
+                for that in theirs
+            ]
+            for one in ours
+        ],
+        dtype=bool,
     )
+
+
+def _chain_pairs(
+    first: Contraction, second: Contraction, pair: tuple[int, int], other: tuple[int, int], distance: float
+) -> list[tuple[Chain, Chain]]:
+    """Return the chains between two hubs in pairs, each in the direction in which it is walked along."""
+    ours, theirs = first.between[pair], second.between[other]
+    columns = perfect_matching(_allowed(ours, theirs, pair[0] == pair[1], distance))
+    chosen = [theirs[column] for column in columns]
+    return [
+        (one, that if walked_together(one, that, distance) else that.reversed())
+        for one, that in zip(ours, chosen, strict=True)
+    ]
