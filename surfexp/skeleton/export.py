@@ -1,13 +1,19 @@
-"""Skeletons as files: GraphML for graph programs, SWC for those of neurons and vessels, VTK and PLY for viewers."""
+"""Skeletons as files: GraphML for graph programs, SWC for those of neurons and vessels, VTK and PLY for viewers.
+
+Common spaces of Reeb graphs are archives of numpy.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
+from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
+from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.skeleton import Skeleton
 
 FORMATS = (".graphml", ".swc", ".vtk", ".ply")
@@ -48,6 +54,32 @@ def check_skeleton_target(path: Path) -> None:
     """
     if path.suffix not in FORMATS:
         raise ValueError(f"{path.name} ends in {path.suffix!r}, a skeleton is written as one of {', '.join(FORMATS)}")
+    check_writable(path)
+
+
+def write_common_space(path: Path, space: CommonSpace) -> None:
+    """Write heights, arcs and triangles under their names, as `CommonSpace(**numpy.load(path))` reads them.
+
+    Raises
+    ------
+    ValueError
+        If the file is no .npz, or in no writable folder.
+    """
+    check_common_space_target(path)
+    with replacing(path) as temporary:
+        write_arrays(temporary, {field.name: getattr(space, field.name) for field in fields(space)})
+
+
+def check_common_space_target(path: Path) -> None:
+    """Refuse a file that no common space can be written to.
+
+    Raises
+    ------
+    ValueError
+        If it is no .npz, or in no writable folder.
+    """
+    if path.suffix.lower() != ".npz":
+        raise ValueError(f"{path} cannot hold a common space with its arcs and triangles: choose .npz")
     check_writable(path)
 
 

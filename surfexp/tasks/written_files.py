@@ -23,7 +23,8 @@ from surfexp.mesh.given_arrays import map_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.skeleton.export import write_skeleton
+from surfexp.skeleton.common_space import CommonSpace
+from surfexp.skeleton.export import write_common_space, write_skeleton
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import SurfaceLike, arrays_of, as_map, is_mesh
@@ -45,7 +46,7 @@ def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> No
     what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, Skeleton, or a result
         A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
         ... and in .npz `values`, `vectors`, `residuals`. A skeleton is .graphml, .swc where it is a tree, .vtk or .ply. A
-        result is a denoised map, a segmentation, ...
+        result is a denoised map, a segmentation, ... The common space of two Reeb graphs is .npz.
     surface : Surface or mesh, optional
         Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
         repaired, maps alone are written on the vertices of its file.
@@ -77,6 +78,9 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     target = Path(path)
     if isinstance(what, Skeleton):
         write_skeleton(target, what)
+        return ()
+    if isinstance(what, CommonSpace):
+        write_common_space(target, what)
         return ()
     if surface is not None:
         if not is_mesh(surface):

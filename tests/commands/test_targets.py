@@ -35,6 +35,7 @@ COMMANDS = {
     "plot": ["plot", "ball.ply", "map.csv"],
     "repair": ["repair", "ball.ply"],
     "distance": ["distance", "ball.ply", "ball.ply", "-n", "3"],
+    "reeb-distance": ["reeb-distance", "ball.ply", "ball.ply", "--map", "map.csv"],
     "align": ["align", "ball.ply", "ball.ply", "-k", "3"],
     "nulls": ["nulls", "ball.ply", "map.csv", "--count", "3"],
     "test": ["test", "ball.ply", "map.csv", "map.csv"],
@@ -71,6 +72,7 @@ def test_a_target_that_cannot_be_written_is_refused_at_once(
     ("name", "target"),
     [
         ("skeleton", "ball.ply"),
+        ("reeb-distance", "ball.npz"),
         ("repair", "ball.ply"),
         ("curvature", "ball.ply"),
         ("modes", "./ball.ply"),
@@ -82,6 +84,7 @@ def test_a_target_that_cannot_be_written_is_refused_at_once(
 )
 def test_no_input_is_overwritten(folder: Path, name: str, target: str, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "link.csv").symlink_to(folder / "map.csv")
+    (folder / "ball.npz").hardlink_to(folder / "ball.ply")
     before = {path: Path(path).read_bytes() for path in ("ball.ply", "map.csv")}
     assert main([*COMMANDS[name], "--to", target]) == 2
     assert "would overwrite the input" in capsys.readouterr().err

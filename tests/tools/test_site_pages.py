@@ -75,7 +75,7 @@ def test_every_study_has_an_example_in_the_gallery() -> None:
 def test_answers_by_question_name_what_there_is() -> None:
     text = (DOCS / "questions.md").read_text()
     functions = set(re.findall(r"`sx\.(\w+)\(", text))
-    commands = set(re.findall(r"`surfexp (\w+)", text))
+    commands = set(re.findall(r"`surfexp ([\w-]+)", text))
     known = {name for section in SECTIONS.values() for name in section}
     assert len(functions) > 15 and all(hasattr(sx, name) for name in functions)
     assert len(commands) > 12 and commands <= known

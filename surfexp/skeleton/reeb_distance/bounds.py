@@ -49,10 +49,14 @@ class ReebDistance(Summarized):
     complete: bool
     space: CommonSpace
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What may be better than it says."""
+        return () if self.complete else ("the search was cut short: a larger effort may lower the upper bound",)
+
     def _summary(self) -> Summary:
         facts = {"at least": self.lower, "at most": self.upper, "proved": self.proved}
-        notes = () if self.complete else ("the search was cut short: a larger effort may lower the upper bound",)
-        return Summary("distance of Reeb graphs", facts, notes)
+        return Summary("distance of Reeb graphs", facts, self.notes)
 
 
 def reeb_distance_bounds(
