@@ -88,8 +88,11 @@ def reeb_distance_bounds(
     _, slack = candidates(graphs)
     by_persistence, lower = lower_bounds(graphs, effort)
     upper, complete, match = upper_bound(graphs, effort, lower)
-    proved = bool(upper - lower <= slack)
-    return ReebDistance(min(lower, upper), upper, by_persistence, proved, complete, common_space(match))
+    space = common_space(match)
+    # where the search was cut short, its space may prove more than it looked for
+    if space.difference < upper - slack:
+        upper = space.difference
+    return ReebDistance(min(lower, upper), upper, by_persistence, bool(upper - lower <= slack), complete, space)
 
 
 def candidates(graphs: Pair) -> tuple[Floats, float]:

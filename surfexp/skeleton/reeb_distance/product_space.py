@@ -2,27 +2,15 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from itertools import pairwise, product
+from collections import defaultdict
+from itertools import pairwise
 from typing import NamedTuple
-
-import numpy as np
 
 from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.reeb_distance.common_walk import Place, common_walk
 from surfexp.skeleton.reeb_distance.contraction import Chain, Contraction
-from surfexp.skeleton.reeb_distance.height_graph import merged_nodes
-
-# a node and None, or an arc and how far along it from the end where a chain enters
-Location = tuple[int, float | None]
-Point = tuple[Location, Location]
-
-
-class Part(NamedTuple):
-    """Locations in a graph, and which of them are joined by a piece of an arc."""
-
-    locations: list[Location]
-    joined: list[tuple[Location, Location]]
+from surfexp.skeleton.reeb_distance.located_parts import Located, Location, Part, Way
+from surfexp.skeleton.reeb_distance.product_complex import Point, Product
 
 
 class Match(NamedTuple):
@@ -37,6 +25,9 @@ class Match(NamedTuple):
 def common_space(match: Match) -> CommonSpace:
     """Build the common space of two graphs inside their product.
 
+    What was drawn together meets what it is matched with in one point, where all chains can begin at either of the two through
+    that point; else their product is filled with triangles.
+
     Parameters
     ----------
     match : Match
@@ -45,106 +36,64 @@ def common_space(match: Match) -> CommonSpace:
     -------
     CommonSpace
     """
-    one, other = _Located(match.first), _Located(match.second)
-    arcs: dict[frozenset[Point], None] = {}
-    triangles: dict[frozenset[Point], None] = {}
-    points: dict[Point, int] = {}
-
-    def join(*corners: Point) -> None:
-        for corner in corners:
-            points.setdefault(corner, len(points))
-        if len(set(corners)) == len(corners) > 1:
-            (arcs if len(corners) == 2 else triangles)[frozenset(corners)] = None
-
-    def fill(ours: Part, theirs: Part) -> None:
-        for point in product(ours.locations, theirs.locations):
-            join(point)
-        for a, (s, t) in product(ours.locations, theirs.joined):
-            join((a, s), (a, t))
-        for (a, b), s in product(ours.joined, theirs.locations):
-            join((a, s), (b, s))
-        for (a, b), (s, t) in product(ours.joined, theirs.joined):
-            join((a, s), (b, t))
-            join((a, s), (b, s), (b, t))
-            join((a, s), (a, t), (b, t))
-
+    one, other = Located(match.first), Located(match.second)
+    space = Product()
+    # where chains begin at the hubs, by the nodes that stand for what was drawn together there
+    begun: dict[tuple[int, int], set[Point]] = defaultdict(set)
     if not match.chains:
-        fill(one.piece(0), other.piece(0))
+        begun[one.root(0), other.root(0)] = set()
     for ours, theirs in match.chains:
-        walk = common_walk(ours, theirs, match.distance)
-        for place, there in walk:
-            fill(one.standing(ours, place), other.standing(theirs, there))
-        for (place, there), (onward, beyond) in pairwise(walk):
-            if place == onward:
-                fill(one.standing(ours, place), _path(other.moving(theirs, there, beyond)))
-            elif there == beyond:
-                fill(_path(one.moving(ours, place, onward)), other.standing(theirs, there))
-            else:
-                ways = one.moving(ours, place, onward), other.moving(theirs, there, beyond)
-                for begin, end in pairwise(zip(*ways, strict=True)):
-                    join(begin, end)
-    return CommonSpace(
-        np.array([one.heights[a] for a, _ in points]),
-        np.array([other.heights[s] for _, s in points]),
-        np.array([sorted(points[end] for end in arc) for arc in arcs], dtype=np.int64).reshape(-1, 2),
-        np.array([sorted(points[end] for end in face) for face in triangles], dtype=np.int64).reshape(-1, 3),
-    )
+        for begin in _walked(space, one.way(ours), other.way(theirs), common_walk(ours, theirs, match.distance)):
+            begun[one.root(begin[0][0]), other.root(begin[1][0])].add(begin)
+    for hub, begins in begun.items():
+        parts = one.piece(hub[0]), other.piece(hub[1])
+        meeting = _meeting(begins, *parts, one.heights, other.heights)
+        if meeting is None:
+            space.fill(*parts)
+        else:
+            space.fill(parts[0], _single(meeting[1]))
+            space.fill(_single(meeting[0]), parts[1])
+    return space.with_heights(one.heights, other.heights)
 
 
-def _path(way: list[Location]) -> Part:
-    return Part(way, list(pairwise(way)))
+def _walked(space: Product, ours: Way, theirs: Way, walk: list[tuple[Place, Place]]) -> tuple[Point, Point]:
+    """Add the curve of two chains, with what was drawn together on them where each arrives there, and return its ends."""
+    here, there = ours.leaving(0), theirs.leaving(0)
+    start = here, there
+    for (place, beside), (onward, beyond) in pairwise(walk):
+        moves = ours.moved(here, place, onward), theirs.moved(there, beside, beyond)
+        for begin, end in pairwise(zip(*moves, strict=True)):
+            space.join(begin, end)
+        here, there = moves[0][-1], moves[1][-1]
+        if onward != place and ours.passes(onward):
+            space.fill(ours.passed(onward), _single(there))
+            here = ours.leaving(onward[0])
+        if beyond != beside and theirs.passes(beyond):
+            space.fill(_single(here), theirs.passed(beyond))
+            there = theirs.leaving(beyond[0])
+    return start, (here, there)
 
 
-class _Located:
-    """The locations in a graph that a common space lies above, with their heights.
+def _meeting(
+    begins: set[Point], ours: Part, theirs: Part, f: dict[Location, float], g: dict[Location, float]
+) -> Point | None:
+    """Return the point at which two parts meet with the least difference of heights, so that all chains begin on them."""
 
-    Arcs that are drawn together and join the same pair have a middle, as has every way along a chain, so that no two arcs of
-    the space join the same pair.
-    """
+    def apart(height: float, heights: list[float]) -> float:
+        return max(abs(height - other) for other in heights)
 
-    def __init__(self, contraction: Contraction) -> None:
-        graph = self._graph = contraction.graph
-        self.heights: dict[Location, float] = {(node, None): height for node, height in enumerate(graph.heights)}
-        self._root = merged_nodes(len(graph.heights), [graph.arcs[at] for at in contraction.gone])
-        self._pieces: dict[int, Part] = {root: Part([], []) for root in set(self._root)}
-        for node, root in enumerate(self._root):
-            self._pieces[root].locations.append((node, None))
-        often = Counter(graph.arcs)
-        for at in sorted(contraction.gone):
-            a, b = graph.arcs[at]
-            ends: list[Location] = [(a, None), (b, None)]
-            if often[a, b] > 1:
-                ends.insert(1, self._along(at, 0, 0.5))
-            piece = self._pieces[self._root[a]]
-            piece.locations.extend(ends[1:-1])
-            piece.joined.extend(pairwise(ends))
+    low_high = [[pick(h[at] for at in part.locations) for pick in (min, max)] for part, h in ((ours, f), (theirs, g))]
+    costs = [
+        {at: apart(h[at], low_high[1 - side]) for at in part.locations}
+        for side, (part, h) in enumerate(((ours, f), (theirs, g)))
+    ]
+    points: list[Point] = []
+    for a in ours.locations:
+        off = {s for r, s in begins if r != a}
+        if len(off) < 2:
+            points.append((a, min(off or theirs.locations, key=costs[1].__getitem__)))
+    return min(points, key=lambda point: max(costs[0][point[0]], costs[1][point[1]]), default=None)
 
-    def piece(self, node: int) -> Part:
-        """What was drawn together with a node."""
-        return self._pieces[self._root[node]]
 
-    def standing(self, chain: Chain, place: Place) -> Part:
-        """All that lies at a place of a chain."""
-        step, share = place
-        if share is not None:
-            return Part([self._on(chain, step, share)], [])
-        at, side = chain.steps[min(step, len(chain.steps) - 1)]
-        return self.piece(self._graph.arcs[at][side if step < len(chain.steps) else 1 - side])
-
-    def moving(self, chain: Chain, place: Place, onward: Place) -> list[Location]:
-        """Where a way along one arc of a chain begins, its middle and its end."""
-        step, begin = place[0], place[1] or 0.0
-        end = 1.0 if onward[1] is None else onward[1]
-        return [self._on(chain, step, share) for share in (begin, (begin + end) / 2, end)]
-
-    def _on(self, chain: Chain, step: int, share: float) -> Location:
-        return self._along(*chain.steps[step], share)
-
-    def _along(self, at: int, side: int, share: float) -> Location:
-        ends = self._graph.arcs[at]
-        if share in (0.0, 1.0):
-            return ends[side if share == 0.0 else 1 - side], None
-        begin, end = self._graph.heights[ends[side]], self._graph.heights[ends[1 - side]]
-        # rounding may not lead beyond the end, where the height would turn over
-        self.heights[at, share] = float(np.clip(begin + share * (end - begin), min(begin, end), max(begin, end)))
-        return at, share
+def _single(location: Location) -> Part:
+    return Part([location], [])
