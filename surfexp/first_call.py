@@ -1,15 +1,20 @@
-"""The line that a first call shows: its kernels are compiled, once on a machine, before anything else is seen."""
+"""A first call: one line that its kernels are compiled, once on a machine, and a second process that compiles with it."""
 
 from __future__ import annotations
 
+import atexit
+import contextlib
+import os
+import subprocess
 import sys
 from typing import Any
 
 LINE = "surfexp: compiling numerical code for this machine, once; the first calls take about half a minute\n"
+BESIDE = "surfexp.linalg.first_factorisation"
 
 
 def announce_compilation() -> None:
-    """Show one line on the error stream when numba begins to compile, where a person is looking.
+    """Show one line on the error stream when numba begins to compile, where a person is looking, and compile beside it.
 
     Code that is loaded from numba's cache is not compiled and says nothing. A version of numba without its events says
     nothing either.
@@ -27,15 +32,42 @@ def is_watched() -> bool:
     return "ipykernel" in sys.modules or bool(getattr(sys.stderr, "isatty", bool)())
 
 
+def compile_beside() -> subprocess.Popen[bytes] | None:
+    """Let another process compile the factorisation into numba's cache, where there is a second core; it ends with this one.
+
+    It is what takes longest, and a call needs it only after its mesh was judged and its matrix ordered.
+    """
+    if len(os.sched_getaffinity(0)) < 2 if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1) < 2:
+        return None
+    with contextlib.suppress(OSError):
+        beside = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell
+            (sys.executable, "-m", BESIDE),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        atexit.register(_end, beside)
+        return beside
+    return None
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.terminate()
+    process.wait()
+
+
 def _notice(event: Any) -> Any:
     class Notice(event.Listener):
-        said = False
+        begun = False
 
         def on_start(self, begun: Any) -> None:
-            if not self.said and is_watched():
+            if self.begun:
+                return
+            self.begun = True
+            if is_watched():
                 sys.stderr.write(LINE)
                 sys.stderr.flush()
-            self.said = True
+            compile_beside()
 
         def on_end(self, ended: Any) -> None:
             pass
