@@ -59,6 +59,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 def _notice(event: Any) -> Any:
     class Notice(event.Listener):
         begun = False
+        beside: subprocess.Popen[bytes] | None = None
 
         def on_start(self, begun: Any) -> None:
             if self.begun:
@@ -67,9 +68,10 @@ def _notice(event: Any) -> Any:
             if is_watched():
                 sys.stderr.write(LINE)
                 sys.stderr.flush()
-            compile_beside()
+            self.beside = compile_beside()
 
         def on_end(self, ended: Any) -> None:
-            pass
+            if self.beside is not None:
+                self.beside.poll()  # a process that has ended is not left waiting for its parent
 
     return Notice()

@@ -16,8 +16,10 @@ child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
 pathlib.Path("child").write_text(str(child.pid))
 child.wait()
 """
+# tests may have been started to outlive their terminal, and then hand down that SIGHUP is ignored
 UI = """
-import sys
+import signal, sys
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 from surfexp.commands import processes
 processes.end_on_signals()
 from surfexp.commands.ui import served
