@@ -50,7 +50,7 @@ SECTIONS = {
     "Skeletons": ("skeleton", "vessels"),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),
-    "What a user waits for": ("whole_calls", "waiting", "commands", "cohort"),
+    "What a user waits for": ("whole_calls", "large_mesh", "waiting", "commands", "cohort"),
 }
 
 

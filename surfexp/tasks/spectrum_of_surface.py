@@ -14,7 +14,7 @@ from surfexp.operators.elements_surface import Boundary, Mass, SurfaceElements
 from surfexp.operators.fem import fem
 from surfexp.spectrum.eigensolver_error import SliverError
 from surfexp.spectrum.eigensystem import EigenSystem, clusters
-from surfexp.spectrum.lowest_pairs import without_slivers
+from surfexp.spectrum.lowest_pairs import assembled, without_slivers
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_range import pairs_between
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
@@ -79,7 +79,7 @@ class Spectrum:
 
     @cached_property
     def _elements(self) -> SurfaceElements:
-        return elements_of(self._cut, self._operator, mass=self.mass, boundary=self.boundary)
+        return elements_of(self._cut, assembled(self._operator), mass=self.mass, boundary=self.boundary)
 
     @cached_property
     def _pencil(self) -> ShiftedPencil:
@@ -118,7 +118,7 @@ class Spectrum:
         if self._found is None or count > len(self._found.values):
             system = self._certain(
                 lambda: surface_spectrum(
-                    *(self._cut, self._operator, count),
+                    *(self._cut, assembled(self._operator), count),
                     mass=self.mass,
                     boundary=self.boundary,
                     tolerance=self.tolerance,
