@@ -50,7 +50,8 @@ SECTIONS = {
     "Skeletons": ("skeleton", "vessels"),
     "Spectral distances": ("embedding",),
     "Growth": ("growth",),
-    "What a user waits for": ("whole_calls", "large_mesh", "waiting", "commands", "cohort"),
+    "Whole calls": ("whole_calls",),
+    "What a user waits for": ("large_mesh", "waiting", "commands", "cohort"),
 }
 
 
