@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import os
 import subprocess
 import sys
 from typing import Any
+
+from surfexp.contract.threads import all_cores
 
 LINE = "surfexp: compiling numerical code for this machine, once; the first calls take about half a minute\n"
 BESIDE = "surfexp.linalg.first_factorisation"
@@ -37,7 +38,7 @@ def compile_beside() -> subprocess.Popen[bytes] | None:
 
     It is what takes longest, and a call needs it only after its mesh was judged and its matrix ordered.
     """
-    if len(os.sched_getaffinity(0)) < 2 if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1) < 2:
+    if all_cores() < 2:
         return None
     with contextlib.suppress(OSError):
         beside = subprocess.Popen(  # noqa: S603, this interpreter, this package, no shell

@@ -49,13 +49,12 @@ def test_nothing_of_it_is_left_to_compile(tmp_path: Path) -> None:
 
 
 def test_one_core_compiles_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(first_call.os, "sched_getaffinity", lambda _: {0}, raising=False)
-    monkeypatch.setattr(first_call.os, "cpu_count", lambda: 1)
+    monkeypatch.setattr(first_call, "all_cores", lambda: 1)
     assert first_call.compile_beside() is None
 
 
 def test_the_second_process_ends_with_the_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(first_call.os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    monkeypatch.setattr(first_call, "all_cores", lambda: 2)
     at_exit: list[tuple[object, ...]] = []
     monkeypatch.setattr(first_call.atexit, "register", lambda *call: at_exit.append(call))
     beside = first_call.compile_beside()

@@ -36,7 +36,9 @@ def test_a_retest_shows_smooth_noise_that_the_test_alone_does_not() -> None:
     head = Surface(TriangleMesh(100.0 * ball.mesh.vertices, ball.mesh.faces), "head", "mm")
     clean = standardised("", "head", head, head.mesh.vertices[:, 2] > 0)
     noises = [4.0 * smooth_field(head, seed, width=3.0) for seed in range(3)]
-    found = distances(Pair("head", head, clean.operator, *(clean.values + noise for noise in noises)))
+    pair = Pair("head", head, clean.operator, *(clean.values + noise for noise in noises))
+    assert pair.distance(pair.judge) == 0.0 and abs(pair.distance(pair.judge + 2.0) - 2.0) < 1e-12
+    found = distances(pair)
     assert found["heat, hold-out"] >= 1.0 and found["level alone over both"] < 0.7
     assert found["default, noise from both"] < found["default"] <= found["nothing"]
     assert found["said by both: smooth"] == 1.0

@@ -23,31 +23,21 @@ class Reached(NamedTuple):
     along: list[list[Interval | None]]
     across: list[list[Interval | None]]
 
+    @property
+    def last_ends(self) -> bool:
+        """Whether both can go to their last ends, never back."""
+        return self.corner[-1][-1]
+
 
 def within(first: Interval, second: Interval, distance: float) -> bool:
     """Whether all heights of one interval are within a distance of all of another."""
     return first[1] - distance <= second[0] and second[1] - distance <= first[0]
 
 
-def walked_together(first: Chain, second: Chain, distance: float) -> bool:
-    """Whether two points can go from end to end, never back, with heights within a distance.
+def reached(first: Chain, second: Chain, distance: float) -> Reached:
+    """Find what two points can reach from the first ends of their chains, with heights within a distance.
 
     Where one of them stands at what was drawn together, all heights there count.
-
-    Parameters
-    ----------
-    first, second : Chain
-    distance : float
-
-    Returns
-    -------
-    bool
-    """
-    return reached(first, second, distance).corner[-1][-1]
-
-
-def reached(first: Chain, second: Chain, distance: float) -> Reached:
-    """Find what both can reach from their first ends.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.skeleton.reeb_distance.bottleneck import has_perfect_matching, perfect_matching
-from surfexp.skeleton.reeb_distance.chain_distance import walked_together, within
+from surfexp.skeleton.reeb_distance.chain_distance import reached, within
 from surfexp.skeleton.reeb_distance.contraction import Chain, Contraction
 
 
@@ -98,7 +98,7 @@ def _allowed(ours: list[Chain], theirs: list[Chain], turned: bool, distance: flo
     return np.array(
         [
             [
-                walked_together(one, that, distance) or (turned and walked_together(one, that.reversed(), distance))
+                reached(one, that, distance).last_ends or (turned and reached(one, that.reversed(), distance).last_ends)
                 for that in theirs
             ]
             for one in ours
@@ -115,6 +115,6 @@ def _chain_pairs(
     columns = perfect_matching(_allowed(ours, theirs, pair[0] == pair[1], distance))
     chosen = [theirs[column] for column in columns]
     return [
-        (one, that if walked_together(one, that, distance) else that.reversed())
+        (one, that if reached(one, that, distance).last_ends else that.reversed())
         for one, that in zip(ours, chosen, strict=True)
     ]
