@@ -51,6 +51,7 @@ EXAMPLES = {
     "--second", "second_name", type=click.Path(), help="another measurement of the map, by which its noise is known"
 )
 @click.option("--tolerance", type=float, help="largest relative duality gap; 1e-3 for auto, else 1e-4")
+@click.option("--threads", type=int, help="of auto; all cores if not given, the bytes are the same")
 @surface_options
 @proof_option
 @result_option()
@@ -63,6 +64,7 @@ def denoise(
     noise: float | None,
     second_name: str | None,
     tolerance: float | None,
+    threads: int | None,
     target: Path,
     proof: Path | None,
     **given: Any,
@@ -92,7 +94,7 @@ def denoise(
     known = noise if second is None else noise_task(surface, values, second)
     with progress_line("denoise") as progress:
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
-        clean = task(surface, values, noise=known, progress=progress, **options)
+        clean = task(surface, values, noise=known, threads=threads, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
     save_proof(proof, clean)
     chosen = {name: value for name, value in options.items() if name != "method" and value is not None}

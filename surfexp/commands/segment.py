@@ -18,10 +18,17 @@ from surfexp.commands.surface_arguments import finish, opened, progress_line, re
 @click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
 @click.option("--smoothness", type=float, help="dimensionless, larger is smoother; read from the noise if not given")
 @click.option("--tolerance", default=1e-3, help="largest relative duality gap of the relaxed problem")
+@click.option("--threads", type=int, help="all cores if not given, the bytes are the same")
 @surface_options
 @result_option()
 def segment(
-    path: str, map_name: str | None, smoothness: float | None, tolerance: float, target: Path, **given: Any
+    path: str,
+    map_name: str | None,
+    smoothness: float | None,
+    tolerance: float,
+    threads: int | None,
+    target: Path,
+    **given: Any,
 ) -> int:
     """Divide a surface into two regions, with a proved lower bound.
 
@@ -36,7 +43,7 @@ def segment(
     ready(target, files, check_target, hemisphere=surface.hemisphere, labels=True)
     started = time.perf_counter()
     with progress_line("segment") as progress:
-        parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, progress=progress)
+        parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, threads=threads, progress=progress)
     names = ("c1", "c2", "energy", "lower_bound", "gap", "labelling_gap", "converged", "perimeter")
     facts = {name: getattr(parts, name) for name in names} | {"seconds": time.perf_counter() - started}
     options: dict[str, Any] = {} if smoothness is None else {"smoothness": smoothness}

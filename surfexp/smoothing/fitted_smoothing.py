@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.fitted_trials import fitted_trials
 from surfexp.smoothing.stein_mixture import CAUTION, Mixture, stein_mixture
+from surfexp.variational.fidelity import Progress
 from surfexp.variational.fitted_noise import ROUGH, FittedNoise
 from surfexp.variational.noise_level import NORMAL_MEDIAN
 from surfexp.variational.noise_reading import read_noise, without_outliers
@@ -60,6 +62,8 @@ def fitted_smoothing(
     level: float | None = None,
     tolerance: float = 1e-3,
     known: FittedNoise | None = None,
+    threads: int = 1,
+    progress: Progress | None = None,
 ) -> FittedSmoothing:
     """Smooth a map by the mixture of heat kernel, total variation and edge-weighted total variation of least risk.
 
@@ -78,6 +82,10 @@ def fitted_smoothing(
         Of the relative gap of total variation.
     known : FittedNoise, optional
         In the unit of the map, as read from two measurements; where values are drawn in, only its level is read again.
+    threads : int
+        As in `fitted_trials`; the bytes are the same.
+    progress : callable, optional
+        Receives the iteration and the gap of one minimisation after the other.
 
     Raises
     ------
@@ -89,6 +97,7 @@ def fitted_smoothing(
     Stein: Estimation of the mean of a multivariate normal distribution (1981).
     Cox: Asymptotics for M-type smoothing splines (1983), for values that are drawn in.
     """
+    trials_of = partial(fitted_trials, operator, tolerance=tolerance, threads=threads, progress=progress)
     own = own_unit(values)
     sign = odd_sign(own.normalised(values))
     unit = sign * own.normalised(values)
@@ -100,7 +109,7 @@ def fitted_smoothing(
     factor = target / read.level if read.level > 0 else 1.0
     noise = noise.with_level(target)
     plain = without_outliers(operator, unit, noise.outliers)
-    trials = list(fitted_trials(operator, plain, noise, tolerance))
+    trials = list(trials_of(plain, noise))
     rough = noise.growth > ROUGH
     mixture, drawn = stein_mixture(operator, plain, noise, trials, 1.0 if rough else CAUTION), 0
     heaviness = tails(plain - mixture.values, noise)[1]
@@ -113,7 +122,7 @@ def fitted_smoothing(
             nearer = mixture.values + np.clip(rest, -bounds, bounds)
             again = read_noise(operator, nearer)
             again = (again if known is None else noise).with_level(factor * again.level)
-            trials = list(fitted_trials(operator, nearer, again, tolerance))
+            trials = list(trials_of(nearer, again))
             mixture = stein_mixture(operator, nearer, again, trials)
     solutions = [one.solution for one in trials if one.solution is not None]
     bounds_of = [0.0 if one.solution is None else one.solution.error_bound or 0.0 for one in mixture.members]

@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from surfexp.contract.arrays import Floats
+from surfexp.contract.threads import in_threads
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.edge_weights import ROUNDING, edge_weighted
 from surfexp.smoothing.heat_polynomial import heat_polynomials, largest_eigenvalue_bound
 from surfexp.smoothing.methods import MethodName, heat_time
 from surfexp.smoothing.parameter_choice import PROBE_STEP
+from surfexp.variational.fidelity import Progress
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.separable_quadratic import rof
 from surfexp.variational.solution import Solution
@@ -60,7 +62,13 @@ class Trial:
 
 
 def fitted_trials(
-    operator: SurfaceOperator, values: Floats, noise: FittedNoise, tolerance: float = 1e-3, seed: int = 0
+    operator: SurfaceOperator,
+    values: Floats,
+    noise: FittedNoise,
+    tolerance: float = 1e-3,
+    seed: int = 0,
+    threads: int = 1,
+    progress: Progress | None = None,
 ) -> Iterator[Trial]:
     """Filter a map by heat kernels, total variation and edge-weighted total variation, each on its grid.
 
@@ -81,6 +89,10 @@ def fitted_trials(
         Of the relative gap of total variation.
     seed : int
         Of the probe.
+    threads : int
+        With two the map and the map with the probe are solved side by side; the bytes are the same.
+    progress : callable, optional
+        Receives the iteration and the gap of the map itself.
 
     References
     ----------
@@ -93,6 +105,12 @@ def fitted_trials(
         response = probe * (both[:, 1] - both[:, 0]) / PROBE_STEP
         return Trial(method, parameter, np.ascontiguousarray(both[:, 0]), response, end, found)
 
+    def minimised(part: tuple[int, SurfaceOperator, Solution | None, float]) -> Solution:
+        place, own, start, mu = part
+        data = rof(operator.mass, np.ascontiguousarray(columns[:, place]), mu)
+        data = replace(data, weight=mu * noise.weights)
+        return primal_dual(data, own, start, tolerance=tolerance, progress=progress if place == 0 else None)
+
     edge = operator.edge_length
     method, kernels = _kernels(operator, columns, noise.weights**OF_KERNELS)
     for width, both in zip(WIDTHS, kernels, strict=True):
@@ -100,18 +118,17 @@ def fitted_trials(
     operators: dict[MethodName, list[SurfaceOperator]] = {"total_variation": [operator] * 2}
     if np.ptp(values) > ROUNDING:
         time = heat_time(GUIDE_WIDTH * edge)
-        operators["edge_weighted_variation"] = [edge_weighted(operator, column, time) for column in columns.T]
+        operators["edge_weighted_variation"] = [
+            *in_threads(lambda column: edge_weighted(operator, column, time), columns.T, threads)
+        ]
     share = operator.mass / operator.mass.sum()
     for method, pair in operators.items():
         last: list[Solution | None] = [None, None]
         least = np.inf
         for weight in WEIGHTS:
             mu = weight / (noise.level * edge)
-            found = []
-            for place, own in enumerate(pair):
-                data = rof(operator.mass, np.ascontiguousarray(columns[:, place]), mu)
-                data = replace(data, weight=mu * noise.weights)
-                found.append(primal_dual(data, own, last[place], tolerance=tolerance))
+            parts = [(place, own, last[place], mu) for place, own in enumerate(pair)]
+            found = [*in_threads(minimised, parts, threads)]
             last = [*found]
             both = np.column_stack([part.values for part in found])
             one = trial(method, weight, both, weight in (WEIGHTS[0], WEIGHTS[-1]), found[0])

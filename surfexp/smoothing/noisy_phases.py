@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Floats
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.fitted_smoothing import fitted_smoothing
+from surfexp.variational.fidelity import Progress
 
 # of the product of edge, contrast and noise; fixed on phases with shares of .5, .1 and .02 and seven kinds of noise
 OF_LENGTH = 2.0
@@ -40,7 +41,9 @@ class NoisyPhases:
     largest: float
 
 
-def noisy_phases(operator: SurfaceOperator, values: Floats) -> NoisyPhases:
+def noisy_phases(
+    operator: SurfaceOperator, values: Floats, threads: int = 1, progress: Progress | None = None
+) -> NoisyPhases:
     """Denoise a map and divide it by two means.
 
     Parameters
@@ -48,13 +51,15 @@ def noisy_phases(operator: SurfaceOperator, values: Floats) -> NoisyPhases:
     operator : SurfaceOperator
         Consistent.
     values : (n,) float64
+    threads, progress
+        As in `fitted_smoothing`.
 
     Raises
     ------
     ValueError
         If the map has no noise, or is constant once it is denoised.
     """
-    found = fitted_smoothing(operator, values)
+    found = fitted_smoothing(operator, values, threads=threads, progress=progress)
     clean = found.mixture.values
     least, largest = float(clean.min()), float(clean.max())
     if not largest > least:

@@ -7,6 +7,7 @@ from typing import Any
 from surfexp.smoothing.fitted_smoothing import FittedSmoothing, fitted_smoothing
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.noisy_image import NoisyImage
+from surfexp.variational.fidelity import Progress
 
 HEAT = {"heat_polynomial": "heat_kernel", "heat_flow": "heat_kernel"}
 NAMED = 0.005
@@ -16,7 +17,9 @@ AT_THE_END = (
 )
 
 
-def automatically_denoised(image: NoisyImage, tolerance: float) -> DenoisedMap:
+def automatically_denoised(
+    image: NoisyImage, tolerance: float, threads: int = 1, progress: Progress | None = None
+) -> DenoisedMap:
     """Denoise a map by the mixture of filters that promises the least error for the noise that was read from it.
 
     Parameters
@@ -25,9 +28,12 @@ def automatically_denoised(image: NoisyImage, tolerance: float) -> DenoisedMap:
         Of one channel.
     tolerance : float
         Of the relative gap of the minimisations.
+    threads, progress
+        As in `fitted_smoothing`.
     """
     part = image.part
-    found = fitted_smoothing(image.operator, image.values, image.given_noise, tolerance, image.known_noise)
+    noise = image.given_noise, tolerance, image.known_noise
+    found = fitted_smoothing(image.operator, image.values, *noise, threads, progress)
     mixture, read = found.mixture, found.noise
     facts = {
         "noise": read.level,

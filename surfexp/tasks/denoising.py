@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.mesh.given_numbers import one_of, real_number
+from surfexp.mesh.given_numbers import given_threads, one_of, real_number
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
@@ -49,6 +49,7 @@ def denoise(
     ratio: float | None = None,
     noise: float | FittedNoise | None = None,
     tolerance: float | None = None,
+    threads: int | None = None,
     progress: Progress | None = None,
 ) -> DenoisedMap:
     """Remove noise from a map by the filters that promise the least error for the noise that the map shows.
@@ -80,8 +81,10 @@ def denoise(
         estimated from the map if not given.
     tolerance : float, optional
         Largest relative duality gap: 1e-3 for "auto", 1e-4 for the others if not given.
+    threads : int, optional
+        Of "auto", which solves the map and the map with a probe side by side: all cores if not given; the bytes are the same.
     progress : callable, optional
-        Receives the iteration and the gap.
+        Receives the iteration and the gap, of one minimisation after the other.
 
     Returns
     -------
@@ -118,12 +121,13 @@ def denoise(
     ratio = real_number(RATIO if ratio is None else ratio, "ratio", above=0.0)
     usual = TOLERANCE_OF_AUTO if method == "auto" else TOLERANCE
     tolerance = real_number(usual if tolerance is None else tolerance, "tolerance", above=1e-15, below=1.0)
+    threads = given_threads(threads)
     image = noisy_image(surface, values, noise)
     part, operator = image.part, image.operator
     notes = part.notes
     if method == "auto":
         if image.values.ndim == 1:
-            found = automatically_denoised(image, tolerance)
+            found = automatically_denoised(image, tolerance, threads, progress)
             return replace(found, name=image.name)
         method, tolerance = "rof", min(tolerance, TOLERANCE)
         notes += (f"The map has {image.values.shape[1]} channels: method auto takes one, they were denoised by rof.",)

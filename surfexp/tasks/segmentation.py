@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
-from surfexp.mesh.given_numbers import real_number
+from surfexp.mesh.given_numbers import given_threads, real_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import Surface
@@ -99,6 +99,7 @@ def segment(
     *,
     smoothness: float | None = None,
     tolerance: float = 1e-3,
+    threads: int | None = None,
     progress: Progress | None = None,
 ) -> Segmentation:
     """Divide a surface into two regions in which a map is nearly constant, with a short boundary (Chan and Vese).
@@ -119,6 +120,8 @@ def segment(
         and the length weighs twice the product of edge, contrast and noise. That weight is halved while a region is empty.
     tolerance : float
         Largest relative duality gap of the relaxed problem.
+    threads : int, optional
+        Of the denoising: all cores if not given; the bytes are the same.
     progress : callable, optional
         Receives the iteration and the gap.
 
@@ -148,6 +151,7 @@ def segment(
     if smoothness is not None:
         smoothness = real_number(smoothness, "smoothness", above=0.0)
     tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
+    threads = given_threads(threads)
     owner = as_surface(surface)
     given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
@@ -162,7 +166,7 @@ def segment(
         inside, said = _clipped_curvature(inside)
         own, smoothness = own_unit(inside), smoothness or SMOOTHNESS
     elif smoothness is None:
-        phases = _phases(operator, own.normalised(inside))
+        phases = _phases(operator, own.normalised(inside), threads, progress)
 
     def solve(fidelity: Fidelity, operator: SurfaceOperator, start: Solution | None = None) -> Solution:
         return primal_dual(fidelity, operator, start, tolerance=tolerance, progress=progress)
@@ -206,10 +210,10 @@ def _is_multiple_of_curvature(values: Floats, surface: Surface, part: SurfacePar
     return bool(factor != 0 and np.linalg.norm(own - factor * curvature) <= SAME * np.linalg.norm(own))
 
 
-def _phases(operator: SurfaceOperator, values: Floats) -> NoisyPhases | None:
+def _phases(operator: SurfaceOperator, values: Floats, threads: int, progress: Progress | None) -> NoisyPhases | None:
     """The phases of a map in its own unit, or nothing where no noise can be read from it."""
     try:
-        return noisy_phases(operator, values)
+        return noisy_phases(operator, values, threads, progress)
     except ValueError:
         return None
 

@@ -8,13 +8,13 @@ from functools import cached_property
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
-from scipy.sparse import csr_array, diags_array, eye_array
+from scipy.sparse import csr_array, eye_array
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.linalg.ldlt import LDLT, ldlt
-from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.noise_level import NORMAL_MEDIAN, affine_relations
+from surfexp.variational.short_heat_flow import short_heat_flow
+from surfexp.variational.surface_flows import heat_flow
 
 NEAREST = 3
 # levels; what is 3 standard deviations from its neighbourhood has three neighbours nearer than this
@@ -25,6 +25,8 @@ RINGS = 4
 # full width, in edges, over which logarithms of local levels are averaged
 LEVEL_WIDTH = 4.0
 HEAT_STEPS = 4
+# where less of a weight arrives, far from all pairs that are used, rounding counts: factorised steps keep it positive
+SMALL_WEIGHT = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,30 +102,24 @@ class NoiseStatistics:
         known = medians > 0
         logs = np.log(np.where(known, medians, 1.0))
         weights = np.where(known, self.operator.mass, 0.0)
-        return np.exp(self._averaged(weights * logs) / np.maximum(self._averaged(weights), np.finfo(float).tiny))
+        fields = np.column_stack([weights * logs, weights]) / self.operator.mass[:, None]
+        averaged = self._heat_flow(fields, LEVEL_WIDTH)
+        if averaged[:, 1].min() < SMALL_WEIGHT:
+            averaged = heat_flow(self.operator, fields, self._time(LEVEL_WIDTH), HEAT_STEPS)
+        return np.exp(averaged[:, 0] / np.maximum(averaged[:, 1], np.finfo(float).tiny))
 
-    def _averaged(self, loads: Floats) -> Floats:
-        """Heat flow of loads, which are values times mass."""
-        values = loads / self.operator.mass
-        for _ in range(HEAT_STEPS):
-            values = self._level_system.solve(self.operator.mass * values)
-        return values
+    def _heat_flow(self, values: Floats, width: float) -> Floats:
+        """Heat flow of a full width in edges."""
+        return short_heat_flow(self.operator, values, self._time(width), HEAT_STEPS)
 
-    @cached_property
-    def _level_system(self) -> LDLT:
-        return self._heat_system(LEVEL_WIDTH)
-
-    def _heat_system(self, width: float) -> LDLT:
-        time = (width * self.operator.edge_length) ** 2 / (16.0 * np.log(2.0))
-        return ldlt(diags_array(self.operator.mass) + time / HEAT_STEPS * stiffness(self.operator))
+    def _time(self, width: float) -> float:
+        return (width * self.operator.edge_length) ** 2 / (16.0 * float(np.log(2.0)))
 
     def smooth_noise(self, white: Floats, width: float) -> Floats:
         """Return (n, c) noise after heat flow of a full width in edges, of deviation 1 in the mean over the vertices."""
         if width == 0:
             return white
-        system = self._heat_system(width)
-        for _ in range(HEAT_STEPS):
-            white = system.solve(self.operator.mass[:, None] * white)
+        white = self._heat_flow(white, width)
         return white / np.sqrt((white**2).mean(axis=0))
 
     def informative(self, used: np.ndarray) -> NDArray[np.bool_]:

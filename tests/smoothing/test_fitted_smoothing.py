@@ -36,6 +36,16 @@ def test_the_negative_map_has_the_negative_result_to_the_last_bit() -> None:
         assert np.array_equal(other.mixture.values, -one.mixture.values) and other.mixture.risk == one.mixture.risk
 
 
+def test_two_threads_give_the_same_bytes_and_progress_is_told() -> None:
+    seen: list[int] = []
+    one, two = (
+        fitted_smoothing(OPERATOR, ROUGH, threads=threads, progress=lambda step, _: seen.append(step))
+        for threads in (1, 2)
+    )
+    assert one.mixture.values.tobytes() == two.mixture.values.tobytes() and one.largest_gap == two.largest_gap
+    assert seen and seen[: len(seen) // 2] == seen[len(seen) // 2 :]
+
+
 @pytest.mark.parametrize(("factor", "offset"), [(1e6, 3.0), (1e-9, 0.0), (1.0, 100.0)])
 def test_a_change_of_unit_changes_the_result_by_rounding(factor: float, offset: float) -> None:
     one, other = fitted_smoothing(OPERATOR, ROUGH), fitted_smoothing(OPERATOR, factor * ROUGH + offset)
