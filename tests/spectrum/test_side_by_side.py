@@ -119,6 +119,8 @@ def test_no_number_of_threads_is_refused(threads: object) -> None:
         lambda: sx.eigenpairs(sx.shape("icosphere", levels=1), 3, threads=threads),  # type: ignore[arg-type]
         lambda: sx.eigsh(A, 3, B, sigma=0.0, threads=threads),  # type: ignore[arg-type]
         lambda: sx.Spectrum(sx.shape("icosphere", levels=1), threads=threads),  # type: ignore[arg-type]
+        lambda: sx.denoise(sx.shape("icosphere", levels=1), np.arange(42.0), threads=threads),  # type: ignore[arg-type]
+        lambda: sx.segment(sx.shape("icosphere", levels=1), np.arange(42.0), threads=threads),  # type: ignore[arg-type]
     ):
         with pytest.raises(ValueError, match=r"threads = .*, at least 1 is needed"):
             call()
