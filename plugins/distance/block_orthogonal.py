@@ -25,7 +25,9 @@ METRICS = {
 }
 
 
-@register("distance", "block_orthogonal", metrics=METRICS, defaults_of=(size_at_gap, block_distance))
+@register(
+    "distance", "block_orthogonal", metrics=METRICS, defaults_of=(size_at_gap, block_distance, spectral_embedding)
+)
 def block_orthogonal_distance(
     source_surface: Surface,
     target_surface: Surface,
@@ -36,10 +38,8 @@ def block_orthogonal_distance(
     weighting: Annotated[
         Literal["global_point", "biharmonic", "heat_kernel", "diffusion"],
         Field(description="weight of each eigenfunction: (6.4), 1/lambda, or (3.11)"),
-    ] = "global_point",
-    time: Annotated[
-        float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")
-    ] = 0.02,
+    ],
+    time: Annotated[float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")],
     gap: Annotated[
         float, Field(ge=0, lt=1, description="eigenvalues nearer than this, relatively, belong to one block")
     ],

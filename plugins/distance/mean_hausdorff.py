@@ -44,7 +44,7 @@ METRICS = {
 }
 
 
-@register("distance", "mean_hausdorff", metrics=METRICS, defaults_of=spectral_distance)
+@register("distance", "mean_hausdorff", metrics=METRICS, defaults_of=(spectral_distance, spectral_embedding))
 def mean_hausdorff_distance(
     source_surface: Surface,
     target_surface: Surface,
@@ -52,8 +52,8 @@ def mean_hausdorff_distance(
     target: EigenSystem,
     *,
     n: N = 10,
-    weighting: Weighting = "global_point",
-    time: Time = 0.02,
+    weighting: Weighting,
+    time: Time,
     seed: Seed,
     reading: Reading,
     undecided: Undecided,
@@ -77,7 +77,7 @@ def mean_hausdorff_distance(
     return _with_faces(found, pair, source_surface, target_surface, "mean") if faces else found
 
 
-@register("distance", "hausdorff", metrics=METRICS, defaults_of=spectral_distance)
+@register("distance", "hausdorff", metrics=METRICS, defaults_of=(spectral_distance, spectral_embedding))
 def hausdorff_distance(
     source_surface: Surface,
     target_surface: Surface,
@@ -85,8 +85,8 @@ def hausdorff_distance(
     target: EigenSystem,
     *,
     n: N = 10,
-    weighting: Weighting = "global_point",
-    time: Time = 0.02,
+    weighting: Weighting,
+    time: Time,
     seed: Seed,
     reading: Reading,
     undecided: Undecided,

@@ -17,7 +17,7 @@ METRICS = {
 }
 
 
-@register("distance", "wasserstein", metrics=METRICS, defaults_of=wasserstein_distance)
+@register("distance", "wasserstein", metrics=METRICS, defaults_of=(wasserstein_distance, spectral_embedding))
 def wasserstein_plugin(
     source_surface: Surface,
     target_surface: Surface,
@@ -28,10 +28,8 @@ def wasserstein_plugin(
     weighting: Annotated[
         Literal["global_point", "biharmonic", "heat_kernel", "diffusion"],
         Field(description="weight of each eigenfunction: (6.4), 1/lambda, or (3.11)"),
-    ] = "global_point",
-    time: Annotated[
-        float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")
-    ] = 0.02,
+    ],
+    time: Annotated[float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")],
     samples: Annotated[int, Field(ge=10, le=5000, description="points of each surface, drawn by area")],
     limit: Annotated[int, Field(ge=2, le=1000000, description="most transport problems")],
     transport: Annotated[Literal["exact", "sinkhorn"], Field(description="network simplex or entropic plans")],

@@ -32,7 +32,7 @@ METRICS = {
 }
 
 
-@register("distance_matrix", "pairs", metrics=METRICS, defaults_of=Pairing)
+@register("distance_matrix", "pairs", metrics=METRICS, defaults_of=(Pairing, spectral_embedding))
 def pairs_matrix(
     surfaces: dict[Member, Surface],
     systems: dict[Member, EigenSystem],
@@ -53,10 +53,8 @@ def pairs_matrix(
     weighting: Annotated[
         Literal["global_point", "biharmonic", "heat_kernel", "diffusion"],
         Field(description="weight of each eigenfunction: (6.4), 1/lambda, or (3.11)"),
-    ] = "global_point",
-    time: Annotated[
-        float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")
-    ] = 0.02,
+    ],
+    time: Annotated[float, Field(gt=0, le=100, description="time of heat kernel and diffusion, in units of the area")],
     exact: Annotated[bool, Field(description="search signs on all points with proof, or on samples only")],
     samples: Annotated[
         int, Field(ge=10, le=100000, description="points of each surface in searches, transport and on grids")

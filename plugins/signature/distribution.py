@@ -21,13 +21,13 @@ METRICS = {
 }
 
 
-@register("signature", "distribution", metrics=METRICS)
+@register("signature", "distribution", metrics=METRICS, defaults_of=embedding_distances)
 def distribution_signature(
     surface: Surface,
     eigensolver: EigenSystem,
     *,
     quantity: Annotated[Literal["heat_trace", "hks", "wks", "gps"], Field(description="what is gathered")] = "hks",
-    seed: Annotated[int, Field(ge=0, description="seed of the points that gps draws")] = 0,
+    seed: Annotated[int, Field(ge=0, description="seed of the points that gps draws")],
 ) -> Signature:
     """Heat trace, or the distribution over the surface of HKS, WKS or distances in the GPS embedding."""
     areas = surface.mesh.vertex_areas

@@ -9,7 +9,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.operators.calculus import gradient
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.variational.short_heat_flow import short_heat_flow
+from surfexp.variational.short_heat_flow import ShortHeatFlow
 
 ROUNDING = 1e-12
 
@@ -37,7 +37,7 @@ def edge_weighted(operator: SurfaceOperator, values: Floats, time: float) -> Sur
     ----------
     Perona, Malik: Scale-space and edge detection using anisotropic diffusion (1990), for g.
     """
-    slopes = np.linalg.norm(gradient(operator, short_heat_flow(operator, values, time)), axis=1)
+    slopes = np.linalg.norm(gradient(operator, ShortHeatFlow(operator, time)(values)), axis=1)
     mean = float(operator.areas @ slopes / operator.areas.sum())
     if not mean * operator.edge_length > ROUNDING * np.abs(values).max():
         raise ValueError("the map is constant and has no edges: take total variation without weights")

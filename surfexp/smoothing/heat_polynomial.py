@@ -9,6 +9,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.special import ive
 
 from surfexp.contract.arrays import Floats
+from surfexp.linalg.chebyshev_sums import chebyshev_sums
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive
@@ -89,18 +90,7 @@ def heat_polynomials(
     series = [_coefficients(0.5 * time * largest, tolerance) for time in times]
     mass = operator.mass if weights is None else operator.mass * weights
     laplacian = csr_array(diags_array(1.0 / mass) @ stiffness(operator))
-    scale = 2.0 / largest
-
-    def shifted(field: Floats) -> Floats:
-        return scale * (laplacian @ field) - field
-
-    before, now = values, shifted(values)
-    totals = [given[0] * before + (given[1] * now if len(given) > 1 else 0.0) for given, _ in series]
-    for term in range(2, max(len(given) for given, _ in series)):
-        before, now = now, 2.0 * shifted(now) - before
-        for place, (given, _) in enumerate(series):
-            if term < len(given):
-                totals[place] = totals[place] + given[term] * now
+    totals = chebyshev_sums(laplacian, largest, values, [given for given, _ in series])
     return [(total, len(given) - 1, rest) for total, (given, rest) in zip(totals, series, strict=True)]
 
 

@@ -13,8 +13,7 @@ from scipy.sparse import csr_array, eye_array
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.noise_level import NORMAL_MEDIAN, affine_relations
-from surfexp.variational.short_heat_flow import short_heat_flow
-from surfexp.variational.surface_flows import heat_flow
+from surfexp.variational.short_heat_flow import ShortHeatFlow
 
 NEAREST = 3
 # levels; what is 3 standard deviations from its neighbourhood has three neighbours nearer than this
@@ -81,6 +80,17 @@ class NoiseStatistics:
             inner = outer
         return sample, rings
 
+    @cached_property
+    def _flows(self) -> dict[float, ShortHeatFlow]:
+        return {}
+
+    def _flow(self, width: float) -> ShortHeatFlow:
+        """Heat flow of a full width in edges, prepared once."""
+        if width not in self._flows:
+            time = (width * self.operator.edge_length) ** 2 / (16.0 * float(np.log(2.0)))
+            self._flows[width] = ShortHeatFlow(self.operator, time, HEAT_STEPS)
+        return self._flows[width]
+
     def deviations(self, values: Floats) -> Floats:
         """Return (e,) sizes of what is not affine on each pair of triangles; white noise gives them its own deviation."""
         corners, relations = self.relations
@@ -103,23 +113,16 @@ class NoiseStatistics:
         logs = np.log(np.where(known, medians, 1.0))
         weights = np.where(known, self.operator.mass, 0.0)
         fields = np.column_stack([weights * logs, weights]) / self.operator.mass[:, None]
-        averaged = self._heat_flow(fields, LEVEL_WIDTH)
+        averaged = self._flow(LEVEL_WIDTH)(fields)
         if averaged[:, 1].min() < SMALL_WEIGHT:
-            averaged = heat_flow(self.operator, fields, self._time(LEVEL_WIDTH), HEAT_STEPS)
+            averaged = self._flow(LEVEL_WIDTH).by_steps(fields)
         return np.exp(averaged[:, 0] / np.maximum(averaged[:, 1], np.finfo(float).tiny))
-
-    def _heat_flow(self, values: Floats, width: float) -> Floats:
-        """Heat flow of a full width in edges."""
-        return short_heat_flow(self.operator, values, self._time(width), HEAT_STEPS)
-
-    def _time(self, width: float) -> float:
-        return (width * self.operator.edge_length) ** 2 / (16.0 * float(np.log(2.0)))
 
     def smooth_noise(self, white: Floats, width: float) -> Floats:
         """Return (n, c) noise after heat flow of a full width in edges, of deviation 1 in the mean over the vertices."""
         if width == 0:
             return white
-        white = self._heat_flow(white, width)
+        white = self._flow(width)(white)
         return white / np.sqrt((white**2).mean(axis=0))
 
     def informative(self, used: np.ndarray) -> NDArray[np.bool_]:

@@ -2,61 +2,77 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from scipy.fft import dct
 from scipy.sparse import csr_array, diags_array
 
 from surfexp.contract.arrays import Floats
+from surfexp.linalg.chebyshev_sums import chebyshev_sums
+from surfexp.linalg.ldlt import LDLT, ldlt
 from surfexp.operators.assembly import stiffness
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.separable_quadratic import check_positive
-from surfexp.variational.surface_flows import heat_flow
 
 # beyond it a factorisation costs no more on any surface that was tried
 LARGEST_DEGREE = 200
 LEFT_OUT = 1e-14
 
 
-def short_heat_flow(operator: SurfaceOperator, values: Floats, time: float, steps: int = 10) -> Floats:
-    """Return what `heat_flow` returns, to rounding: by a polynomial of the Laplacian where one of degree 200 suffices.
+@dataclass(frozen=True, eq=False)
+class ShortHeatFlow:
+    """What `heat_flow` returns, to rounding: by a polynomial of the Laplacian where one of degree 200 suffices.
 
     k implicit steps are ``(1 + t L / k)^-k f`` with ``L = M^-1 S``. No eigenvalue of L exceeds its largest row sum of moduli
     (Gershgorin), and on that interval the Chebyshev series of the rational function falls geometrically: a flow over
-    four edges of a good mesh takes some forty terms. Where slivers make the interval long, the steps are factorised.
+    four edges of a good mesh takes some forty terms. Where slivers make the interval long, the steps are factorised, once.
 
     Parameters
     ----------
     operator : SurfaceOperator
-    values : (n,) or (n, c) float64
     time : float
         In squared units of length.
     steps : int
-
-    Returns
-    -------
-    like `values`
 
     Raises
     ------
     ValueError
         If the time is not positive.
     """
-    check_positive("time", time)
-    laplacian = csr_array(diags_array(1.0 / operator.mass) @ stiffness(operator))
-    largest = float(abs(laplacian).sum(axis=1).max())
-    coefficients = series_of_steps(0.5 * time * largest / steps, steps)
-    if coefficients is None:
-        return heat_flow(operator, values, time, steps)
 
-    def shifted(field: Floats) -> Floats:
-        return (2.0 / largest) * (laplacian @ field) - field
+    operator: SurfaceOperator
+    time: float
+    steps: int = 10
 
-    before, now = values, shifted(values)
-    total = coefficients[0] * before + coefficients[1] * now
-    for coefficient in coefficients[2:]:
-        before, now = now, 2.0 * shifted(now) - before
-        total += coefficient * now
-    return total
+    def __post_init__(self) -> None:
+        check_positive("time", self.time)
+
+    @cached_property
+    def _polynomial(self) -> tuple[csr_array, float, Floats | None]:
+        """The Laplacian, a bound of its eigenvalues, and the series; none where it would be long."""
+        laplacian = csr_array(diags_array(1.0 / self.operator.mass) @ stiffness(self.operator))
+        largest = float(abs(laplacian).sum(axis=1).max())
+        return laplacian, largest, series_of_steps(0.5 * self.time * largest / self.steps, self.steps)
+
+    @cached_property
+    def _factors(self) -> LDLT:
+        return ldlt(diags_array(self.operator.mass) + self.time / self.steps * stiffness(self.operator))
+
+    def __call__(self, values: Floats) -> Floats:
+        """Return the flow of values (n,) or (n, c)."""
+        laplacian, largest, series = self._polynomial
+        if series is None:
+            return self.by_steps(values)
+        return chebyshev_sums(laplacian, largest, values, [series])[0]
+
+    def by_steps(self, values: Floats) -> Floats:
+        """Return the same by factorised steps, which keep positive what is positive where rounding would decide."""
+        mass = self.operator.mass.reshape(-1, *[1] * (values.ndim - 1))
+        for _ in range(self.steps):
+            values = self._factors.solve(mass * values)
+        return values
 
 
 def series_of_steps(half: float, steps: int) -> Floats | None:

@@ -22,7 +22,7 @@ METRICS = {
 }
 
 
-@register("statistic", "template_distances", metrics=METRICS, defaults_of=template_distances)
+@register("statistic", "template_distances", metrics=METRICS, defaults_of=(template_distances, synthetic_subject))
 def template_distances_statistic(
     template: Surface,
     *,
@@ -31,10 +31,8 @@ def template_distances_statistic(
     n: Annotated[int, Field(ge=1, le=200, description="number of eigenfunctions")],
     exact: Annotated[bool, Field(description="prove the signs on all points, or take those of samples")],
     samples: Annotated[int, Field(ge=10, le=100000, description="points on which signs are searched, drawn by area")],
-    strain: Annotated[
-        float, Field(ge=0, le=0.3, description="root mean square strain of the random deformations")
-    ] = 0.03,
-    seed: Annotated[int, Field(ge=0, description="seed of the population")] = 0,
+    strain: Annotated[float, Field(ge=0, le=0.3, description="root mean square strain of the random deformations")],
+    seed: Annotated[int, Field(ge=0, description="seed of the population")],
 ) -> Statistic:
     """Spectral distance of each hemisphere of a block of a synthetic population to the template."""
     numbers = [(first + k, side) for k in range(subjects) for side in SIDES]
