@@ -92,7 +92,8 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     surface, files = opened(path, **given)
     ready_map(target, files, surface)
     started = time.perf_counter()
-    values, lower = task(surface, sources, bounds=True)
+    with progress_line("geodesic") as progress:
+        values, lower = task(surface, sources, bounds=True, progress=progress)
     unreached = np.isinf(values)
     within = float(np.nanmax(np.where(unreached, 0.0, values - np.where(unreached, 0.0, lower))))
     facts = {"too_long_by_at_most": within, "seconds": time.perf_counter() - started}

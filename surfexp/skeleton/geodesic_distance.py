@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -14,15 +15,22 @@ from surfexp.operators.edge_flips import flip_to_delaunay, twin_sides
 from surfexp.operators.intrinsic_delaunay import MOLLIFICATION, hat_gradients_from_lengths
 from surfexp.skeleton.circular_fronts import march
 from surfexp.skeleton.slope_contraction import contract
-from surfexp.skeleton.straight_paths import straighten
+from surfexp.skeleton.straight_paths import beyond_sides, straighten
 
-# rounds over all faces at most; what is steeper then is scaled as a whole
+# rounds over all faces at most, and after how many of them it is asked whether any is left; what is steeper then is scaled
 ROUNDS = 100
+ROUNDS_AT_ONCE = 10
+# a cone is too steep between the vertices around its tip: edges by which it is flattened there, times a logarithm
+BLUNT = 0.15
+# parts of the vertices after which progress is said
+PARTS = 50
 # slopes aimed at: a little less than 1, so that a face is done after few rounds
 GOAL = 1.0 - 1e-3
 FLIPS_OF_A_FACE = 100
 # what opening slivers adds to the angles around a vertex
 FULL_TURN = 1e-4
+
+Progress = Callable[[int, float], None]
 
 
 class GeodesicDistance(NamedTuple):
@@ -51,7 +59,7 @@ class _Triangulation(NamedTuple):
     unit: float
 
 
-def geodesic_distance(mesh: TriangleMesh, sources: Integers) -> Floats:
+def geodesic_distance(mesh: TriangleMesh, sources: Integers, progress: Progress | None = None) -> Floats:
     """Return distances along the flat triangles of a mesh, however they are shaped: lengths of paths, none too short.
 
     Fronts run over the intrinsic Delaunay triangulation of the surface, as circles about the source unfolded into the plane.
@@ -63,6 +71,8 @@ def geodesic_distance(mesh: TriangleMesh, sources: Integers) -> Floats:
     mesh : TriangleMesh
     sources : (s,) int64
         Vertices at distance 0.
+    progress : callable, optional
+        Called with the number of vertices that are done and the share of the work that is left.
 
     Returns
     -------
@@ -81,19 +91,22 @@ def geodesic_distance(mesh: TriangleMesh, sources: Integers) -> Floats:
     """
     sources = _checked(sources, len(mesh.vertices))
     triangulation = _triangulated(mesh)
-    return triangulation.unit * _paths(triangulation, sources)
+    return triangulation.unit * _paths(triangulation, sources, progress)
 
 
-def geodesic_bounds(mesh: TriangleMesh, sources: Integers) -> GeodesicDistance:
+def geodesic_bounds(mesh: TriangleMesh, sources: Integers, progress: Progress | None = None) -> GeodesicDistance:
     """Return the distances of `geodesic_distance` with bounds from below.
 
     A linear function on each triangle whose slope is nowhere above 1 rises along no path by more than its length. The
-    distances found are flattened until they are such a function, triangle by triangle; what is left above 1 divides all.
+    distances found, a little blunted at the sources, are flattened until they are such a function, triangle by triangle; what
+    is left above 1 divides all.
 
     Parameters
     ----------
     mesh : TriangleMesh
     sources : (s,) int64
+    progress : callable, optional
+        As in `geodesic_distance`.
 
     Returns
     -------
@@ -107,11 +120,17 @@ def geodesic_bounds(mesh: TriangleMesh, sources: Integers) -> GeodesicDistance:
     sources = _checked(sources, len(mesh.vertices))
     triangulation = _triangulated(mesh)
     faces, lengths, _, start, star, unit = triangulation
-    upper = _paths(triangulation, sources)
+    # paths and bounds take about as long
+    upper = _paths(triangulation, sources, progress and (lambda done, left: progress(done, 0.5 + 0.5 * left)))
     reached = np.isfinite(upper)
-    flat = np.where(reached, upper, 0.0)
+    blunt = BLUNT * lengths.mean()
+    flat = np.where(reached, upper - blunt * np.log1p(upper / blunt), 0.0)
     hats, _ = hat_gradients_from_lengths(lengths)
-    contract(faces, hats, start, star, flat, GOAL, ROUNDS)
+    for first in range(0, ROUNDS, ROUNDS_AT_ONCE):
+        if contract(faces, hats, start, star, flat, GOAL, ROUNDS_AT_ONCE):
+            break
+        if progress is not None:
+            progress(len(upper), 0.5 - 0.5 * (first + ROUNDS_AT_ONCE) / ROUNDS)
     steepest = float(np.linalg.norm(np.einsum("fk,fkx->fx", flat[faces], hats), axis=1).max(initial=0.0))
     lower = np.maximum(flat - flat[sources].max(), 0.0) / max(steepest, 1.0)
     return GeodesicDistance(unit * upper, unit * np.where(reached, np.minimum(lower, upper), np.inf))
@@ -137,11 +156,23 @@ def _triangulated(mesh: TriangleMesh) -> _Triangulation:
     return _Triangulation(faces, lengths, twins, start, star, unit)
 
 
-def _paths(triangulation: _Triangulation, sources: Integers) -> Floats:
+def _paths(triangulation: _Triangulation, sources: Integers, progress: Progress | None) -> Floats:
     faces, lengths, twins, start, star, _ = triangulation
     bends = _bending(faces, lengths, twins, len(start) - 1)
     distances, came = march(faces, lengths, start, star, sources, bends)
-    return straighten(faces, lengths, twins, sources, distances, came)
+    upper = np.full(len(distances), np.inf)
+    upper[sources] = 0.0
+    order = np.argsort(distances)
+    order = order[np.isfinite(distances[order]) & (upper[order] > 0.0)]
+    corners, places = beyond_sides(faces, lengths, twins)
+    done = 0
+    for part in np.array_split(order, PARTS):
+        straighten(part, upper, faces, lengths, came, corners, places)
+        done += len(part)
+        if progress is not None and done:
+            # lines grow with the distance
+            progress(done, 1.0 - (done / len(order)) ** 1.5)
+    return upper
 
 
 def _bending(faces: Integers, lengths: Floats, twins: Integers, count: int) -> NDArray[np.bool_]:

@@ -14,8 +14,8 @@ NEWTON_STEPS = 30
 @njit(cache=True, nogil=True)
 def contract(
     faces: Integers, hats: Floats, start: Integers, star: Integers, values: Floats, goal: float, rounds: int
-) -> None:
-    """Project the values of every face steeper than 1 onto those of slope `goal`, in place, in turn.
+) -> bool:
+    """Project the values of every face steeper than 1 onto those of slope `goal`, in place, in turn; return whether none is left.
 
     Projections onto convex sets that have a point in common come ever nearer to all of them. `hats` (m, 3, 2) are the
     gradients of the hat functions; the faces of vertex v are star[start[v]:start[v + 1]].
@@ -25,7 +25,7 @@ def contract(
     waiting = np.ones(m, np.bool_)
     for _ in range(rounds * m):
         if not count:
-            break
+            return True
         f = ring[first]
         first = (first + 1) % m
         count -= 1
@@ -44,6 +44,7 @@ def contract(
                     waiting[near] = True
                     ring[(first + count) % m] = near
                     count += 1
+    return not count
 
 
 @njit(cache=True, nogil=True)

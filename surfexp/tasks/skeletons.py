@@ -14,7 +14,7 @@ from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
-from surfexp.skeleton.geodesic_distance import geodesic_bounds, geodesic_distance
+from surfexp.skeleton.geodesic_distance import Progress, geodesic_bounds, geodesic_distance
 from surfexp.skeleton.level_selection import Choice, choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
@@ -81,14 +81,20 @@ def reeb_graph(
 
 
 @overload
-def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[False] = False) -> Floats: ...
+def geodesic(
+    surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[False] = False, progress: Progress | None = None
+) -> Floats: ...
 
 
 @overload
-def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[True]) -> tuple[Floats, Floats]: ...
+def geodesic(
+    surface: SurfaceLike, sources: ArrayLike, *, bounds: Literal[True], progress: Progress | None = None
+) -> tuple[Floats, Floats]: ...
 
 
-def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) -> Floats | tuple[Floats, Floats]:
+def geodesic(
+    surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False, progress: Progress | None = None
+) -> Floats | tuple[Floats, Floats]:
     """Return the geodesic distance of every vertex from a set of vertices: the length of a path, with a bound from below.
 
     Fronts run over the intrinsic Delaunay triangulation, and straight lines over unfolded triangles follow them back, so that
@@ -103,6 +109,8 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) 
         Vertex numbers of the whole surface, or a Boolean mask of its vertices.
     bounds : bool
         Return lower bounds as well: no path on the mesh is shorter.
+    progress : callable, optional
+        Called with the number of vertices that are done and the share of the work that is left.
 
     Returns
     -------
@@ -145,8 +153,8 @@ def geodesic(surface: SurfaceLike, sources: ArrayLike, *, bounds: bool = False) 
             f"source {outside} lies outside the mask of {len(part.vertices)} vertices: give one inside, or widen the mask"
         )
     if not bounds:
-        return part.extend(part.length * geodesic_distance(part.mesh, number[wanted]))
-    upper, lower = geodesic_bounds(part.mesh, number[wanted])
+        return part.extend(part.length * geodesic_distance(part.mesh, number[wanted], progress))
+    upper, lower = geodesic_bounds(part.mesh, number[wanted], progress)
     return part.extend(part.length * upper), part.extend(part.length * lower)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -109,3 +111,23 @@ def test_a_face_without_area_is_survived() -> None:
     found = geodesic_bounds(TriangleMesh(vertices, faces), np.array([0]))
     exact = np.linalg.norm(vertices - vertices[0], axis=1)
     assert found.upper == pytest.approx(exact, rel=1e-3, abs=1e-6) and (found.lower <= exact + 1e-4).all()
+
+
+@pytest.mark.parametrize("function", [geodesic_distance, geodesic_bounds])
+def test_progress_falls_to_nothing_and_changes_nothing(function: Callable[..., object]) -> None:
+    said: list[tuple[int, float]] = []
+    found = function(BALL, np.array([0]), lambda done, left: said.append((done, left)))
+    assert len(said) >= 10 and all(0.0 <= left <= 1.0 for _, left in said)
+    assert sorted(said, key=lambda one: -one[1]) == said and max(done for done, _ in said) >= len(BALL.vertices) - 1
+    assert np.array_equal(np.array(found), np.array(function(BALL, np.array([0]))))
+
+
+@pytest.mark.parametrize("stretch", [1.0, 2.0, 4.0])
+def test_the_lower_bound_lies_near_on_smooth_surfaces(stretch: float) -> None:
+    """Four in a hundred of the mean distance on 2,562 vertices, and less with more of them."""
+    gaps = []
+    for levels in (4, 5):
+        ball = sx.shape("icosphere", levels=levels).mesh
+        found = geodesic_bounds(TriangleMesh(ball.vertices * [1.0, 1.0, stretch], ball.faces), np.array([7]))
+        gaps.append(np.mean(found.upper - found.lower) / np.mean(found.upper))
+    assert gaps[0] < 0.04 and gaps[1] < 0.7 * gaps[0], gaps
