@@ -17,12 +17,10 @@ from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.inputs import SurfaceLike
-from surfexp.tasks.map_columns import columns_of
 from surfexp.tasks.shown import shown_surfaces
 
-# columns of a map seen from one side
+# maps of one surface seen from one side
 ABREAST = 3
 # surfaces in a row
 LONGEST_ROW = 6
@@ -103,10 +101,10 @@ def plot(
     values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend; labels of a file have those
         of its table (.annot, .label.gii, .dlabel.nii). A list has one for each of
-        several surfaces, or of one surface a row for each; so has a dict, with their names. Of a map of several columns,
-        as a time series, six are shown, in colours that they share; (n, 3) numbers in 0..1 are colours. Without a map a
-        scan has its own colours. Eigenpairs are rows of
-        eigenfunctions with nodal lines. A denoised map is shown before and after, with what was removed, a denoising path at
+        several surfaces, or of one surface a row for each, three abreast where they are seen from one side; so has a dict,
+        with their names. Of a map of several columns, as a time series, six are shown, in colours that they share; (n, 3)
+        numbers in 0..1 are colours. Without a map a scan has its own colours. Eigenpairs are rows of eigenfunctions with nodal
+        lines. A denoised map is shown before and after, with what was removed, a denoising path at
         three weights. A distance on
         [source, target] is shown by the colours that its correspondence carries over.
     views : name, (azimuth, elevation) in degrees, or a sequence of these
@@ -160,12 +158,10 @@ def plot(
         label=label,
         unit=unit,
     )
-    alone = all(len(row) == 1 for row in rows)
-    if alone and isinstance(values, DenoisingPath):
-        rows = [[row[0] for row in rows]]
-    if len(rows) > ABREAST and alone and columns_of(values):
+    if len(rows) > 1 and all(len(row) == 1 for row in rows):
         single = [row[0] for row in rows]
-        rows = [single[k : k + ABREAST] for k in range(0, len(single), ABREAST)]
+        abreast = ABREAST if len(single) != 2 * ABREAST - 2 else 2
+        rows = [single[k : k + abreast] for k in range(0, len(single), abreast)]
     if len(rows) == 1 and len(rows[0]) > LONGEST_ROW:
         per_row = -(-len(rows[0]) // -(-len(rows[0]) // LONGEST_ROW))
         rows = [rows[0][k : k + per_row] for k in range(0, len(rows[0]), per_row)]

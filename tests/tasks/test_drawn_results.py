@@ -97,7 +97,7 @@ def test_what_was_removed_has_the_unit_of_its_map_and_the_filter_its_name() -> N
     noisy = 2.5 + 0.3 * np.random.default_rng(0).standard_normal(len(ball.vertices))
     brain = sx.Surface(ball.mesh, unit="mm", scalars={"lh.thickness": noisy})
     clean = sx.denoise(brain, "lh.thickness")
-    before, after, removed = (row[0] for row in sx.plot(brain, clean, width=300).views)
+    ((before, after, removed),) = sx.plot(brain, clean, width=300).views
     assert before.scale.title == after.scale.title == "lh.thickness (mm)" and removed.scale.title == "removed (mm)"
     assert "auto" not in after.title and clean.certificate["chosen"].replace("_", " ") in after.title
 

@@ -161,7 +161,7 @@ def test_three_columns_are_colours_only_where_they_can_be() -> None:
     red = np.tile([0.9, 0.1, 0.1], (len(Z), 1))
     ((one,),) = sx.plot(BALL, red, width=300).views
     assert one.values is not None and one.values.shape == (len(Z), 3)
-    assert [len(row) for row in sx.plot(BALL, 41.3 * red, width=300).views] == [1, 1, 1]
+    assert [len(row) for row in sx.plot(BALL, 41.3 * red, width=300).views] == [3]
 
 
 def test_a_scan_is_shown_in_its_own_colours(tmp_path: Path) -> None:
@@ -179,3 +179,10 @@ def test_a_scan_is_shown_in_its_own_colours(tmp_path: Path) -> None:
     )
     # one of its maps, where it is asked for
     assert sx.plot(scan, "red", width=300).views[0][0].is_scalar
+
+
+@pytest.mark.parametrize(("count", "rows"), [(1, [1]), (2, [2]), (3, [3]), (4, [2, 2]), (5, [3, 2]), (8, [3, 3, 2])])
+def test_maps_seen_from_one_side_stand_three_abreast(count: int, rows: list[int]) -> None:
+    """One below the other eight of them were a picture ten times as high as wide."""
+    picture = sx.plot(BALL, {f"map {k}": (k + 1) * Z for k in range(count)}, width=300)
+    assert [len(row) for row in picture.views] == rows
