@@ -18,6 +18,7 @@ from surfexp.variational.fidelity import Progress
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.separable_quadratic import rof
 from surfexp.variational.solution import Solution
+from surfexp.variational.solvers.newton import newton
 from surfexp.variational.solvers.primal_dual import primal_dual
 from surfexp.variational.surface_flows import heat_flow
 
@@ -28,6 +29,11 @@ GUIDE_WIDTH = 1.5
 # smaller weights are left out once the estimate has risen by this share of the variance of the noise
 RISEN = 0.03
 KERNEL_TOLERANCE = 1e-5
+# first-order iterations over the root of the number of vertices: where they were more, Newton's method takes less time at half of
+# the weight, its factors growing as that number to the power 1.5; on larger meshes two of them would take several GiB
+MANY_ITERATIONS, LARGEST_NEWTON = 3.0, 400_000
+# of the tolerance, which costs Newton one step more: its last one lands anywhere below
+OF_NEWTON = 0.1
 # time times the largest eigenvalue, beyond which implicit steps take the place of the polynomial
 LONGEST_POLYNOMIAL, STEPS = 1e6, 10
 # where noise has the deviation s, the best width of a kernel in two dimensions grows as its cube root
@@ -109,7 +115,12 @@ def fitted_trials(
         place, own, start, mu = part
         data = rof(operator.mass, np.ascontiguousarray(columns[:, place]), mu)
         data = replace(data, weight=mu * noise.weights)
-        return primal_dual(data, own, start, tolerance=tolerance, progress=progress if place == 0 else None)
+        told = progress if place == 0 else None
+        if slow(start, operator.vertex_count):
+            found = newton(data, own, start, tolerance=OF_NEWTON * tolerance, progress=told)
+            if found.converged:
+                return found
+        return primal_dual(data, own, start, tolerance=tolerance, progress=told)
 
     edge = operator.edge_length
     method, kernels = _kernels(operator, columns, noise.weights**OF_KERNELS)
@@ -137,6 +148,13 @@ def fitted_trials(
             least = min(least, estimate)
             if estimate > least + RISEN:
                 break
+
+
+def slow(before: Solution | None, vertex_count: int) -> bool:
+    """Whether first-order iterations will be too many at half the weight of a solution, so that Newton's method is sooner done."""
+    if before is None or vertex_count > LARGEST_NEWTON:
+        return False
+    return before.solver == "newton" or bool(before.iterations > MANY_ITERATIONS * np.sqrt(vertex_count))
 
 
 def _kernels(operator: SurfaceOperator, columns: Floats, weights: Floats) -> tuple[MethodName, list[Floats]]:

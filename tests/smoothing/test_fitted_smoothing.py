@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -12,10 +13,12 @@ import surfexp as sx
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
+from surfexp.smoothing import fitted_trials as fitted_trials_module
 from surfexp.smoothing.fitted_smoothing import fitted_smoothing
 from surfexp.smoothing.fitted_trials import Trial, fitted_trials
 from surfexp.smoothing.stein_mixture import least_on_simplex, stein_mixture
 from surfexp.variational.noise_reading import read_noise
+from surfexp.variational.solvers.newton import newton
 
 BALL = icosphere(3)
 OPERATOR = fem(BALL.mesh)
@@ -44,6 +47,31 @@ def test_two_threads_give_the_same_bytes_and_progress_is_told() -> None:
     )
     assert one.mixture.values.tobytes() == two.mixture.values.tobytes() and one.largest_gap == two.largest_gap
     assert seen and seen[: len(seen) // 2] == seen[len(seen) // 2 :]
+
+
+def test_newton_takes_over_where_iterations_are_many_and_says_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both lie within their proved distances of the minimiser."""
+    noise = read_noise(OPERATOR, ROUGH)
+    monkeypatch.setattr(fitted_trials_module, "MANY_ITERATIONS", 0.5)
+    by_both = [*fitted_trials(OPERATOR, ROUGH, noise)]
+    monkeypatch.setattr(fitted_trials_module, "LARGEST_NEWTON", 0)
+    by_first_order = [*fitted_trials(OPERATOR, ROUGH, noise)]
+    solvers = [trial.solution.solver for trial in by_both if trial.solution is not None]
+    assert {"newton", "primal_dual"} == set(solvers)
+    for one, other in zip(by_both, by_first_order, strict=False):
+        assert (one.method, one.parameter) == (other.method, other.parameter)
+        if one.solution is not None and other.solution is not None:
+            bounds = (one.solution.error_bound or 0.0) + (other.solution.error_bound or 0.0)
+            apart = np.sqrt(OPERATOR.mass @ (noise.weights * (one.values - other.values) ** 2))
+            assert apart <= bounds * (1.0 + 1e-9) and other.solution.solver == "primal_dual"
+
+
+def test_where_newton_does_not_end_first_order_iterations_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    noise = read_noise(OPERATOR, ROUGH)
+    monkeypatch.setattr(fitted_trials_module, "MANY_ITERATIONS", 0.5)
+    monkeypatch.setattr(fitted_trials_module, "newton", partial(newton, iteration_limit=1))
+    solutions = [trial.solution for trial in fitted_trials(OPERATOR, ROUGH, noise) if trial.solution is not None]
+    assert all(one.converged for one in solutions) and max(one.iterations for one in solutions) > 20
 
 
 @pytest.mark.parametrize(("factor", "offset"), [(1e6, 3.0), (1e-9, 0.0), (1.0, 100.0)])
