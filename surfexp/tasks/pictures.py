@@ -17,6 +17,7 @@ from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.skeleton.skeleton import Skeleton
+from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.inputs import SurfaceLike
 from surfexp.tasks.shown import shown_surfaces
 
@@ -160,7 +161,9 @@ def plot(
     )
     if len(rows) > 1 and all(len(row) == 1 for row in rows):
         single = [row[0] for row in rows]
-        abreast = ABREAST if len(single) != 2 * ABREAST - 2 else 2
+        abreast = ABREAST if len(single) != 4 else 2
+        if isinstance(values, DenoisingPath):
+            abreast = len(single)
         rows = [single[k : k + abreast] for k in range(0, len(single), abreast)]
     if len(rows) == 1 and len(rows[0]) > LONGEST_ROW:
         per_row = -(-len(rows[0]) // -(-len(rows[0]) // LONGEST_ROW))
