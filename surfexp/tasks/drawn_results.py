@@ -16,6 +16,7 @@ from surfexp.tasks.comparison_of_maps import MapComparison
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.distances import ModeAlignment
+from surfexp.tasks.map_colours import CENTRAL, DIVERGING, central_ends
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.null_maps import NullMaps
 from surfexp.tasks.parcel_table import Parcels
@@ -27,7 +28,7 @@ MODES, NULLS = 6, 4
 # of the weight of least risk, those at which a path is shown
 STILLS = (0.2, 1.0, 5.0)
 # of eigenfunctions in units of their root mean square; of a map and what was taken from it
-MODE_LIMITS, DIVERGING, PERCENTILES = (-2.0, 2.0), "RdBu_r", (1.0, 99.0)
+MODE_LIMITS = (-2.0, 2.0)
 MODE_BAR = "eigenfunction, units of its root mean square"
 
 
@@ -98,10 +99,9 @@ def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
     if before is None or before.shape != result.values.shape or before.ndim > 1:
         return [MapRow(f"{result.name}, {method.replace('_', ' ')}", [result.values])]
     known = np.isfinite(result.values) & np.isfinite(before)
-    ends = np.percentile(before[known], PERCENTILES) if known.any() else (0.0, 1.0)
-    limits = (float(ends[0]), float(ends[1])) if ends[0] < ends[1] else None
+    limits = central_ends([before[known]])
     removed = np.where(known, before - result.values, np.nan)
-    most = float(np.nanpercentile(np.abs(removed), PERCENTILES[1])) if known.any() else 0.0
+    most = float(np.nanpercentile(np.abs(removed), CENTRAL[1])) if known.any() else 0.0
     apart = (-most, most) if most > 0.0 else None
     return [
         MapRow(f"{result.name} before", [np.where(known, before, np.nan)], limits, bar=result.name),
@@ -117,9 +117,7 @@ def _along(path: DenoisingPath) -> list[MapRow]:
     chosen = sorted({float(np.clip(factor * risk.weight, low, high)) for factor in STILLS})
     said = path.risk(chosen)
     maps = [path.at(weight).values for weight in chosen]
-    known = np.isfinite(maps[-1])
-    ends = np.percentile(maps[-1][known], PERCENTILES)
-    limits = (float(ends[0]), float(ends[1])) if ends[0] < ends[1] else None
+    limits = central_ends([maps[-1]])
     names = [f"weight {weight:.3g}, risk {value:.2g}" for weight, value in zip(chosen, said.risks, strict=True)]
     rows = [MapRow(name, [one], limits, bar=path.name) for name, one in zip(names, maps, strict=True)]
     return [*rows, MapRow("before", [path.given], limits, bar=path.name)]

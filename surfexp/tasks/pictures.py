@@ -113,7 +113,8 @@ def plot(
         from above, and stands upright: with y up if it stands at least twice as firmly on that as on z, as most scans and
         animals do, and the file names no space of the brain. Views by name or angle are those of the file's axes, z up.
     colormap : str, optional
-        A name of matplotlib's; a diverging one for maps of both signs if not given.
+        A name of matplotlib's. If not given maps that share a bar have the same: a diverging one where they are of both
+        signs, and `limits`, if any, as far from 0 on both sides.
     limits : (float, float), optional
         Ends of the colour bar; the 1st and 99th percentile if not given. The picture says what lies beyond.
     contours : sequence of float, optional

@@ -35,6 +35,7 @@ from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
 from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
+from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.soundness import usable_vertices
@@ -49,7 +50,6 @@ FREESURFER = {
 POWERS = {-1: "1/{}", 0: "", 1: "{}", 2: "{}²"}
 INSIDE = "inside the mask"
 # percentiles between which the colours of a map lie
-CENTRAL = (1.0, 99.0)
 Rows = list[list[SurfaceView]]
 
 
@@ -91,6 +91,7 @@ def shown_surfaces(
         surfaces = [replace(one, mesh=TriangleMesh(one.mesh.vertices / scale, one.mesh.faces)) for one in surfaces]
         skeleton = None if skeleton is None else skeleton.in_length(1.0 / scale)
     rows: Rows = []
+    told: dict[ColorScale, str | None] = {}
     given_rows = rows_of_maps(values, surfaces, most_columns)
     in_one = skeleton is not None or any(made.skeleton is not None for made in given_rows)
     shown = surfaces if in_one else apart(surfaces)
@@ -105,7 +106,8 @@ def shown_surfaces(
             called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
             if base.is_scalar:
                 known = unit or (_unit(owner, made.quantity) if made.quantity else "")
-                base = replace(base, scale=_scale(base, owner, called, known, colormap or made.colormap, ends))
+                base = replace(base, scale=_scale(owner, called, known, ends))
+                told[base.scale] = colormap or made.colormap
             drawn = _lines(owner, base, levels or made.levels, border, skeleton or made.skeleton)
             row += [
                 replace(base, view=_direction(view, owner), contours=drawn, title=_title(view, owner, shown))
@@ -115,6 +117,7 @@ def shown_surfaces(
             alone = len(row) == 1
             row[0] = replace(row[0], title=made.name if alone else f"{made.name}: {row[0].title}")
         rows.append(row)
+    rows = _in_shared_colors(rows, told)
     if len(rows) == 1 and len(rows[0]) == 1:
         rows = [[replace(rows[0][0], title="")]]
     of_brain = any(one.hemisphere for one in shown)
@@ -210,12 +213,22 @@ def _labels(owner: Surface, given: Any) -> Labelling | None:
     return None
 
 
-def _scale(
-    base: SurfaceView, owner: Surface, name: str, unit: str, colormap: str | None, limits: tuple[float, float] | None
-) -> ColorScale:
-    """Return the colours of a map; FreeSurfer's are named with their sign, in the unit of the surface."""
+def _scale(owner: Surface, name: str, unit: str, limits: tuple[float, float] | None) -> ColorScale:
+    """Return the scale of a map; FreeSurfer's are named with their sign, in the unit of the surface."""
     called, _ = FREESURFER.get(name.rpartition(".")[2], ("", None))
-    return ColorScale(called or name, unit or _unit(owner, name), colormap or _colormap_for(base.values), limits)
+    return ColorScale(called or name, unit or _unit(owner, name), limits=limits)
+
+
+def _in_shared_colors(rows: Rows, told: dict[ColorScale, str | None]) -> Rows:
+    """Return rows in which all maps of one scale have the same colours: those that were told, or what suits all of them."""
+    fields: dict[ColorScale, list[Floats]] = {scale: [] for scale in told}
+    for view in (view for row in rows for view in row if view.is_scalar):
+        if view.values is not None:
+            fields[view.scale].append(view.values)
+    scales = {
+        scale: replace(scale, colormap=told[scale] or usual_colormap(fields[scale], scale.limits)) for scale in told
+    }
+    return [[replace(view, scale=scales[view.scale]) if view.is_scalar else view for view in row] for row in rows]
 
 
 def _whole_range(fields: Sequence[Floats | None]) -> tuple[float, float] | None:
@@ -277,10 +290,3 @@ def _title(view: View, owner: Surface, surfaces: Sequence[Surface]) -> str:
         return side
     name = owner.hemisphere if len({one.hemisphere for one in surfaces}) == len(surfaces) else owner.name
     return f"{name}, {side}" if owner.hemisphere else name
-
-
-def _colormap_for(field: Floats | None) -> str:
-    if field is None or field.ndim > 1 or not np.isfinite(field).any():
-        return "viridis"
-    low, high = np.nanpercentile(field, CENTRAL)
-    return "RdBu_r" if low < 0 < high and min(-low, high) > 0.2 * max(-low, high) else "viridis"

@@ -102,6 +102,36 @@ def test_what_was_removed_has_the_unit_of_its_map_and_the_filter_its_name() -> N
     assert "auto" not in after.title and clean.certificate["chosen"].replace("_", " ") in after.title
 
 
+@pytest.mark.parametrize("offset", [-0.5, -0.2, 0.0, 3.0])
+def test_what_is_compared_has_the_same_colours_and_white_means_zero(offset: float) -> None:
+    """Before and after, the weights of a path, the columns of a series and two sides: whatever the signs of each alone."""
+    ball = sx.shape("icosphere", levels=3)
+    noisy = (
+        (ball.mesh.vertices[:, 0] > 0.2) + offset + 0.3 * np.random.default_rng(0).standard_normal(len(ball.vertices))
+    )
+    own = sx.Surface(ball.mesh, scalars={"map": noisy})
+    path = sx.denoise_path(ball, noisy, noise=0.3, weights=(0.2, 5.0), tolerance=1e-2)
+    series = np.column_stack([noisy, np.abs(noisy) + 1.0])
+    pictures = [
+        sx.plot(own, sx.denoise(own, "map"), width=300),
+        path.plot(ball, width=300),
+        sx.plot(ball, series, width=300),
+    ]
+    pictures.append(sx.plot([ball, ball], [noisy, np.abs(noisy) + 1.0], label="map", width=300))
+    for picture, compared in zip(pictures, (2, 4, 2, 2), strict=True):
+        scales = [view.scale for row in picture.views for view in row][:compared]
+        assert len(set(scales)) == 1
+        limits = scales[0].limits
+        assert not scales[0].diverging or limits is None or limits[0] == -limits[1]
+
+
+def test_limits_that_are_not_as_far_from_zero_on_both_sides_have_no_diverging_colours() -> None:
+    ball = sx.shape("icosphere", levels=2)
+    for limits, diverging in (((-1.0, 1.0), True), ((-0.5, 1.0), False), (None, True)):
+        ((view,),) = sx.plot(ball, ball.mesh.vertices[:, 2], limits=limits, width=200).views
+        assert view.scale.diverging == diverging
+
+
 def test_a_file_that_places_its_surface_in_a_brain_or_a_scanner_is_in_millimetres(tmp_path: Path) -> None:
     ball = sx.shape("icosphere", levels=2)
     sx.write(tmp_path / "named.surf.gii", sx.Surface(ball.mesh, hemisphere="left"))
