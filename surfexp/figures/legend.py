@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from surfexp.figures.labelling import legend_of
-from surfexp.figures.panel_layout import Layout
+from surfexp.figures.panel_layout import LETTER, Layout
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import QUIET, points
 
 # of a legend; a map with more labels says their number instead
 MOST_NAMES = 48
-# in multiples of the text's size: height of a line, mean width of a letter, and of a swatch with its gaps
-LINE_BAND, LETTER, SWATCH = 1.7, 0.56, 3.0
+# in multiples of the text's size: height of a line, and width of a swatch with its gaps
+LINE_BAND, SWATCH = 1.7, 3.0
 
 
 def names_of(views: list[SurfaceView]) -> list[tuple[str, Any]]:

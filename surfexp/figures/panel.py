@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.figures.camera import fit_camera
-from surfexp.figures.color_bar import Scales, draw_bars, fitted_scales, values_on
+from surfexp.figures.color_bar import Scales, bars_height, draw_bars, fitted_scales, values_on
 from surfexp.figures.figure import Figure
 from surfexp.figures.legend import draw_legend, legend_height, names_of
-from surfexp.figures.panel_layout import BAR_BAND, MARGIN, WORD_BAND, Grid, Layout, arrange, text_size
+from surfexp.figures.panel_layout import MARGIN, Grid, Layout, arrange, text_size
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn, points, saved
 
@@ -92,7 +92,7 @@ def _composed(
     everything = [view for row in grid for view in row]
     scales = fitted_scales(everything)
     beyond, em, names = _beyond(everything, scales), text_size(width), names_of(everything)
-    foot = round((BAR_BAND + WORD_BAND * bool(beyond)) * em) if scales else 0
+    foot = bars_height(scales, everything, width, em)
     layout = arrange(grid, width, bool(title), foot + legend_height(names, width, em), field_of_view)
     with canvas(width, layout.height) as figure:
         _write(figure, layout, grid, title)

@@ -17,6 +17,8 @@ Grid = Sequence[Sequence[SurfaceView]]
 FONT, SMALLEST_FONT = 0.0135, 14.0
 # heights of bands in multiples of the text's size
 TITLE_BAND, HEAD_BAND, BAR_BAND = 2.0, 2.7, 4.9
+# mean width of a letter, in the same
+LETTER = 0.56
 # a line below a bar that says what lies beyond it
 WORD_BAND = 1.3
 # empty space around a surface as a share of the panel's width

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from surfexp.figures.camera import fit_camera
-from surfexp.figures.color_bar import draw_bars, fitted_scales
+from surfexp.figures.color_bar import bars_height, draw_bars, fitted_scales
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.panel_layout import BAR_BAND, arrange, text_size
@@ -97,6 +97,25 @@ def test_each_bar_is_under_the_views_that_use_it() -> None:
         draw_bars(figure, layout, [views], fitted_scales(views))
         centers = [axes.get_position().x0 + 0.5 * axes.get_position().width for axes in figure.axes]
     assert centers == pytest.approx([layout.middle(1, 4), layout.middle(3, 4)])
+
+
+@pytest.mark.parametrize("width", [600, 1000, 1600])
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6, 7, 9])
+@pytest.mark.parametrize("label", ["depth", "residual of the denoised map"])
+def test_words_below_the_bars_do_not_run_together(width: int, count: int, label: str) -> None:
+    scales = [ColorScale(f"{label} {k}", "mm", limits=(-0.5, 0.5)) for k in range(count)]
+    views = [SurfaceView(SPHERE, Z, scale=scale) for scale in scales]
+    grid = [views[first : first + 3] for first in range(0, count, 3)]
+    fitted = fitted_scales(views)
+    layout = arrange(grid, width, False, bars_height(fitted, views, width, text_size(width)), 0.0)
+    with canvas(width, layout.height) as figure:
+        draw_bars(figure, layout, grid, fitted)
+        drawn(figure)
+        boxes = [axes.get_tightbbox() for axes in figure.axes]
+    assert len(boxes) == count
+    for k, one in enumerate(boxes):
+        assert one.x0 >= 0.0 and one.x1 <= width and one.y0 >= 0.0 and one.y1 <= layout.foot
+        assert not any(one.overlaps(other) for other in boxes[k + 1 :])
 
 
 def test_grid_bands_do_not_overlap_and_short_rows_are_centred() -> None:
