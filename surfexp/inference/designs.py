@@ -8,7 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.inference.rearrangements import CONSTANT
 from surfexp.mesh.given_arrays import real_array
+
+# how tables write that nothing is known: of one subject it would be a group, and of several a family
+UNKNOWN = frozenset(["", "n/a", "na", "nan", "<na>", "nat"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +102,10 @@ def mean_or_groups(count: int, groups: ArrayLike | None, covariates: ArrayLike |
     """
     columns = np.empty((count, 0))
     if covariates is not None:
-        columns = finite_rows(covariates, count, "covariates")
-        columns = columns - columns.mean(axis=0)
+        given = finite_rows(covariates, count, "covariates")
+        columns = given - given.mean(axis=0)
+        # what is left of a constant is rounding
+        columns[:, np.abs(columns).max(axis=0) <= CONSTANT * np.abs(given).max(axis=0)] = 0.0
     if groups is None:
         return Design(np.column_stack([np.ones(count), columns]), _first(1, columns), "mean")
     codes, names = two_groups(groups, count)
@@ -154,11 +160,17 @@ def codes_of(given: ArrayLike, count: int, what: str) -> tuple[Integers, list[st
     Raises
     ------
     ValueError
-        If there is not one for each map.
+        If there is not one for each map, or one is missing.
     """
     labels = np.asarray(given)
     if labels.shape != (count,):
         raise ValueError(f"{what} have shape {labels.shape}, one label for each of {count} maps is needed")
+    missing = [k for k, one in enumerate(labels.tolist()) if one is None or str(one).strip().lower() in UNKNOWN]
+    if missing:
+        raise ValueError(
+            f"{what} have no label for {len(missing)} of {count} maps (the first is number {missing[0]}, "
+            f"{labels.tolist()[missing[0]]!r}): leave these maps out, or name what they belong to"
+        )
     known: dict[str, int] = {}
     return np.array([known.setdefault(str(one), len(known)) for one in labels.tolist()], dtype=np.int64), list(known)
 

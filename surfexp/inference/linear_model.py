@@ -97,9 +97,15 @@ def contrast_model(data: Floats, design: Floats, contrast: Floats) -> ContrastMo
             f"the design has shape {design.shape} and the contrast {contrast.shape}: ({count}, p) and (p,) are needed for "
             f"{count} maps"
         )
+    # nothing depends on the units of covariates
+    units = np.abs(design).max(axis=0, initial=0.0)
+    units[units == 0.0] = 1.0
+    design, contrast = design / units, contrast / units
     weights = np.linalg.pinv(design).T @ contrast
     if not np.any(contrast) or not np.allclose(design.T @ weights, contrast, atol=1e-8 * np.abs(contrast).max()):
-        raise ValueError(f"contrast = {contrast.tolist()} cannot be estimated from this design: choose another")
+        raise ValueError(
+            f"contrast = {(contrast * units).tolist()} cannot be estimated from this design: choose another"
+        )
     freedom = count - int(np.linalg.matrix_rank(design))
     if freedom < 1:
         raise ValueError(

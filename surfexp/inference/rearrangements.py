@@ -11,6 +11,9 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
 
+# a column that differs by no more of its largest modulus differs by rounding
+CONSTANT = 1e-13
+
 
 @dataclass(frozen=True, eq=False)
 class Rearrangements:
@@ -125,7 +128,7 @@ def permutations(
     Rearrangements
     """
     members = [np.flatnonzero(units == unit) for unit in range(len(strata))]
-    classes = np.unique(np.round(rows, 10), axis=0, return_inverse=True)[1].reshape(-1)
+    classes = _classes(rows)
     kinds: dict[tuple[int, ...], int] = {}
     kind = np.array([kinds.setdefault(tuple(classes[one].tolist()), len(kinds)) for one in members])
     places = [np.flatnonzero(strata == stratum) for stratum in np.unique(strata)]
@@ -141,6 +144,14 @@ def permutations(
     for unit, place in enumerate(members):
         sources[:, place] = np.array([members[source] for source in moved[:, unit]])
     return Rearrangements(sources, np.ones(sources.shape), complete)
+
+
+def _classes(rows: Floats) -> Integers:
+    """Numbers of rows, the same where they are equal to rounding, whatever the units and the origins of the columns are."""
+    lowest, spread = rows.min(axis=0), np.ptp(rows, axis=0)
+    constant = spread <= CONSTANT * np.abs(rows).max(axis=0)
+    shares = np.where(constant, 0.0, (rows - lowest) / np.where(constant, 1.0, spread))
+    return np.unique(np.round(shares, 10), axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 
 def _differing(kinds: Integers) -> int:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+# of the columns of a table; the one that stands in its header most often is meant, of equals the first
+SEPARATORS = ",;\t"
 STARTS_A_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 

@@ -7,7 +7,8 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from surfexp.io.csv_cells import uncell
+from surfexp.io.csv_cells import SEPARATORS, uncell
+from surfexp.io.entrance import reading
 
 
 def read_subjects(path: Path | str) -> dict[str, list[str]]:
@@ -16,7 +17,8 @@ def read_subjects(path: Path | str) -> dict[str, list[str]]:
     Parameters
     ----------
     path : path
-        Columns are separated by commas, in .tsv by tabs; the first row has their names.
+        The first row has the names of the columns; what separates them is the comma, semicolon or tab that stands there most
+        often, and in .tsv the tab.
 
     Returns
     -------
@@ -25,13 +27,15 @@ def read_subjects(path: Path | str) -> dict[str, list[str]]:
     Raises
     ------
     ValueError
-        If there is no such file or no row, a name is twice, or a row has another length than the first.
+        If there is no such file or no row, it is no text in UTF-8, a name is twice, or a row has another length than the first.
     """
     file = Path(path)
     if not file.is_file():
         raise ValueError(f"{path}: no such file, give a table of subjects (.csv or .tsv)")
-    lines = file.read_text("utf-8-sig").splitlines()
-    rows = [row for row in csv.reader(lines, delimiter="\t" if file.suffix.lower() == ".tsv" else ",") if row]
+    with reading(path, "cannot be read as a table of subjects"):
+        lines = file.read_text("utf-8-sig").splitlines()
+    between = "\t" if file.suffix.lower() == ".tsv" else max(SEPARATORS, key="".join(lines[:1]).count)
+    rows = [row for row in csv.reader(lines, delimiter=between) if row]
     if len(rows) < 2:
         raise ValueError(f"{path} has {len(rows)} rows, a header and a row for each map are needed")
     names = [uncell(word.strip()) for word in rows[0]]

@@ -155,3 +155,13 @@ def test_tables_of_subjects_that_are_none(working_folder: Path, text: str, line:
     Path("table.csv").write_text(text)
     with pytest.raises(ValueError, match=line):
         read_subjects("table.csv")
+
+
+@pytest.mark.parametrize("between", [",", ";", "\t"])
+def test_columns_of_subjects_are_separated_as_spreadsheets_do(working_folder: Path, between: str) -> None:
+    rows = [["id", "sex", "age"], ["a", "f", "23.5"], ["b", "Müller; m", "1,5"]]
+    Path("table.csv").write_text("\n".join(between.join(f'"{cell}"' for cell in row) for row in rows), "utf-8")
+    assert read_subjects("table.csv") == {"id": ["a", "b"], "sex": ["f", "Müller; m"], "age": ["23.5", "1,5"]}
+    Path("table.csv").write_text("id,sex\nMüller,f\n", "latin-1")
+    with pytest.raises(ValueError, match=r"table.csv cannot be read as a table of subjects: byte 8 is no UTF-8 text"):
+        read_subjects("table.csv")

@@ -85,3 +85,23 @@ def test_mistakes_are_named() -> None:
         contrast_model(DATA, COVARIATES[:5], CONTRAST)
     with pytest.raises(ValueError, match="at least 5 are needed"):
         contrast_model(DATA[:4], COVARIATES[:4], CONTRAST)
+
+
+@pytest.mark.parametrize("scale", [1e-140, 1e-12, 1e12, 1e140])
+@pytest.mark.parametrize("tested", [1, 2])
+def test_t_and_permutations_do_not_depend_on_the_units_of_covariates(scale: float, tested: int) -> None:
+    design, contrast = COVARIATES[:, :3], np.eye(3)[tested]
+    scaled = design * np.array([1.0, 1.0, scale])
+    np.testing.assert_allclose(t_of(DATA, scaled, contrast), t_of(DATA, design, contrast), rtol=1e-8)
+    drawn = [
+        permutations(np.arange(7), np.zeros(7, dtype=int), rows[:7], 5040, np.random.default_rng(0))
+        for rows in (design, scaled)
+    ]
+    assert len(drawn[0]) == len(drawn[1]) == 5040
+
+
+def test_permutations_do_not_depend_on_the_origin_of_a_covariate() -> None:
+    moments = 1.7e18 + 1e13 * np.arange(5.0)  # days in nanoseconds
+    for rows in (moments, moments / 1e9, moments - 1.7e18):
+        drawn = permutations(np.arange(5), np.zeros(5, dtype=int), rows[:, None], 5000, RANDOM)
+        assert drawn.complete and len(drawn) == 120

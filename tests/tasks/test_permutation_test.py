@@ -134,6 +134,16 @@ def test_covariates_are_regressed_out() -> None:
     same(mean, sx.permutation_test(BALL, NOISE, centred, [1, 0], count=100))
 
 
+def test_covariates_count_whatever_their_unit_and_constant_ones_say_nothing() -> None:
+    """Mean diffusivity in square metres a second is 7e-10: it was left out without a word."""
+    diffusivity = np.random.default_rng(1).uniform(0.6, 0.9, 10)
+    data = NOISE + 20.0 * diffusivity
+    wanted = sx.permutation_test(BALL, data, groups=GROUPS, covariates=diffusivity, count=60)
+    same(sx.permutation_test(BALL, data, groups=GROUPS, covariates=1e-9 * diffusivity, count=60), wanted)
+    beside = np.column_stack([diffusivity, np.full(10, 3.3)])
+    same(sx.permutation_test(BALL, data, groups=GROUPS, covariates=beside, count=60), wanted)
+
+
 def test_blocks_bound_what_is_exchanged() -> None:
     families = np.array([0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
     found = sx.permutation_test(BALL, NOISE, groups=GROUPS, blocks=families, count=200)
@@ -224,6 +234,10 @@ def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
         ({"maps": NOISE[:5]}, "the surface has 162 vertices"),
         ({"groups": GROUPS[:4]}, "one label for each of 10 maps"),
         ({"groups": np.arange(10)}, "exactly 2 are needed"),
+        ({"groups": [*["a", "n/a"] * 5]}, "groups have no label for 5 of 10 maps .the first is number 1, 'n/a'."),
+        ({"groups": [None, *["a"] * 9]}, "groups have no label for 1 of 10 maps"),
+        ({"blocks": [1, 1, 2, 2, 3, 3, 4, 4, np.nan, np.nan]}, "blocks have no label for 2 of 10 maps"),
+        ({"groups": GROUPS, "pairs": ["", "", *"aabbccdd"]}, "pairs have no label for 2 of 10 maps"),
         ({"pairs": PAIRS}, "pairs need groups"),
         ({"groups": GROUPS, "pairs": np.arange(10)}, "pair 0 has the maps old: one old and one young are needed"),
         ({"design": np.ones((10, 2))}, "give a contrast of 2 numbers"),

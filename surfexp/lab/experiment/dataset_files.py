@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from surfexp.io.csv_cells import SEPARATORS
 from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.lab.errors import UserError
 
@@ -20,7 +21,6 @@ TABLES = (".csv", ".tsv")
 DATASET = "shapes"
 COLUMNS = ("path", "class", "group", "level", "label")
 PATTERN_MARKS = "*?["
-SEPARATORS = ",;\t"
 Item = dict[str, Any]
 
 
