@@ -55,7 +55,7 @@ def automatically_denoised(
         )
     ends = [one.at_the_end for one, share in zip(mixture.members, mixture.shares, strict=True) if share > NAMED]
     notes += (AT_THE_END,) if any(ends) and read.measurements == 1 else ()
-    return DenoisedMap(part.extend(mixture.values), "auto", facts, notes, outliers=part.vertices[read.outliers])
+    return DenoisedMap(image.on_whole(mixture.values), "auto", facts, notes, outliers=part.vertices[read.outliers])
 
 
 def _choice(found: FittedSmoothing, length: float) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from surfexp.mesh.surface_part import finite_mask
 from surfexp.nulls.rejection import correlations, effective_interval, p_values
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.tasks.null_maps import MOST_LOST, NullMaps, null_maps
+from surfexp.variational.own_unit import own_unit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -134,9 +135,10 @@ def compare_maps(
     surrogates, reason = chosen_null_maps(inside, rough, method=method, count=count, modes=modes, seed=seed)
     held = np.asarray(np.isfinite(surrogates.values).all(axis=1))
     weights = (part.mesh.vertex_areas / part.mesh.area)[held[part.vertices]]
-    partner = other[held, None]
-    null = correlations(surrogates.values[held], partner, weights)
-    r = correlations(rough[held, None], partner, weights)[0]
+    own, others = own_unit(rough[held]), own_unit(other[held])
+    partner = others.normalised(other[held, None])
+    null = correlations(own.normalised(surrogates.values[held]), partner, weights)
+    r = correlations(own.normalised(rough[held, None]), partner, weights)[0]
     low, high, observations = effective_interval(float(r[0]), null[:, 0])
     notes = tuple(dict.fromkeys((*part.notes, *surrogates.notes)))
     return MapComparison(
@@ -177,4 +179,10 @@ def chosen_null_maps(
     )
     if method == "eigenstrapping" or lost <= MOST_LOST:
         return made, f"Eigenstrapping{' was asked for' if method == 'eigenstrapping' else ''}: {said}."
-    return null_maps(surface, values, count, method="variogram", seed=seed), f"Variograms: {said}, over {MOST_LOST:g}."
+    try:
+        return null_maps(
+            surface, values, count, method="variogram", seed=seed
+        ), f"Variograms: {said}, over {MOST_LOST:g}."
+    except ValueError as error:
+        # made.notes say that these are too rough
+        return made, f"Eigenstrapping: {said}, over {MOST_LOST:g}, but {str(error).partition(',')[0]}."

@@ -139,7 +139,7 @@ def denoise(
     notes += solution.notes + said
     evidence = Evidence(part.mesh, image.values, solution, slopes, tolerance)
     facts |= _proof(solution, operator)
-    return DenoisedMap(part.extend(solution.values), method, facts, notes, image.name, evidence=evidence)
+    return DenoisedMap(image.on_whole(solution.values), method, facts, notes, image.name, evidence=evidence)
 
 
 def _no_foreign(method: str, weight: float | None, ratio: float | None) -> None:

@@ -16,11 +16,10 @@ from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
 from surfexp.mesh.given_arrays import real_array
 from surfexp.mesh.given_numbers import real_number, real_pair
-from surfexp.mesh.surface_part import SurfacePart
 from surfexp.smoothing.path_risk import PathRisk, path_risk
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import MapLike, SurfaceLike
-from surfexp.tasks.noisy_image import noisy_image
+from surfexp.tasks.noisy_image import NoisyImage, noisy_image
 from surfexp.tasks.risk_curve import AT_AN_END, HEAVY_TAILS, RiskCurve
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.rof_path import RofPath, rof_path
@@ -48,10 +47,8 @@ class DenoisingPath(Drawable):
         Under which the surface carries the map that it was made of.
     _path : RofPath
         What `at` interpolates.
-    _part : SurfacePart
-        Where its values lie on the surface.
-    _noise : FittedNoise, optional
-        Where more than its level was given.
+    _image : NoisyImage
+        The map before, and where its values lie on the surface.
     """
 
     weights: Floats
@@ -59,8 +56,7 @@ class DenoisingPath(Drawable):
     notes: tuple[str, ...] = ()
     name: str = "map"
     _path: RofPath | None = field(default=None, repr=False)
-    _part: SurfacePart | None = field(default=None, repr=False)
-    _noise: FittedNoise | None = field(default=None, repr=False)
+    _image: NoisyImage | None = field(default=None, repr=False)
 
     def at(self, weight: float) -> DenoisedMap:
         """Return the denoised map at a weight.
@@ -80,12 +76,12 @@ class DenoisingPath(Drawable):
         ValueError
             If the weight is outside of the range.
         """
-        assert self._path is not None and self._part is not None  # noqa: S101, narrows a type
+        assert self._path is not None and self._image is not None  # noqa: S101, narrows a type
         solution = self._path.at(self._mu(weight))
         error = float((solution.error_bound or 0.0) / np.sqrt(self._path.operator.mass.sum()))
         facts = {"noise": self.certificate["noise"], "weight": weight}
         facts |= {"relative_gap": solution.relative_gap, "error_bound": error}
-        return DenoisedMap(self._part.extend(solution.values), "rof", facts, self.notes, self.name)
+        return DenoisedMap(self._image.on_whole(solution.values), "rof", facts, self.notes, self.name)
 
     def risk(self, weights: ArrayLike | None = None) -> RiskCurve:
         """Estimate the risk at some weights, by Stein's unbiased estimate with one probe drawn from the fitted noise.
@@ -130,8 +126,8 @@ class DenoisingPath(Drawable):
     @property
     def given(self) -> Floats:
         """(n,) or (n, c) the map before; NaN outside the mask."""
-        assert self._path is not None and self._part is not None  # noqa: S101, narrows types
-        return self._part.extend(self._path.image)
+        assert self._image is not None  # noqa: S101, narrows a type
+        return self._image.on_whole(self._image.values)
 
     def place(self, weight: float) -> float:
         """Return where between the solved weights the map at a weight is interpolated.
@@ -180,12 +176,12 @@ class DenoisingPath(Drawable):
 
     @cached_property
     def _known_risk(self) -> PathRisk:
-        assert self._path is not None  # noqa: S101, narrows a type
+        assert self._path is not None and self._image is not None  # noqa: S101, narrows types
         if self._path.image.ndim > 1:
             raise ValueError(
                 f"the risk is estimated of one channel, the map has {self._path.image.shape[1]}: give each by itself"
             )
-        return path_risk(self._path, float(self.certificate["noise"]), known=self._noise)
+        return path_risk(self._path, float(self.certificate["noise"]), known=self._image.known_noise)
 
     def _mu(self, weight: float) -> float:
         """The weight of the model in the unit of the map."""
@@ -265,4 +261,4 @@ def denoise_path(
     solved = np.clip(path.mus / scale, low, high)
     solved[0], solved[-1] = low, high
     certificate = {"relative_gap": path.largest_gap, "solves": len(solved), "noise": sigma}
-    return DenoisingPath(solved, certificate, image.part.notes + said, image.name, path, image.part, image.known_noise)
+    return DenoisingPath(solved, certificate, image.part.notes + said, image.name, path, image)

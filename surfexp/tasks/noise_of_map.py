@@ -7,7 +7,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.operators.fem import fem
 from surfexp.smoothing.absurd_values import refuse_absurd_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.noise_reading import ROUNDING, read_noise
 
@@ -49,9 +49,9 @@ def noise(surface: SurfaceLike, values: MapLike, second: MapLike | None = None) 
     0.1
     """
     owner = as_surface(surface)
-    maps = [as_map(owner, one) for one in (values, second) if one is not None]
+    maps = [as_single_map(owner, one) for one in (values, second) if one is not None]
     part = part_for(owner, *maps)
-    inside = [_one_channel(part.restrict(one)) for one in maps]
+    inside = [np.asarray(part.restrict(one), dtype=np.float64) for one in maps]
     for one in inside:
         refuse_absurd_values(one, part.vertices)
     if np.ptp(inside[0]) == 0:
@@ -66,9 +66,3 @@ def _refuse_the_same(first: Floats, second: Floats) -> None:
     if np.ptp(difference) <= ROUNDING * max(np.abs(first).max(), np.abs(second).max()):
         by = f"differs from the first by {np.median(difference):.3g} everywhere"
         raise ValueError(f"the second measurement {by}: it shows no noise, give one that was measured again")
-
-
-def _one_channel(values: np.ndarray) -> Floats:
-    if values.ndim > 1:
-        raise ValueError(f"noise is read from one channel, the map has {values.shape[1]}: give each by itself")
-    return np.asarray(values, dtype=np.float64)

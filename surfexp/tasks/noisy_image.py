@@ -28,12 +28,15 @@ class NoisyImage:
     operator : SurfaceOperator
         On the part.
     values : (p,) or (p, c) float64
+        One column is (p,).
     given_noise : float, optional
         Standard deviation, as the caller says.
     known_noise : FittedNoise, optional
         On the part, as it was read before: from two measurements, say.
     name : str
         Under which the surface carries the map.
+    is_column : bool
+        Whether the map was given as one column, so that results are columns too.
     """
 
     part: SurfacePart
@@ -42,6 +45,22 @@ class NoisyImage:
     given_noise: float | None
     known_noise: FittedNoise | None
     name: str
+    is_column: bool = False
+
+    def on_whole(self, values: Floats) -> Floats:
+        """Return values inside the mask as a map of the whole surface, in the shape of the one that was given.
+
+        Parameters
+        ----------
+        values : (p,) or (p, c) float64
+
+        Returns
+        -------
+        (n,), (n, 1) or (n, c) float64
+            NaN outside the mask.
+        """
+        whole = self.part.extend(values)
+        return whole[:, None] if self.is_column else whole
 
     def noise(self) -> tuple[float, tuple[str, ...]]:
         """Return the noise, as given or read from the map, and what is to be said of it.
@@ -87,11 +106,12 @@ def noisy_image(surface: SurfaceLike, values: MapLike, noise: float | FittedNois
     owner = as_surface(surface)
     noisy = as_map(owner, values)
     part = part_for(owner, noisy)
-    image = np.asarray(part.restrict(noisy), dtype=np.float64)
+    is_column = noisy.ndim == 2 and noisy.shape[1] == 1
+    image = np.asarray(part.restrict(noisy.reshape(-1) if is_column else noisy), dtype=np.float64)
     refuse_absurd_values(image, part.vertices)
     if np.ptp(image) == 0 and noise is None:
         raise ValueError(f"map is constant at {image.flat[0]:g}: it has no noise to remove")
     known = noise.on_part(part) if isinstance(noise, FittedNoise) else None
     level = noise if known is None else known.level
     given = None if level is None else real_number(level, "noise", above=0.0)
-    return NoisyImage(part, fem(part.mesh), image, given, known, name_of(values))
+    return NoisyImage(part, fem(part.mesh), image, given, known, name_of(values), is_column)

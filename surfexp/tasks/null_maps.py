@@ -165,6 +165,10 @@ def _by_modes(
     for component in range(mesh.component_count):
         one = surface_part(mesh, mesh.component_labels == component)
         values = inside[one.vertices]
+        if values.min() == values.max():
+            nulls[one.vertices] = values[0]
+            notes += (f"The map is constant on a component of {len(values)} vertices, and so are its null maps there.",)
+            continue
         operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), modes, tolerance=TOLERANCE)
         notes += operator.notes
         mass = mass_matrix(operator)
@@ -177,6 +181,8 @@ def _by_modes(
         kept = max(kept, float(np.median(power_error(system.vectors, mass, values, found))))
         lost = max(lost, rest_correlation(system.vectors, mass, values, one.mesh.edges))
         complete &= system.complete
+    if variance == 0.0:
+        raise ValueError("the map is constant on each component: null models need one that varies")
     certificate = {"share_in_modes": held / variance, "power_error": kept, "rest_correlation": lost}
     certificate |= {"modes": modes, "complete": complete}
     if lost > MOST_LOST:
@@ -192,7 +198,12 @@ def _by_variogram(
     owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int
 ) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
     smallest = int(np.bincount(mesh.component_labels).min())
-    pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
-    kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
+    try:
+        pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
+        kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
+    except ValueError as error:
+        raise ValueError(
+            f"{len(inside)} vertices are too few for variograms, take method='eigenstrapping' ({error})"
+        ) from None
     nulls = kernels.nulls(inside, count, seed=seed)
     return nulls, {"variogram_error": float(np.median(variogram_error(pairs, inside, nulls)))}, ()

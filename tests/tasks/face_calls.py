@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -51,13 +51,18 @@ class Given:
 class Call:
     """A function: which parts of a bundle it takes, and what it answers.
 
-    `units` are the powers of the unit of length in the answers.
+    `units` and `map_units` are the powers of the units of length and of the map in the answers; those of `spreads` follow the
+    unit of the map and not its offset. A call that mixes maps sets the given one beside others that keep their unit.
+    Odd inputs that are named in `apart` are answered, and not as the reference is.
     """
 
     parts: str
     run: Callable[[Given, Path], Answer]
     units: dict[str, float] = field(default_factory=dict)
     map_units: dict[str, float] = field(default_factory=dict)
+    spreads: tuple[str, ...] = ()
+    mixes_maps: bool = False
+    apart: tuple[str, ...] = ()
 
     def takes(self, part: str) -> bool:
         return part in self.parts.split()
@@ -149,6 +154,59 @@ def _plot(given: Given, _: Path) -> Answer:
     return {"pixels": sx.plot(given.surface, given.values, width=200).figure.pixels}
 
 
+def _waves(given: Given, count: int) -> Any:
+    """Other maps of the same surface."""
+    vertices = len(given.vertices) if hasattr(given.vertices, "__len__") else len(V)
+    return np.cos(np.arange(1.0, vertices + 1.0)[:, None] * np.arange(1.0, count + 1.0))
+
+
+def _compare_maps(given: Given, _: Path) -> Answer:
+    partner = _waves(given, 1)[:, 0]
+    found = sx.compare_maps(given.surface, given.values, partner, count=given.count, modes=9, seed=given.seed)
+    return {"r": found.r, "null": found.null, "p": found.p, "interval": np.array(found.interval)}
+
+
+def _permutation_test(given: Given, _: Path) -> Answer:
+    found = sx.permutation_test(
+        given.surface,
+        [given.values, *_waves(given, 7).T],
+        groups=[*"aabbabab"],
+        count=given.count,
+        seed=given.seed,
+        forming_p=0.05,
+    )
+    return {name: found.maps[name] for name in ("p_t", "p_tfce", "p_extent", "q_t")}
+
+
+def _parcels(given: Given, _: Path) -> Answer:
+    labels = 1 + np.arange(len(_waves(given, 1))) % 3
+    found = sx.parcels(given.surface, given.values, labels)
+    return {"mean": found.means, "median": found.medians, "area": found.areas}
+
+
+def _noise(given: Given, _: Path) -> Answer:
+    found = sx.noise(given.surface, given.values)
+    return {"level": found.level, "levels": found.levels}
+
+
+def _path(given: Given, _: Path) -> Answer:
+    path = sx.denoise_path(given.surface, given.values, weights=(given.width, 3.0), tolerance=given.tolerance)
+    return {"map": path.at(1.0).values}
+
+
+def _view(given: Given, folder: Path) -> Answer:
+    sx.view(given.surface, given.values).save(folder / "page.html")
+    return {}
+
+
+def _reeb_distance(given: Given, _: Path) -> Answer:
+    graph = sx.reeb_graph(given.surface, given.values, count=given.count)
+    flat = replace(graph, values=np.full_like(graph.values, graph.values.mean()))
+    found = sx.reeb_distance(graph, graph), sx.reeb_distance(graph, flat)
+    assert found[0].upper == 0.0 and not sx.check_reeb_distance(found[1], graph, flat)
+    return {"upper": found[1].upper}
+
+
 CALLS = {
     "Surface": Call("vertices faces values mask", _surface, {"vertices": 1}, {"map": 1}),
     "check": Call("vertices faces", _check),
@@ -192,6 +250,12 @@ CALLS = {
         {},
         {"map": 1},
     ),
+    "denoise by itself": Call(
+        "vertices faces values mask",
+        lambda given, _: {"map": sx.denoise(given.surface, given.values).values},
+        {},
+        {"map": 1},
+    ),
     "smooth": Call(
         "vertices faces values mask width",
         lambda given, _: {"map": sx.smooth(given.surface, given.values, _width(given)).values},
@@ -209,7 +273,21 @@ CALLS = {
     ),
     "reeb_graph": Call("vertices faces values mask count", _reeb, {"positions": 1}, {"values": 1}),
     "null_maps": Call("vertices faces values mask count seed", _null_maps, {}, {"map": 1}),
+    "compare_maps": Call("vertices faces values mask count seed", _compare_maps),
+    "permutation_test": Call("vertices faces values mask count seed", _permutation_test, mixes_maps=True),
+    "parcels": Call(
+        "vertices faces values mask",
+        _parcels,
+        {"area": 2},
+        {"mean": 1, "median": 1},
+        # maps may be unknown at different vertices, so that areas are those of the surface; a mask cuts faces off
+        apart=("values: NaN",),
+    ),
+    "noise": Call("vertices faces values mask", _noise, {}, {"level": 1, "levels": 1}, ("level", "levels")),
+    "denoise_path": Call("vertices faces values mask width tolerance", _path, {}, {"map": 1}),
     "plot": Call("vertices faces values mask", _plot),
+    "view": Call("vertices faces values mask", _view),
+    "reeb_distance": Call("vertices faces values count", _reeb_distance, {}, {"upper": 1}, ("upper",)),
     "fingerprint": Call("count tolerance", _fingerprint),
     "shape": Call("count width", _shape),
 }

@@ -251,7 +251,7 @@ SOURCES = [
     of("sources", "hidden", np.ma.masked_array([3, 40], [True, False]), says="sources"),
     of("sources", "None", None, says="sources"),
 ]
-NAMED = r"(count|n|k|levels|seed|width|weight|smoothness|radius|tolerance) (=|is) "
+NAMED = r"(count|n|k|levels|seed|width|weights?|smoothness|radius|tolerance) (=|is) "
 COUNTS = [
     *(of("count", f"{type(value).__name__} 4", value, 4) for value in (4.0, np.int8(4), np.float32(4), np.array(4))),
     *(

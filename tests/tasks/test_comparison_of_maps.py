@@ -110,3 +110,21 @@ def test_the_level_and_the_interval_hold_for_smooth_fields() -> None:
     low, high = binom.interval(0.999, 300, 0.05)
     assert low <= rejected <= high and low <= 300 - covered <= high, (rejected, covered)
     assert related > 290
+
+
+@pytest.mark.parametrize(("unit", "other"), [(1e-200, 1.0), (1.0, 1e-200), (1e200, 1e200), (1e-12, 1e12)])
+def test_no_unit_of_the_maps_counts(unit: float, other: float) -> None:
+    """The correlation of a map of 1e-200 was infinite, and its p 1."""
+    wanted = sx.compare_maps(BALL, Z, Z + X * Y, count=49, modes=36)
+    found = sx.compare_maps(BALL, unit * Z, other * (Z + X * Y), count=49, modes=36)
+    assert found.r == pytest.approx(wanted.r, abs=1e-9) and found.p == wanted.p
+    assert found.interval == pytest.approx(wanted.interval, abs=1e-9)
+
+
+def test_small_surfaces_are_compared_by_modes_and_told_why() -> None:
+    small = sx.shape("icosphere", levels=2)
+    rough = np.random.default_rng(0).standard_normal(162) + 3.0 * np.sign(small.mesh.vertices[:, 2] + 1e-9)
+    with pytest.raises(ValueError, match=r"162 vertices are too few for variograms, take method='eigenstrapping'"):
+        sx.null_maps(small, rough, 9, method="variogram")
+    found = sx.compare_maps(small, np.sign(small.mesh.vertices[:, 2] + 1e-9), rough, count=49, modes=9)
+    assert found.method == "eigenstrapping" and found.reason.endswith("but 162 vertices are too few for variograms.")

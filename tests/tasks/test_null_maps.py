@@ -137,3 +137,18 @@ def test_the_share_in_modes_is_one_of_variance_by_area() -> None:
         share = sx.null_maps(stretched, values + shift, 3, modes=9).certificate["share_in_modes"]
         assert share == pytest.approx(0.2, abs=1e-6)
     assert system.vectors[:, 1] @ (mass @ system.vectors[:, 1]) == pytest.approx(1.0)
+
+
+def test_a_component_on_which_the_map_is_constant_stays_so() -> None:
+    """It was divided by its power, which is 0."""
+    ball = sx.shape("icosphere", levels=2).mesh
+    both = np.r_[ball.vertices, ball.vertices + 5.0], np.r_[ball.faces, ball.faces + 162]
+    height = ball.vertices[:, 2]
+    found = sx.null_maps(both, np.r_[height, np.full(162, 0.7)], 5, modes=9)
+    alone = sx.null_maps((ball.vertices, ball.faces), height, 5, modes=9)
+    assert np.ptp(found.values[162:], axis=0).max() == 0.0 and found.values[162:] == pytest.approx(0.7)
+    assert found.values[:162].std(axis=0) == pytest.approx(alone.values.std(axis=0), rel=1e-6)
+    assert found.certificate["share_in_modes"] == pytest.approx(alone.certificate["share_in_modes"])
+    assert "The map is constant on a component of 162 vertices, and so are its null maps there." in found.notes
+    with pytest.raises(ValueError, match="constant on each component"):
+        sx.null_maps(both, np.repeat([0.0, 1.0], 162), 5, modes=9)
