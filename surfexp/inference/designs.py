@@ -76,7 +76,7 @@ def tested(
     matrix = finite_rows(design, len(data), "rows of the design")
     if contrast is None and matrix.shape[1] > 1:
         raise ValueError(f"the design has {matrix.shape[1]} columns: give a contrast of {matrix.shape[1]} numbers")
-    weights = np.ones(1) if contrast is None else finite_rows(contrast, np.size(contrast), "contrast")[:, 0]
+    weights = np.ones(1) if contrast is None else _one_row(contrast, matrix.shape[1])
     return data, Design(matrix, weights, f"contrast {' '.join(f'{weight:g}' for weight in weights)}")
 
 
@@ -162,17 +162,19 @@ def codes_of(given: ArrayLike, count: int, what: str) -> tuple[Integers, list[st
     ValueError
         If there is not one for each map, or one is missing.
     """
-    labels = np.asarray(given)
-    if labels.shape != (count,):
-        raise ValueError(f"{what} have shape {labels.shape}, one label for each of {count} maps is needed")
-    missing = [k for k, one in enumerate(labels.tolist()) if one is None or str(one).strip().lower() in UNKNOWN]
+    array: np.ndarray = np.ma.asanyarray(given)
+    if array.shape != (count,):
+        raise ValueError(f"{what} have shape {array.shape}, one label for each of {count} maps is needed")
+    # what a masked array hides is None
+    labels = [one.decode("utf-8", "replace") if isinstance(one, bytes) else one for one in array.tolist()]
+    missing = [k for k, one in enumerate(labels) if one is None or str(one).strip().lower() in UNKNOWN]
     if missing:
         raise ValueError(
             f"{what} have no label for {len(missing)} of {count} maps (the first is number {missing[0]}, "
-            f"{labels.tolist()[missing[0]]!r}): leave these maps out, or name what they belong to"
+            f"{labels[missing[0]]!r}): leave these maps out, or name what they belong to"
         )
     known: dict[str, int] = {}
-    return np.array([known.setdefault(str(one), len(known)) for one in labels.tolist()], dtype=np.int64), list(known)
+    return np.array([known.setdefault(str(one), len(known)) for one in labels], dtype=np.int64), list(known)
 
 
 def two_groups(given: ArrayLike, count: int) -> tuple[Integers, list[str]]:
@@ -226,6 +228,18 @@ def differences_of_pairs(data: Floats, groups: ArrayLike, pairs: ArrayLike) -> t
             raise ValueError(f"pair {name} has the maps {found}: one {names[0]} and one {names[1]} are needed")
     first, second = (np.flatnonzero(side == k)[np.argsort(owner[side == k])] for k in (0, 1))
     return data[first] - data[second], f"{names[0]} less {names[1]} in pairs"
+
+
+def _one_row(contrast: ArrayLike, count: int) -> Floats:
+    """The numbers of a contrast, which may be a matrix of one row."""
+    numbers = real_array(contrast, "contrast")
+    if numbers.ndim == 2 and len(numbers) == 1:
+        numbers = numbers[0]
+    if numbers.shape != (count,) or not np.isfinite(numbers).all():
+        raise ValueError(
+            f"contrast has shape {numbers.shape}: one row of {count} finite numbers is needed, one for each column of the design"
+        )
+    return numbers
 
 
 def _first(count: int, columns: Floats) -> Floats:

@@ -104,7 +104,8 @@ def contrast_model(data: Floats, design: Floats, contrast: Floats) -> ContrastMo
     weights = np.linalg.pinv(design).T @ contrast
     if not np.any(contrast) or not np.allclose(design.T @ weights, contrast, atol=1e-8 * np.abs(contrast).max()):
         raise ValueError(
-            f"contrast = {(contrast * units).tolist()} cannot be estimated from this design: choose another"
+            f"contrast = {(contrast * units).tolist()} cannot be estimated from this design: columns say what others say, as a "
+            "covariate that is the group; leave one out"
         )
     freedom = count - int(np.linalg.matrix_rank(design))
     if freedom < 1:

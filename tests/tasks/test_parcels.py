@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -132,3 +133,42 @@ def test_a_picture_shows_the_means() -> None:
     np.testing.assert_array_equal(picture.views[0][0].values, sx.parcels(BALL, HEIGHT, BANDS).values)
     several = sx.parcels(BALL, np.stack([HEIGHT] * 6, 1), BANDS).plot(BALL, width=300)
     assert sum(map(len, several.views)) == NULLS
+
+
+HALVES = np.where(HEIGHT > 0, 2, 1)
+WORDS = np.where(HALVES == 1, "south", "north").astype(object)
+
+
+@pytest.mark.parametrize(
+    "labels",
+    [
+        HALVES.astype(float),
+        HALVES.astype(object),
+        WORDS,
+        WORDS.astype("U"),
+        pd.Categorical(WORDS),
+        pd.Series(WORDS, index=np.arange(len(WORDS))[::-1]),
+        WORDS.tolist(),
+    ],
+)
+def test_labels_are_numbers_or_names(labels: object) -> None:
+    wanted, found = sx.parcels(BALL, HEIGHT, HALVES), sx.parcels(BALL, HEIGHT, labels)
+    south = found.names.index("south" if "south" in found.names else "1")
+    assert [found.means[south], found.means[1 - south]] == wanted.means.tolist()
+
+
+@pytest.mark.parametrize(
+    "labels",
+    [
+        np.where(HALVES == 1, np.nan, HALVES),
+        np.ma.masked_array(HALVES, HALVES == 1),
+        np.where(HALVES == 1, None, HALVES),
+        np.where(HALVES == 1, None, WORDS),
+        np.where(HALVES == 1, np.nan, WORDS),
+        np.where(HALVES == 1, "", WORDS),
+        np.where(HALVES == 1, "unknown", WORDS),
+    ],
+)
+def test_what_has_no_label_is_in_no_parcel(labels: object) -> None:
+    found = sx.parcels(BALL, HEIGHT, labels)
+    assert found.names in (("2",), ("north",)) and found.means[0] == sx.parcels(BALL, HEIGHT, HALVES).means[1]

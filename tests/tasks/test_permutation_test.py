@@ -108,6 +108,15 @@ def test_groups_are_the_design_that_they_stand_for() -> None:
     same(short, sx.permutation_test(BALL, data, groups=reversed_names, count=300))
 
 
+def test_labels_are_bytes_and_contrasts_one_row_of_a_matrix() -> None:
+    plain = sx.permutation_test(BALL, NOISE, groups=GROUPS, count=40)
+    of_bytes = sx.permutation_test(BALL, NOISE, groups=GROUPS.astype("S"), count=40)
+    same(of_bytes, plain)
+    assert of_bytes.facts["tested"] == plain.facts["tested"] == "old less young"
+    design = np.column_stack([GROUPS == "old", GROUPS == "young"])
+    same(sx.permutation_test(BALL, NOISE, design, [[1, -1]], count=40), plain)
+
+
 def test_pairs_are_the_mean_of_their_differences() -> None:
     found = sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS)
     differences = NOISE[:, [0, 1, 3, 6, 8]] - NOISE[:, [4, 2, 5, 7, 9]]
@@ -235,6 +244,12 @@ def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
         ({"groups": GROUPS[:4]}, "one label for each of 10 maps"),
         ({"groups": np.arange(10)}, "exactly 2 are needed"),
         ({"groups": [*["a", "n/a"] * 5]}, "groups have no label for 5 of 10 maps .the first is number 1, 'n/a'."),
+        ({"groups": np.ma.masked_array(GROUPS, [1, *[0] * 9])}, "groups have no label for 1 of 10 maps"),
+        ({"groups": GROUPS, "covariates": GROUPS == "old"}, "as a covariate that is the group; leave one out"),
+        (
+            {"design": np.eye(10)[:, :2], "contrast": np.eye(2)},
+            r"contrast has shape \(2, 2\): one row of 2 finite numbers",
+        ),
         ({"groups": [None, *["a"] * 9]}, "groups have no label for 1 of 10 maps"),
         ({"blocks": [1, 1, 2, 2, 3, 3, 4, 4, np.nan, np.nan]}, "blocks have no label for 2 of 10 maps"),
         ({"groups": GROUPS, "pairs": ["", "", *"aabbccdd"]}, "pairs have no label for 2 of 10 maps"),
