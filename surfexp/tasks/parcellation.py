@@ -7,10 +7,11 @@ from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.medial_wall import is_outside
-from surfexp.mesh.given_arrays import index_array, real_array
+from surfexp.mesh.given_arrays import index_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.tasks.given_labels import labels_of_array
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.tasks.parcel_table import Parcels
 
@@ -93,27 +94,13 @@ def _labels(owner: Surface, labels: str | LabelMap | ArrayLike) -> LabelMap:
     elif isinstance(labels, LabelMap):
         table = labels
     else:
-        table = _of_array(labels)
+        table = labels_of_array(labels)
     count = len(owner.mesh.vertices)
     if owner.file is not None and len(table.keys) == len(owner.file.standing) != count:
         table = LabelMap(index_array(owner.file.onto_mesh(table.keys), "labels"), table.names)
     if len(table.keys) != count:
         raise ValueError(f"labels have {len(table.keys)} entries, the surface has {count} vertices")
     return table
-
-
-def _of_array(labels: ArrayLike) -> LabelMap:
-    """Labels that are numbers, 0 and NaN for none, or that are names."""
-    listed = [] if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels).ravel().tolist()
-    if any(isinstance(one, str) for one in listed):
-        words = np.array(["" if one is None or one != one else str(one) for one in listed])
-        names, keys = np.unique(words, return_inverse=True)
-        return LabelMap(keys.reshape(np.shape(labels)), dict(enumerate(names.tolist())))
-    if np.ma.asanyarray(labels).dtype.kind in "fO" or isinstance(labels, np.ma.MaskedArray):
-        values = real_array(labels, "labels")
-        labels = np.where(np.isnan(values), 0.0, values)
-    keys = index_array(labels, "labels")
-    return LabelMap(keys, {key: str(key) for key in np.unique(keys).tolist() if key != 0})
 
 
 def _numbered(labels: Integers, keys: list[int]) -> Integers:

@@ -19,6 +19,7 @@ from surfexp.inference.vertex_graph import graph_of_edges
 from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
+from surfexp.tasks.given_labels import labels_of_array
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_labels, as_map, as_single_map, as_surface, part_for
 from surfexp.tasks.tested_clusters import tested_maps
 from surfexp.tasks.tested_maps import PermutationTest
@@ -44,7 +45,7 @@ def permutation_test(
     height_power: float = 2.0,
     two_sided: bool = True,
     level: float = 0.05,
-    labels: str | LabelMap | None = None,
+    labels: str | LabelMap | ArrayLike | None = None,
     seed: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -89,7 +90,7 @@ def permutation_test(
         False tests for positive contrasts only.
     level : float
         Of the regions that are listed.
-    labels : str or LabelMap, optional
+    labels : str, LabelMap, (n,) int or (n,) str, optional
         Parcels for the table of clusters, or the name under which the surface carries them.
     seed : int
     threads : int, optional
@@ -166,6 +167,9 @@ def _columns(owner: Surface, maps: MapLike | Sequence[MapLike]) -> Floats:
     return columns
 
 
-def _parcels(owner: Surface, labels: str | LabelMap | None) -> LabelMap | None:
+def _parcels(owner: Surface, labels: str | LabelMap | ArrayLike | None) -> LabelMap | None:
+    if labels is None:
+        return None
     table = owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels
-    return None if table is None else replace(table, keys=as_labels(owner, table.keys))
+    table = table if isinstance(table, LabelMap) else labels_of_array(table)
+    return replace(table, keys=as_labels(owner, table.keys))

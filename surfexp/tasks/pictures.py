@@ -119,7 +119,7 @@ def plot(
         Ends of the colour bar; the 1st and 99th percentile if not given. The picture says what lies beyond.
     contours : sequence of float, optional
         Values of the map at which lines are drawn.
-    borders : str, `LabelMap`, or (n,) integers, optional
+    borders : str, `LabelMap`, (n,) whole numbers or texts, optional
         Labels whose borders are drawn over the map.
     skeleton : Skeleton, optional
         Drawn through the surface.

@@ -75,7 +75,7 @@ def check_reeb_distance(found: ReebDistance, first: Skeleton, second: Skeleton) 
     Raises
     ------
     TypeError
-        If a graph is no result of `reeb_graph`.
+        If `found` is no result of `reeb_distance`, or a graph none of `reeb_graph`.
 
     Examples
     --------
@@ -90,6 +90,8 @@ def check_reeb_distance(found: ReebDistance, first: Skeleton, second: Skeleton) 
     >>> sx.check_reeb_distance(found, ring, ring)
     ('its Reeb graph by the second function is not the second graph',)
     """
+    if not isinstance(found, ReebDistance):
+        raise TypeError(f"check_reeb_distance takes a result of sx.reeb_distance, not {type(found).__name__}")
     return common_space_defects(found.space, _graph(first), _graph(second), found.upper)
 
 

@@ -34,6 +34,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
+from surfexp.tasks.given_labels import are_words, labels_of_array
 from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
 from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
@@ -82,6 +83,10 @@ def shown_surfaces(
         from matplotlib import colormaps
 
         one_of(colormap, "colormap", colormaps)
+    if hasattr(borders, "dtype") and np.asarray(borders).dtype.kind in "fO":
+        borders = labels_of_array(borders)
+    if skeleton is not None and not isinstance(skeleton, Skeleton):
+        raise TypeError(f"skeleton is a result of sx.reeb_graph, not {type(skeleton).__name__}")
     levels = () if contours is None else tuple(real_number(level, "contours") for level in np.atleast_1d(contours))
     given = [views] if isinstance(views, str) else views or ()
     chosen = [_checked_view(view) for view in given]
@@ -141,7 +146,7 @@ def _map_apart(owner: Surface, given: Any) -> list[Any]:
     if given is None or (isinstance(given, str) and (given in owner.scalars or given in owner.labels)):
         return [given, given]
     rows = [vertices_of(owner, side) for side in HEMISPHERES]
-    table = getattr(given, "label_map", given)
+    table = labels_of_array(given) if are_words(given) else getattr(given, "label_map", given)
     if isinstance(table, LabelMap):
         keys = as_labels(owner, table.keys)
         return [replace(table, keys=keys[own]) for own in rows]
@@ -192,7 +197,7 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
 
 def _labels(owner: Surface, given: Any) -> Labelling | None:
     """Return labels where they are given: a `LabelMap`, a result that has one, a name, or whole numbers as integers."""
-    given = getattr(given, "label_map", given)
+    given = labels_of_array(given) if are_words(given) else getattr(given, "label_map", given)
     if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
         given = owner.labels[given]
     if isinstance(given, str | Path) and str(given).lower().endswith(LABEL_FILES) and Path(given).is_file():
@@ -257,7 +262,8 @@ def _lines(
     if outlined is not None:
         regions = _labels(owner, outlined)
         if regions is None:
-            raise ValueError(f"borders = {outlined!r}: give labels by name, a LabelMap, or integers")
+            what = repr(outlined) if isinstance(outlined, str | Path) else f"of type {type(outlined).__name__}"
+            raise ValueError(f"borders = {what}: give labels by name, a LabelMap, whole numbers or texts")
         part = surface_part(owner.mesh, usable_vertices(owner.mesh))
         found.append(border_lines(base.mesh, np.asarray(part.restrict(regions.index), dtype=np.int64)))
     if levels:

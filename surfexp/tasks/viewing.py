@@ -121,7 +121,7 @@ def view(
     colormap : str, optional
     limits : (float, float), optional
     contours : sequence of float, optional
-    borders : str, `LabelMap`, or (n,) integers, optional
+    borders : str, `LabelMap`, (n,) whole numbers or texts, optional
     skeleton : Skeleton, optional
     label, unit : str
         These as in `plot`.

@@ -8,9 +8,11 @@ from typing import Any
 
 import nibabel
 import numpy as np
+import pandas as pd
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.label_map import LabelMap
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.shown import shown_surfaces
 
@@ -145,3 +147,19 @@ def test_a_file_that_places_its_surface_in_a_brain_or_a_scanner_is_in_millimetre
     assert sx.read(tmp_path / "lh.white", unit="cm").unit == "cm"
     thick = replace(sx.read(tmp_path / "lh.white"), scalars={"thickness": np.linspace(1.0, 4.0, len(ball.vertices))})
     assert sx.plot(thick, "thickness", width=300).views[0][0].scale.title == "thickness (mm)"
+
+
+def test_labels_may_be_texts_or_numbers_with_nan_and_are_refused_in_one_line() -> None:
+    height = BODY.mesh.vertices[:, 2]
+    keys = np.where(height > 0, 2, 1)
+    words = np.where(keys == 1, "south", "north")
+    ((shown,),) = shown_surfaces(BODY, words)
+    assert shown.labels is not None and shown.labels.names == ("north", "south")
+    assert np.array_equal(np.array(shown.labels.names)[shown.labels.index], words)
+    lines = sx.plot(BODY, height, borders=LabelMap(keys, {1: "1", 2: "2"}), **SIZES).figure.pixels
+    for given in (keys.astype(float), words, pd.Categorical(words), pd.Series(keys.astype(float))):
+        assert np.array_equal(sx.plot(BODY, height, borders=given, **SIZES).figure.pixels, lines)
+    with pytest.raises(ValueError, match=r"^borders = 'none': give labels by name[^\n]*$"):
+        sx.plot(BODY, height, borders="none", **SIZES)
+    with pytest.raises(TypeError, match=r"skeleton is a result of sx.reeb_graph, not ndarray"):
+        sx.plot(BODY, height, skeleton=height, **SIZES)
