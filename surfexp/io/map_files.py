@@ -311,5 +311,5 @@ def check_map_target(
     if hemisphere is not None:
         check_named_side(path, hemisphere)
         if is_cifti(path) and not hemisphere:
-            raise ValueError(f"{path} needs a hemisphere, none is known: give hemisphere=left or right")
+            raise ValueError(f"{path} needs a hemisphere, none is known: give the surface, or hemisphere=left or right")
     check_writable(path)

@@ -7,8 +7,47 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from surfexp.contract.arrays import Integers
+from surfexp.mesh.both_hemispheres import joined_labels, of_both
 from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.tasks.inputs import as_labels, sides_of
+
+
+def labels_on(surface: Surface, given: Any) -> LabelMap:
+    """Return labels on the vertices of a surface; those of a file that was repaired are carried over.
+
+    Parameters
+    ----------
+    surface : Surface
+    given : LabelMap or (n,) array_like, or for both hemispheres a mapping of left and right to one of them each
+        As `labels_of_array` takes them. What has one name on both sides is one label.
+
+    Returns
+    -------
+    LabelMap
+
+    Raises
+    ------
+    ValueError
+        If there are fewer or more, a side is missing, or a number is no whole one.
+    """
+    parts = sides_of(given, "data")
+    if parts is None:
+        table = given if isinstance(given, LabelMap) else labels_of_array(given)
+        return LabelMap(as_labels(surface, table.keys), table.names)
+    if surface.right is None:
+        if surface.hemisphere not in parts:
+            raise ValueError(f"labels have {' and '.join(parts)}, the surface is of hemisphere {surface.hemisphere!r}")
+        return labels_on(surface, parts[surface.hemisphere])
+    if missing := [side for side in HEMISPHERES if side not in parts]:
+        raise ValueError(f"labels have no {missing[0]} hemisphere, the surface is both: give both")
+    given_tables = [parts[side] for side in HEMISPHERES]
+    tables = [one if isinstance(one, LabelMap) else labels_of_array(one) for one in given_tables]
+    left, right = joined_labels(*tables)
+    keys: Integers = of_both(surface, left.keys, right.keys, "labels").astype(np.int64)
+    return LabelMap(keys, left.names)
 
 
 def labels_of_array(given: ArrayLike) -> LabelMap:
@@ -50,15 +89,25 @@ def labels_of_array(given: ArrayLike) -> LabelMap:
     return LabelMap(keys, {key: str(key) for key in np.unique(keys).tolist() if key != 0})
 
 
-def are_words(given: Any) -> bool:
-    """Whether an array, or a column of a table, holds texts; a list of texts is one of names of maps.
+def are_labels(given: Any) -> bool:
+    """Whether an array, or a column of a table, holds texts; or each hemisphere has texts, whole numbers or a LabelMap.
+
+    A list of texts is one of names of maps, and one array of whole numbers may be a map.
 
     Examples
     --------
-    >>> are_words(np.array(["V1", "V2"])), are_words(["thickness", "sulc"]), are_words(np.zeros(2))
+    >>> are_labels(np.array(["V1", "V2"])), are_labels(["thickness", "sulc"]), are_labels(np.zeros(2))
     (True, False, False)
+    >>> are_labels({"left": np.array([1, 2]), "right": np.array([2, 1])})
+    True
     """
-    if not hasattr(given, "dtype") or not hasattr(given, "__len__"):
+    if (parts := sides_of(given, "data")) is not None:
+        return all(isinstance(one, LabelMap) or are_labels(one) or _are_whole(one) for one in parts.values())
+    if isinstance(given, LabelMap) or not hasattr(given, "dtype") or not hasattr(given, "__len__"):
         return False
     array = np.asarray(given)
     return array.dtype.kind == "U" or (array.dtype.kind == "O" and any(isinstance(one, str) for one in array.ravel()))
+
+
+def _are_whole(given: Any) -> bool:
+    return not isinstance(given, str) and np.asarray(given).dtype.kind in "iu"

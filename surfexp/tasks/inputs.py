@@ -50,14 +50,21 @@ def as_surface(given: SurfaceLike) -> Surface:
         from surfexp.tasks.files import read
 
         return read(given)
-    if (parts := _sides(given, "mesh")) is not None:
-        return _of_sides(parts, _sides(given, "data"))
+    if (parts := sides_of(given, "mesh")) is not None:
+        return _of_sides(parts, sides_of(given, "data"))
     mesh = given if isinstance(given, TriangleMesh) else TriangleMesh(*arrays_of(given))
     return sound_part(Surface(mesh), "surface")
 
 
-def _sides(given: Any, what: str) -> Mapping[str, Any] | None:
-    """Return what a mapping, or nilearn's PolyMesh, PolyData or SurfaceImage, has for each hemisphere, or None."""
+def sides_of(given: Any, what: str) -> Mapping[str, Any] | None:
+    """Return what a mapping, or nilearn's PolyMesh, PolyData or SurfaceImage, has for each hemisphere, or None.
+
+    Parameters
+    ----------
+    given : object
+    what : {"mesh", "data"}
+        Of an image.
+    """
     held = getattr(given, what, None)
     parts = given if isinstance(given, Mapping) else getattr(held if hasattr(held, "parts") else given, "parts", None)
     return parts if isinstance(parts, Mapping) and parts and set(parts) <= set(HEMISPHERES) else None
@@ -171,8 +178,11 @@ def _of_files(surface: Surface, given: Any) -> Floats:
 
 def _map_of_sides(surface: Surface, given: Any) -> Floats:
     """Return an array, or the parts of a map of both hemispheres as one array."""
-    parts = _sides(given, "data")
+    parts = sides_of(given, "data")
     if parts is None:
+        if isinstance(given, Mapping):
+            keys = ", ".join(map(str, given)) or "none"
+            raise ValueError(f"map has the parts {keys}: give it as left and right, or give an array")
         return real_array(given, "map")
     if surface.right is None:
         if surface.hemisphere not in parts:

@@ -14,6 +14,7 @@ from surfexp.io.hemisphere import common_name
 from surfexp.io.map_files import side_by_side
 from surfexp.io.quantity_of_file import quantity_named
 from surfexp.mesh.surface import Surface
+from surfexp.tasks.given_labels import are_labels, labels_on
 from surfexp.tasks.inputs import as_map, name_of
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, spread_over
 from surfexp.tasks.map_row import MapRow
@@ -42,6 +43,8 @@ def rows_of_maps(values: Any, surfaces: Sequence[Surface], most_columns: int = M
         if len(found) > 1:
             values = side_by_side(found, "map")
     if count == 1 and is_pair(values) and surfaces[0].right is not None:
+        if are_labels(values):
+            return [MapRow("", [labels_on(surfaces[0], values)])]
         return [MapRow("", [as_map(surfaces[0], values)], bar=_quantity_of_pair(values))]
     if isinstance(values, Mapping):
         return [MapRow(str(name), _of_each(one, count)) for name, one in values.items()]

@@ -7,11 +7,10 @@ from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.medial_wall import is_outside
-from surfexp.mesh.given_arrays import index_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.tasks.given_labels import labels_of_array
+from surfexp.tasks.given_labels import labels_on
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.tasks.parcel_table import Parcels
 
@@ -89,18 +88,7 @@ def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | Arra
 
 
 def _labels(owner: Surface, labels: str | LabelMap | ArrayLike) -> LabelMap:
-    if isinstance(labels, str):
-        table = owner.labels[one_of(labels, "labels", owner.labels)]
-    elif isinstance(labels, LabelMap):
-        table = labels
-    else:
-        table = labels_of_array(labels)
-    count = len(owner.mesh.vertices)
-    if owner.file is not None and len(table.keys) == len(owner.file.standing) != count:
-        table = LabelMap(index_array(owner.file.onto_mesh(table.keys), "labels"), table.names)
-    if len(table.keys) != count:
-        raise ValueError(f"labels have {len(table.keys)} entries, the surface has {count} vertices")
-    return table
+    return labels_on(owner, owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels)
 
 
 def _numbered(labels: Integers, keys: list[int]) -> Integers:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Literal, cast
 
 import numpy as np
@@ -19,8 +18,8 @@ from surfexp.inference.vertex_graph import graph_of_edges
 from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
-from surfexp.tasks.given_labels import labels_of_array
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_labels, as_map, as_single_map, as_surface, part_for
+from surfexp.tasks.given_labels import labels_on
+from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_single_map, as_surface, part_for
 from surfexp.tasks.tested_clusters import tested_maps
 from surfexp.tasks.tested_maps import PermutationTest
 
@@ -170,6 +169,4 @@ def _columns(owner: Surface, maps: MapLike | Sequence[MapLike]) -> Floats:
 def _parcels(owner: Surface, labels: str | LabelMap | ArrayLike | None) -> LabelMap | None:
     if labels is None:
         return None
-    table = owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels
-    table = table if isinstance(table, LabelMap) else labels_of_array(table)
-    return replace(table, keys=as_labels(owner, table.keys))
+    return labels_on(owner, owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels)

@@ -16,17 +16,11 @@ from surfexp.extras import require_installed
 from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View, viewing_direction
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.labelling import Labelling, border_lines, labelling
+from surfexp.figures.labelling import Labelling, border_lines
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
-from surfexp.io.hemisphere import check_same_side
-from surfexp.io.label_colours import read_coloured_labels
-from surfexp.io.map_files import LABEL_FILES
-from surfexp.mesh.both_hemispheres import vertices_of
-from surfexp.mesh.coloured_labels import ColouredLabels
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
-from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.length_scale import length_scale
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.surface_part import surface_part
@@ -34,8 +28,8 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
-from surfexp.tasks.given_labels import are_words, labels_of_array
-from surfexp.tasks.inputs import as_labels, as_map, as_surface, name_of
+from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart
+from surfexp.tasks.inputs import as_map, as_surface, name_of
 from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
@@ -83,8 +77,6 @@ def shown_surfaces(
         from matplotlib import colormaps
 
         one_of(colormap, "colormap", colormaps)
-    if hasattr(borders, "dtype") and np.asarray(borders).dtype.kind in "fO":
-        borders = labels_of_array(borders)
     if skeleton is not None and not isinstance(skeleton, Skeleton):
         raise TypeError(f"skeleton is a result of sx.reeb_graph, not {type(skeleton).__name__}")
     levels = () if contours is None else tuple(real_number(level, "contours") for level in np.atleast_1d(contours))
@@ -102,9 +94,9 @@ def shown_surfaces(
     shown = surfaces if in_one else apart(surfaces)
     for made in given_rows:
         row = []
-        maps, outlined = list(made.maps), [borders] * len(surfaces)
+        maps, outlined = list(made.maps), [known_labels(owner, borders) for owner in surfaces]
         if not in_one:
-            maps, outlined = _maps_apart(surfaces, maps), _maps_apart(surfaces, outlined)
+            maps, outlined = maps_apart(surfaces, maps), maps_apart(surfaces, outlined)
         bases = [_coloured(owner, one) for owner, one in zip(shown, maps, strict=True)]
         ends = limits or made.limits or _whole_range([base.values for base in bases if base.is_scalar])
         for owner, one, base, border in zip(shown, maps, bases, outlined, strict=True):
@@ -134,29 +126,6 @@ def apart(surfaces: Sequence[Surface]) -> list[Surface]:
     return [one for surface in surfaces for one in surface.hemispheres().values()]
 
 
-def _maps_apart(owners: Sequence[Surface], given: Sequence[Any]) -> list[Any]:
-    """Return a map, or labels, of each surface for each of its hemispheres."""
-    return [one for owner, values in zip(owners, given, strict=True) for one in _map_apart(owner, values)]
-
-
-def _map_apart(owner: Surface, given: Any) -> list[Any]:
-    """Return a map, or labels, of a surface for each of its hemispheres; a name stays."""
-    if owner.right is None:
-        return [given]
-    if given is None or (isinstance(given, str) and (given in owner.scalars or given in owner.labels)):
-        return [given, given]
-    rows = [vertices_of(owner, side) for side in HEMISPHERES]
-    table = labels_of_array(given) if are_words(given) else getattr(given, "label_map", given)
-    if isinstance(table, LabelMap):
-        keys = as_labels(owner, table.keys)
-        return [replace(table, keys=keys[own]) for own in rows]
-    array = np.asarray(getattr(given, "values", given))
-    if array.dtype.kind in "biu" and array.ndim == 1:
-        array = as_labels(owner, array)
-        return [array[own] for own in rows]
-    return [as_map(owner, getattr(given, "values", given))[own] for own in rows]
-
-
 def sides(surface: Surface) -> dict[str, tuple[float, float]]:
     """Return the lateral and medial direction of a hemisphere; none of another surface."""
     return {name: _direction(name, surface) for name in HEMISPHERE_VIEWS} if surface.hemisphere in HEMISPHERES else {}
@@ -177,7 +146,7 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
     """Return the surface with its map, or labels, without a scale."""
     part = surface_part(owner.mesh, usable_vertices(owner.mesh))
     inside = None if owner.mask is None else np.asarray(part.restrict(owner.mask), dtype=np.bool_)
-    found = _labels(owner, given)
+    found = drawn_labels(owner, given)
     given = own_colors(owner) if given is None else given
     if found is None and given is None and owner.mask is not None:
         found = Labelling(np.where(owner.mask, 0, -1), (INSIDE,), np.array([CLAY]))
@@ -193,29 +162,6 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
     if inside is not None:
         field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
     return SurfaceView(part.mesh, as_shares(field) if field.ndim > 1 else field)
-
-
-def _labels(owner: Surface, given: Any) -> Labelling | None:
-    """Return labels where they are given: a `LabelMap`, a result that has one, a name, or whole numbers as integers."""
-    given = labels_of_array(given) if are_words(given) else getattr(given, "label_map", given)
-    if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
-        given = owner.labels[given]
-    if isinstance(given, str | Path) and str(given).lower().endswith(LABEL_FILES) and Path(given).is_file():
-        check_same_side("labels", given, owner.hemisphere)
-        given = read_coloured_labels(given, owner.hemisphere)
-    if isinstance(given, LabelMap):
-        found = labelling(as_labels(owner, given.keys), given.names)
-        own = given.by_name if isinstance(given, ColouredLabels) else {}
-        colors = [own.get(name, made) for name, made in zip(found.names, found.colors, strict=True)]
-        return replace(found, colors=np.array(colors, dtype=np.float64).reshape(-1, 3))
-    if isinstance(given, str | Path) or given is None or hasattr(given, "values"):
-        return None
-    array = np.asarray(given)
-    if array.dtype == np.bool_ and array.ndim == 1:
-        return labelling(as_labels(owner, array.astype(np.int64)), {0: "outside", 1: "inside"})
-    if array.dtype.kind in "iu" and array.ndim == 1:
-        return labelling(as_labels(owner, array.astype(np.int64)))
-    return None
 
 
 def _scale(owner: Surface, name: str, unit: str, limits: tuple[float, float] | None) -> ColorScale:
@@ -260,10 +206,9 @@ def _lines(
     if base.labels is not None and len(base.labels.names) > 1:
         found.append(border_lines(base.mesh, base.labels.index))
     if outlined is not None:
-        regions = _labels(owner, outlined)
+        regions = drawn_labels(owner, outlined)
         if regions is None:
-            what = repr(outlined) if isinstance(outlined, str | Path) else f"of type {type(outlined).__name__}"
-            raise ValueError(f"borders = {what}: give labels by name, a LabelMap, whole numbers or texts")
+            raise ValueError(f"borders = {outlined!r}: give labels by name, a LabelMap, whole numbers or texts")
         part = surface_part(owner.mesh, usable_vertices(owner.mesh))
         found.append(border_lines(base.mesh, np.asarray(part.restrict(regions.index), dtype=np.int64)))
     if levels:

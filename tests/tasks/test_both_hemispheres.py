@@ -385,3 +385,46 @@ def test_fingerprints_of_both_are_a_column_for_each_side(working_folder: Path) -
     assert main(["fingerprint", "lh.ply", "rh.ply", "-k", "4", "--to", "apart.csv"]) == 0
     assert Path("both.csv").read_text() == Path("apart.csv").read_text()
     assert "lh" in Path("both.csv").read_text() and main(["fingerprint", "lh.ply+no.ply", "--to", "c.csv"]) == 2
+
+
+KEYS = {side: np.where(HEIGHTS[side] > 0.0, 2, 1) for side in HEIGHTS}
+WORDS = {side: np.where(HEIGHTS[side] > 0.0, "north", "south") for side in HEIGHTS}
+STACKED = np.r_[KEYS["left"], KEYS["right"]]
+
+
+def test_labels_are_given_by_side_as_maps_are() -> None:
+    wanted = sx.parcels(BRAIN, NOISY, STACKED)
+    tables = {side: LabelMap(KEYS[side], {1: "south", 2: "north"}) for side in KEYS}
+    floats = {side: KEYS[side].astype(float) for side in KEYS}
+    for given in (KEYS, floats, WORDS, tables):
+        found = sx.parcels(BRAIN, NOISY, given)
+        assert sorted(found.means) == sorted(wanted.means) and found.hemispheres.count("left") == 2
+    subjects = np.random.default_rng(0).standard_normal((len(STACKED), 6))
+    tested = [sx.permutation_test(BRAIN, subjects, count=20, forming_p=0.2, labels=one) for one in (KEYS, STACKED)]
+    assert [one.parcels for one in tested[0].clusters] == [one.parcels for one in tested[1].clusters]
+    picture = sx.plot(BRAIN, STACKED, width=300).figure.pixels
+    assert np.array_equal(sx.plot(BRAIN, KEYS, width=300).figure.pixels, picture)
+    lines = sx.plot(BRAIN, NOISY, borders=STACKED, width=300).figure.pixels
+    for given in (KEYS, floats, WORDS):
+        assert np.array_equal(sx.plot(BRAIN, NOISY, borders=given, width=300).figure.pixels, lines)
+    names = [view.labels.names for row in sx.plot(BRAIN, WORDS, width=300).views for view in row if view.labels]
+    assert names and {*names} == {("north", "south")}
+
+
+@pytest.mark.parametrize(
+    ("call", "line"),
+    [
+        (lambda: sx.parcels(BRAIN, NOISY, {"left": KEYS["left"]}), "labels have no right hemisphere"),
+        (
+            lambda: sx.parcels(SIDES["left"], NOISY["left"], {"right": KEYS["left"]}),
+            "labels have right, the surface is of",
+        ),
+        (
+            lambda: sx.denoise(BRAIN, {"L": NOISY["left"], "R": NOISY["right"]}),
+            "map has the parts L, R: give it as left and",
+        ),
+    ],
+)
+def test_half_of_the_labels_and_other_words_for_sides_are_refused(call: Callable[[], object], line: str) -> None:
+    with pytest.raises(ValueError, match=line):
+        call()
