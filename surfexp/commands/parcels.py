@@ -10,7 +10,7 @@ import click
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of, shown_labels
 from surfexp.commands.surface_arguments import opened, ready_map, surface_options
-from surfexp.commands.table_file import ready_table, write_table_file
+from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 
 EXAMPLES = (
@@ -46,7 +46,9 @@ def parcels(path: str, map_name: str, labels: str, means: Path | None, target: P
     if means is not None:
         ready_map(means, files, surface, channels=channels)
     found = task(surface, values, table)
-    write_table_file(target, found.table())
+    from surfexp.io.csv_cells import write_columns
+
+    write_columns(target, found.table())
     notes = found.notes
     if means is not None:
         notes += written(means, {"mean": found.values}, surface)

@@ -12,7 +12,7 @@ from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, shown_labels
 from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
-from surfexp.commands.table_file import ready_table, write_table_file
+from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
@@ -99,7 +99,9 @@ def test(
     facts = found.facts | {"seconds": time.perf_counter() - started}
     _say(found, surface.right is not None)
     if table is not None:
-        write_table_file(table, found.table("clusters"))
+        from surfexp.io.csv_cells import write_columns
+
+        write_columns(table, found.table("clusters"))
     return finish(target, found.maps, surface, "permutation test", options, files, facts, (*said, *found.notes))
 
 

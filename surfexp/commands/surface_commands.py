@@ -27,7 +27,7 @@ from surfexp.commands.surface_arguments import (
     surface_of,
     surface_options,
 )
-from surfexp.commands.table_file import ready_table, write_table_file
+from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 
 EXAMPLES = {
@@ -143,7 +143,9 @@ def skeleton(path: str, map_name: str | None, count: int, branches: Path | None,
     graph = reeb_graph(surface, values, count=count)
     write_skeleton(target, graph)
     if branches is not None:
-        write_table_file(branches, graph.branches())
+        from surfexp.io.csv_cells import write_columns
+
+        write_columns(branches, graph.branches())
     facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}
     write_certificate(
         target, "reeb graph", {"levels": count, "map": map_name or "first eigenfunction"}, files, facts, graph.notes

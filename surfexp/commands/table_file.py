@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from surfexp.commands.certificate import Inputs
 
@@ -26,14 +23,3 @@ def ready_table(table: Path | None, files: Inputs, option: str) -> None:
 
     check_writable(table)
     files.refuse_to_overwrite(table)
-
-
-def write_table_file(table: Path, columns: Mapping[str, Sequence[Any]]) -> None:
-    """Write columns under their names."""
-    from surfexp.io.csv_cells import cells
-    from surfexp.io.replacing import replacing
-
-    with replacing(table) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(cells(row) for row in zip(*columns.values(), strict=True))

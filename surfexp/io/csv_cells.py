@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import csv
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
+
+from surfexp.io.replacing import replacing
 
 # of the columns of a table; the one that stands in its header most often is meant, of equals the first
 SEPARATORS = ",;\t"
@@ -37,3 +41,11 @@ def uncell(text: str) -> str:
 def cells(row: Iterable[Any]) -> list[Any]:
     """Return the cells of a row."""
     return [cell(value) for value in row]
+
+
+def write_columns(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
+    """Write columns under their names; a file of the name is replaced when all is written."""
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(cells(row) for row in zip(*columns.values(), strict=True))

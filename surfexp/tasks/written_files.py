@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
+from surfexp.io.csv_cells import write_columns
 from surfexp.io.hemisphere import check_named_side, files_of_sides, hemisphere_of_name, holds_both, holds_hemisphere
 from surfexp.io.label_colours import write_coloured_labels
 from surfexp.io.map_files import check_map_target, write_maps
@@ -28,6 +29,7 @@ from surfexp.skeleton.export import write_common_space, write_skeleton
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.inputs import SurfaceLike, arrays_of, as_map, is_mesh
+from surfexp.tasks.parcel_table import Parcels
 
 LABEL_SUFFIXES = (".label.gii", ".annot")
 # formats that hold a surface beside its maps; an archive holds either
@@ -46,7 +48,8 @@ def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> No
     what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, Skeleton, or a result
         A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
         ... and in .npz `values`, `vectors`, `residuals`. A skeleton is .graphml, .swc where it is a tree, .vtk or .ply. A
-        result is a denoised map, a segmentation, ... The common space of two Reeb graphs is .npz.
+        result is a denoised map, a segmentation, ... A test is all its maps by name. Parcels are their table in .csv, and the
+        map of their means elsewhere. The common space of two Reeb graphs is .npz.
     surface : Surface or mesh, optional
         Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
         repaired, maps alone are written on the vertices of its file.
@@ -81,6 +84,9 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         return ()
     if isinstance(what, CommonSpace):
         write_common_space(target, what)
+        return ()
+    if isinstance(what, Parcels) and target.suffix.lower() == ".csv":
+        write_columns(target, what.table())
         return ()
     if surface is not None:
         if not is_mesh(surface):
@@ -207,8 +213,16 @@ def maps_of(what: Any) -> dict[str, Floats]:
     """
     if isinstance(what, Mapping):
         return {str(name): _written_map(values, f"map {str(name)!r}") for name, values in what.items()}
+    if isinstance(named := getattr(what, "maps", None), Mapping):
+        return dict(named)
     if hasattr(what, "vectors"):
         return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
+    if is_dataclass(what) and not hasattr(what, "values"):
+        held = [one.name for one in fields(what) if isinstance(getattr(what, one.name), np.ndarray)]
+        rest = f", such as one of its {', '.join(held)}" if held else ""
+        raise ValueError(
+            f"a {type(what).__name__} is no map of the surface: give an array{rest}, or a result that is one"
+        )
     array = _written_map(getattr(what, "values", what), f"{type(what).__name__} given as a map")
     return {what.name if isinstance(what, DenoisedMap) else "map": array}
 

@@ -217,3 +217,24 @@ def test_a_folder_is_refused_with_a_surface_in_it(tmp_path: Path, inside: str) -
         sx.read(tmp_path)
     rest = f", as {tmp_path / inside}" if inside else ""
     assert str(refused.value) == f"{tmp_path} is a folder: give one file of it{rest}"
+
+
+@pytest.mark.parametrize(
+    ("result", "line"),
+    [
+        (
+            lambda ball, noisy: sx.denoise_path(ball, noisy, weights=(0.5, 1.0)),
+            "a DenoisingPath is no map of the surface",
+        ),
+        (
+            lambda ball, noisy: sx.noise(ball, noisy),
+            "a FittedNoise is no map of the surface: give an array, such as one of",
+        ),
+        (lambda ball, noisy: sx.distance(ball, ball, 4), "a Distance is no map of the surface"),
+    ],
+)
+def test_a_result_that_is_no_map_is_refused_with_what_it_holds(result, line: str, working_folder: Path) -> None:
+    ball = sx.shape("icosphere", levels=2)
+    noisy = ball.mesh.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(162)
+    with pytest.raises(ValueError, match=line):
+        sx.write("result.npz", result(ball, noisy))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -9,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import surfexp as sx
+from surfexp.io.map_files import read_maps
 from surfexp.mesh.both_hemispheres import joined
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
@@ -172,3 +175,12 @@ def test_labels_are_numbers_or_names(labels: object) -> None:
 def test_what_has_no_label_is_in_no_parcel(labels: object) -> None:
     found = sx.parcels(BALL, HEIGHT, labels)
     assert found.names in (("2",), ("north",)) and found.means[0] == sx.parcels(BALL, HEIGHT, HALVES).means[1]
+
+
+def test_parcels_are_a_table_in_text_and_a_map_elsewhere(working_folder: Path) -> None:
+    found = sx.parcels(BALL, HEIGHT, BANDS)
+    sx.write("means.csv", found)
+    table = pd.read_csv("means.csv")
+    assert table.columns.tolist() == list(found.table()) and np.array_equal(table["mean"], found.means)
+    sx.write("means.npz", found)
+    assert np.array_equal(*read_maps("means.npz").values(), found.values)

@@ -14,6 +14,7 @@ from surfexp.inference.linear_model import contrast_model
 from surfexp.inference.permutation_inference import Statistics, null_distributions
 from surfexp.inference.rearrangements import sign_flips
 from surfexp.inference.vertex_graph import vertex_graph
+from surfexp.io.map_files import read_maps
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface_part import surface_part
 from surfexp.mesh.union_find import components as components_of
@@ -294,3 +295,16 @@ def test_all_maps_are_written_and_read(working_folder: object) -> None:
     with np.load("found.npz") as again:
         assert set(found.maps) <= set(again.files)
         np.testing.assert_array_equal(again["p_tfce"], found.p_tfce)
+
+
+@pytest.mark.parametrize("name", ["test.npz", "test.func.gii", "test.csv", "test.vtp"])
+def test_a_result_is_written_with_all_its_maps(working_folder: object, name: str) -> None:
+    """Only t was, as "map"."""
+    found = sx.permutation_test(BALL, NOISE, count=20)
+    sx.write(name, found, BALL)
+    again = sx.read(name).scalars if name.endswith(".vtp") else read_maps(name)
+    assert list(again) == list(found.maps)
+    for column, values in found.maps.items():
+        np.testing.assert_allclose(again[column], values, rtol=1e-6)
+    with pytest.raises(ValueError, match="holds one map, there are 8"):
+        sx.write("test.mgh", found, BALL)
