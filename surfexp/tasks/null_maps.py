@@ -34,6 +34,8 @@ REACH = 0.25
 TOLERANCE = 1e-10
 # share of the variance that neighbours have in common in what modes leave out, from which on null maps are too rough
 MOST_LOST = 0.05
+# of modes among the vertices of a component: higher ones change from vertex to vertex
+MOST_MODES = 0.5
 # a component with a smaller share of the vertices of the largest is an island
 ISLAND = 0.05
 
@@ -91,7 +93,7 @@ def null_maps(
         Number of null maps, r.
     method : {"eigenstrapping", "variogram"}
     modes : int
-        Of "eigenstrapping"; they are proved complete.
+        Of "eigenstrapping", at most half as many as a component has vertices; they are proved complete.
     seed : int
 
     Returns
@@ -160,7 +162,7 @@ def _by_modes(
 ) -> tuple[Floats, dict[str, Any], tuple[str, ...]]:
     """Each component by modes of its own: what is turned in one has no share in another."""
     nulls = np.empty((len(inside), count))
-    held, variance, kept, lost, complete = 0.0, 0.0, 0.0, -np.inf, True
+    held, variance, kept, lost, complete, fewest = 0.0, 0.0, 0.0, -np.inf, True, modes
     notes: tuple[str, ...] = ()
     for component in range(mesh.component_count):
         one = surface_part(mesh, mesh.component_labels == component)
@@ -169,7 +171,9 @@ def _by_modes(
             nulls[one.vertices] = values[0]
             notes += (f"The map is constant on a component of {len(values)} vertices, and so are its null maps there.",)
             continue
-        operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), modes, tolerance=TOLERANCE)
+        turned = min(modes, int(MOST_MODES * len(values)))
+        fewest = min(fewest, turned)
+        operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), turned, tolerance=TOLERANCE)
         notes += operator.notes
         mass = mass_matrix(operator)
         own_seed = seed if component == 0 else [seed, component]
@@ -184,10 +188,12 @@ def _by_modes(
     if variance == 0.0:
         raise ValueError("the map is constant on each component: null models need one that varies")
     certificate = {"share_in_modes": held / variance, "power_error": kept, "rest_correlation": lost}
-    certificate |= {"modes": modes, "complete": complete}
+    certificate |= {"modes": fewest, "complete": complete}
+    if fewest < modes:
+        notes += (f"{fewest} modes were turned, and not {modes}: a mesh of few vertices has no more that are smooth.",)
     if lost > MOST_LOST:
         notes += (
-            f"{modes} modes leave out {1.0 - held / variance:.0%} of the map's variance, in which neighbours correlate "
+            f"{fewest} modes leave out {1.0 - held / variance:.0%} of the map's variance, in which neighbours correlate "
             f"({lost:.2f} of the variance): permuted, it makes null maps too rough, and tests reject too often. Take more "
             "modes, or method='variogram'.",
         )

@@ -152,3 +152,14 @@ def test_a_component_on_which_the_map_is_constant_stays_so() -> None:
     assert "The map is constant on a component of 162 vertices, and so are its null maps there." in found.notes
     with pytest.raises(ValueError, match="constant on each component"):
         sx.null_maps(both, np.repeat([0.0, 1.0], 162), 5, modes=9)
+
+
+def test_a_small_surface_has_fewer_modes_than_the_default_asks_for() -> None:
+    """It was refused: "k = 400 eigenpairs of 162 degrees of freedom"."""
+    ball = sx.shape("icosphere", levels=2)
+    height = ball.mesh.vertices[:, 2]
+    found = sx.null_maps(ball, height, 5)
+    assert found.certificate["modes"] == 81 and found.certificate["complete"]
+    assert found.notes[0].startswith("81 modes were turned, and not 400")
+    assert "81 modes hold" in sx.compare_maps(ball, height, ball.mesh.vertices[:, 0], count=5).reason
+    assert not sx.null_maps(ball, height, 5, modes=81).notes
