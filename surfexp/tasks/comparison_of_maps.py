@@ -174,8 +174,8 @@ def chosen_null_maps(
     made = null_maps(surface, values, count, modes=modes, seed=seed)
     lost, share = made.certificate["rest_correlation"], made.certificate["share_in_modes"]
     said = (
-        f"{made.certificate['modes']} modes hold {share:.0%} of the map's variance, and permuting the rest loses {lost:.2f} of it in "
-        "correlation of neighbours"
+        f"{made.certificate['modes']} modes hold {share:.0%} of the map's variance, and permuting the rest loses {lost:.2f} "
+        "of it in correlation of neighbours"
     )
     if method == "eigenstrapping" or lost <= MOST_LOST:
         return made, f"Eigenstrapping{' was asked for' if method == 'eigenstrapping' else ''}: {said}."
