@@ -90,14 +90,17 @@ def labels_of_array(given: ArrayLike) -> LabelMap:
 
 
 def are_labels(given: Any) -> bool:
-    """Whether an array, or a column of a table, holds texts; or each hemisphere has texts, whole numbers or a LabelMap.
+    """Whether an array, or a column of a table, holds names; or each hemisphere has names, whole numbers or a LabelMap.
 
-    A list of texts is one of names of maps, and one array of whole numbers may be a map.
+    A list of texts is one of names of maps, texts that are all numbers are a map that was not read as one, and one array of
+    whole numbers may be a map.
 
     Examples
     --------
     >>> are_labels(np.array(["V1", "V2"])), are_labels(["thickness", "sulc"]), are_labels(np.zeros(2))
     (True, False, False)
+    >>> are_labels(np.array(["0.25", "3"]))
+    False
     >>> are_labels({"left": np.array([1, 2]), "right": np.array([2, 1])})
     True
     """
@@ -106,8 +109,19 @@ def are_labels(given: Any) -> bool:
     if isinstance(given, LabelMap) or not hasattr(given, "dtype") or not hasattr(given, "__len__"):
         return False
     array = np.asarray(given)
-    return array.dtype.kind == "U" or (array.dtype.kind == "O" and any(isinstance(one, str) for one in array.ravel()))
+    if array.dtype.kind not in "UO":
+        return False
+    words = {one for one in array.ravel().tolist() if isinstance(one, str)}
+    return bool(words) and not all(map(_is_number, words))
 
 
 def _are_whole(given: Any) -> bool:
     return not isinstance(given, str) and np.asarray(given).dtype.kind in "iu"
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -36,6 +36,8 @@ TOLERANCE = 1e-10
 MOST_LOST = 0.05
 # of modes among the vertices of a component: higher ones change from vertex to vertex
 MOST_MODES = 0.5
+# the constant one and one that is turned
+FEWEST_MODES = 2
 # a component with a smaller share of the vertices of the largest is an island
 ISLAND = 0.05
 
@@ -123,7 +125,7 @@ def null_maps(
     >>> nulls.values.shape, bool(nulls.certificate["share_in_modes"] > 0.999)
     ((642, 99), True)
     """
-    count, modes = whole_number(count, "count", 1), whole_number(modes, "modes", 1)
+    count, modes = whole_number(count, "count", 1), whole_number(modes, "modes", FEWEST_MODES)
     seed = whole_number(seed, "seed", 0, LARGEST_SEED)
     makers = {"eigenstrapping": _by_modes, "variogram": _by_variogram}
     chosen = makers[one_of(method, "method", makers)]
@@ -172,6 +174,10 @@ def _by_modes(
             notes += (f"The map is constant on a component of {len(values)} vertices, and so are its null maps there.",)
             continue
         turned = min(modes, int(MOST_MODES * len(values)))
+        if turned < FEWEST_MODES:
+            raise ValueError(
+                f"the map is on {len(values)} vertices, at least {round(FEWEST_MODES / MOST_MODES)} are needed"
+            )
         fewest = min(fewest, turned)
         operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), turned, tolerance=TOLERANCE)
         notes += operator.notes

@@ -163,3 +163,7 @@ def test_a_small_surface_has_fewer_modes_than_the_default_asks_for() -> None:
     assert found.notes[0].startswith("81 modes were turned, and not 400")
     assert "81 modes hold" in sx.compare_maps(ball, height, ball.mesh.vertices[:, 0], count=5).reason
     assert not sx.null_maps(ball, height, 5, modes=81).notes
+    with pytest.raises(ValueError, match="modes = 1, at least 2 is needed"):
+        sx.null_maps(ball, height, 5, modes=1)
+    with pytest.raises(ValueError, match="the map is on 3 vertices, at least 4 are needed"):
+        sx.null_maps((np.eye(3), [[0, 1, 2]]), [0.0, 1.0, 2.0], 5)
