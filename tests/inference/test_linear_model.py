@@ -105,3 +105,11 @@ def test_permutations_do_not_depend_on_the_origin_of_a_covariate() -> None:
     for rows in (moments, moments / 1e9, moments - 1.7e18):
         drawn = permutations(np.arange(5), np.zeros(5, dtype=int), rows[:, None], 5000, RANDOM)
         assert drawn.complete and len(drawn) == 120
+
+
+def test_a_column_that_is_constant_to_rounding_tells_no_rows_apart() -> None:
+    constant = 3.3 * (1.0 + 2e-15 * np.random.default_rng(0).standard_normal(6))
+    with np.errstate(all="raise"):
+        for first in (constant, np.zeros(6), np.full(6, 3.3)):
+            drawn = permutations(np.arange(6), np.zeros(6, dtype=int), np.column_stack([first, SEX[:6]]), 5000, RANDOM)
+            assert drawn.complete and len(drawn) == 20
