@@ -14,7 +14,7 @@ from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.surface_part import finite_mask
 from surfexp.nulls.rejection import correlations, effective_interval, p_values
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
-from surfexp.tasks.null_maps import MOST_LOST, NullMaps, null_maps
+from surfexp.tasks.null_maps import MOST_LOST, NullMaps, TooFewVerticesError, null_maps
 from surfexp.variational.own_unit import own_unit
 
 
@@ -183,6 +183,7 @@ def chosen_null_maps(
         return null_maps(
             surface, values, count, method="variogram", seed=seed
         ), f"Variograms: {said}, over {MOST_LOST:g}."
-    except ValueError as error:
+    except TooFewVerticesError:
         # made.notes say that these are too rough
-        return made, f"Eigenstrapping: {said}, over {MOST_LOST:g}, but {str(error).partition(',')[0]}."
+        few = f"{int(np.isfinite(made.values[:, 0]).sum())} vertices are too few for variograms"
+        return made, f"Eigenstrapping: {said}, over {MOST_LOST:g}, but {few}."

@@ -44,6 +44,10 @@ ISLAND = 0.05
 APART = "Null maps of the two hemispheres are drawn apart: what their maps have in common is not kept."
 
 
+class TooFewVerticesError(ValueError):
+    """A surface on which variograms cannot be matched."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class NullMaps(Drawable):
     """Surrogate maps, which keep some properties of a map and are random otherwise.
@@ -214,7 +218,7 @@ def _by_variogram(
         pairs = variogram_pairs(mesh, reach=REACH * float(np.sqrt(mesh.area)))
         kernels = VariogramMatching(*nearest_along_surface(mesh, min(NEIGHBOURS, smallest)), pairs, FRACTIONS)
     except ValueError as error:
-        raise ValueError(
+        raise TooFewVerticesError(
             f"{len(inside)} vertices are too few for variograms, take method='eigenstrapping' ({error})"
         ) from None
     nulls = kernels.nulls(inside, count, seed=seed)
