@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 from surfexp.io.replacing import replacing
 
-# of the columns of a table; the one that stands in its header most often is meant, of equals the first
+# of the columns of a table; of equals the first
 SEPARATORS = ",;\t"
 STARTS_A_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
@@ -36,6 +37,25 @@ def cell(value: Any) -> Any:
 def uncell(text: str) -> str:
     """Return the text of a cell without the mark that `cell` has put before it."""
     return text[1:] if text.startswith("'") and cell(text[1:]) == text else text
+
+
+def separator_of(lines: Sequence[str]) -> str:
+    """Return what separates the columns of a table: of comma, semicolon and tab the one that makes most cells of its first rows.
+
+    Examples
+    --------
+    >>> separator_of(["subject;age, in years", "sub-1;31"]), separator_of(["thickness", "2.5"]), separator_of(['"a;b",c'])
+    (';', ',', ',')
+    """
+    rows = list(islice(filter(str.strip, lines), 2))
+    return max(SEPARATORS, key=lambda separator: min((_count_cells(row, separator) for row in rows), default=0))
+
+
+def _count_cells(line: str, separator: str) -> int:
+    try:
+        return len(next(csv.reader([line], delimiter=separator), ()))
+    except csv.Error:
+        return 0
 
 
 def cells(row: Iterable[Any]) -> list[Any]:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from surfexp.io.csv_cells import SEPARATORS, uncell
+from surfexp.io.csv_cells import separator_of, uncell
 from surfexp.io.entrance import reading
 
 
@@ -17,8 +17,8 @@ def read_subjects(path: Path | str) -> dict[str, list[str]]:
     Parameters
     ----------
     path : path
-        The first row has the names of the columns; what separates them is the comma, semicolon or tab that stands there most
-        often, and in .tsv the tab.
+        The first row has the names of the columns; they are separated by tabs in .tsv, else by commas, semicolons
+        or tabs: what makes most cells of the first rows.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def read_subjects(path: Path | str) -> dict[str, list[str]]:
         raise ValueError(f"{path}: no such file, give a table of subjects (.csv or .tsv)")
     with reading(path, "cannot be read as a table of subjects"):
         lines = file.read_text("utf-8-sig").splitlines()
-    between = "\t" if file.suffix.lower() == ".tsv" else max(SEPARATORS, key="".join(lines[:1]).count)
+    between = "\t" if file.suffix.lower() == ".tsv" else separator_of(lines)
     rows = [row for row in csv.reader(lines, delimiter=between) if row]
     if len(rows) < 2:
         raise ValueError(f"{path} has {len(rows)} rows, a header and a row for each map are needed")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.csv_cells import cell, uncell
+from surfexp.io.csv_cells import SEPARATORS, cell, separator_of, uncell
 from surfexp.io.numbers import real_array
 
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
@@ -17,16 +17,18 @@ UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
 def read_table(path: Path) -> dict[str, Floats]:
     """Return the columns of a text table by name, or by number from 1; empty cells and NA are NaN.
 
+    Columns are separated by white space, in .csv by commas, semicolons or tabs: what makes most cells of its first rows.
+
     Raises
     ------
     ValueError
-        If a row has another length than the first, or a cell is no number.
+        If a row has another length than the first, or a cell is no number, or has a decimal comma.
     """
-    text = path.read_text("utf-8-sig")
-    lines = text.splitlines()
-    split = csv.reader(lines) if path.suffix.lower() == ".csv" else map(str.split, lines)
-    rows = [row for row in split if row]
-    rows = [row for row in rows if not row[0].lstrip().startswith("#")]
+    lines = [line for line in path.read_text("utf-8-sig").splitlines() if not line.lstrip().startswith("#")]
+    if path.suffix.lower() == ".csv":
+        rows = list(filter(None, csv.reader(lines, delimiter=separator_of(lines))))
+    else:
+        rows = list(filter(None, map(str.split, lines)))
     if not rows:
         raise ValueError("it holds no row")
     header = [] if all(map(_is_number, rows[0])) else [uncell(word.strip()) for word in rows.pop(0)]
@@ -36,7 +38,8 @@ def read_table(path: Path) -> dict[str, Floats]:
             raise ValueError(f"row {number} has {len(row)} cells, {width} are needed")
         for word in row:
             if not _is_number(word):
-                raise ValueError(f"row {number} has the cell {word[:20]!r}, a number is needed")
+                decimal = ", with a decimal point" if _is_number(word.replace(",", ".", 1)) else ""
+                raise ValueError(f"row {number} has the cell {word[:20]!r}, a number is needed{decimal}")
     values = np.array([list(map(_number, row)) for row in rows], dtype=np.float64).reshape(len(rows), width)
     names = header or [f"map {k + 1}" for k in range(width)]
     if len(set(names)) < len(names):
@@ -61,7 +64,9 @@ def write_table(path: Path, maps: dict[str, Floats]) -> None:
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, delimiter="," if named else " ", lineterminator="\n")
         if named:
-            writer.writerow(map(cell, maps))
+            is_plain = not any(mark in name for name in maps for mark in SEPARATORS)
+            header = csv.writer(stream, quoting=csv.QUOTE_MINIMAL if is_plain else csv.QUOTE_ALL, lineterminator="\n")
+            header.writerow(map(cell, maps))
         for row in zip(*(values.tolist() for values in maps.values()), strict=True):
             writer.writerow(map(repr, row))
 

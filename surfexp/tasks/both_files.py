@@ -103,10 +103,22 @@ def labels_of_both(surface: Surface, given: Pair) -> LabelMap:
     ValueError
         As `maps_of_both`.
     """
-    tables = [read_coloured_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES]
-    left, right = joined_labels(*tables)
-    keys = of_both(surface, left.keys, right.keys, "labels").astype(np.int64)
-    return coloured_as(LabelMap(keys, left.names), *tables)
+    return labels_of_sides(
+        surface, *(read_coloured_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES)
+    )
+
+
+def labels_of_sides(surface: Surface, left: LabelMap, right: LabelMap) -> LabelMap:
+    """Return the labels of two hemispheres, with their colours, on the surface that is both.
+
+    Raises
+    ------
+    ValueError
+        If a side has fewer or more.
+    """
+    lefts, rights = joined_labels(left, right)
+    keys = of_both(surface, lefts.keys, rights.keys, "labels").astype(np.int64)
+    return coloured_as(LabelMap(keys, lefts.names), left, right)
 
 
 def _by_name(given: Any, what: str) -> dict[str, Pair]:

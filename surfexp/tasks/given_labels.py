@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Integers
-from surfexp.mesh.both_hemispheres import joined_labels, of_both
+from surfexp.mesh.coloured_labels import coloured_as
 from surfexp.mesh.given_arrays import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.tasks.both_files import labels_of_sides
 from surfexp.tasks.inputs import as_labels, sides_of
 
 
@@ -27,6 +27,7 @@ def labels_on(surface: Surface, given: Any) -> LabelMap:
     Returns
     -------
     LabelMap
+        With the colours of what was given.
 
     Raises
     ------
@@ -36,18 +37,15 @@ def labels_on(surface: Surface, given: Any) -> LabelMap:
     parts = sides_of(given, "data")
     if parts is None:
         table = given if isinstance(given, LabelMap) else labels_of_array(given)
-        return LabelMap(as_labels(surface, table.keys), table.names)
+        return coloured_as(LabelMap(as_labels(surface, table.keys), table.names), table)
     if surface.right is None:
         if surface.hemisphere not in parts:
             raise ValueError(f"labels have {' and '.join(parts)}, the surface is of hemisphere {surface.hemisphere!r}")
         return labels_on(surface, parts[surface.hemisphere])
     if missing := [side for side in HEMISPHERES if side not in parts]:
         raise ValueError(f"labels have no {missing[0]} hemisphere, the surface is both: give both")
-    given_tables = [parts[side] for side in HEMISPHERES]
-    tables = [one if isinstance(one, LabelMap) else labels_of_array(one) for one in given_tables]
-    left, right = joined_labels(*tables)
-    keys: Integers = of_both(surface, left.keys, right.keys, "labels").astype(np.int64)
-    return LabelMap(keys, left.names)
+    tables = (one if isinstance(one, LabelMap) else labels_of_array(one) for one in map(parts.__getitem__, HEMISPHERES))
+    return labels_of_sides(surface, *tables)
 
 
 def labels_of_array(given: ArrayLike) -> LabelMap:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import gzip
 from itertools import product
 from pathlib import Path
@@ -370,6 +371,8 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
         "": "0 bytes",
         "# only\n": "no row",
         "1\ninf\n": "infinite",
+        "a;b\n2,5;1\n": "the cell '2,5', a number is needed, with a decimal point",
+        "2,5;1,5\n2,5;1,5\n": "the cell '5;1', a number is needed$",
     }
     for text, words in cases.items():
         (tmp_path / "a.csv").write_text(text)
@@ -377,6 +380,18 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
             read_maps(tmp_path / "a.csv")
     (tmp_path / "a.csv").write_bytes("\ufeffx,y\r\n1,NA\r\n2,3\r\n".encode())
     assert np.array_equal(read_maps(tmp_path / "a.csv")["y"], [np.nan, 3.0], equal_nan=True)
+
+
+@pytest.mark.parametrize("between", [",", ";", "\t"])
+@pytest.mark.parametrize("header", [(), ("thickness", "sulc"), ("of age, sex", "a;b")])
+def test_columns_are_separated_as_a_spreadsheet_does_it(tmp_path: Path, between: str, header: tuple[str, ...]) -> None:
+    with (tmp_path / "a.csv").open("w", newline="") as stream:
+        writer = csv.writer(stream, delimiter=between)
+        stream.write("# from a spreadsheet\n\n")
+        writer.writerows([*([header] if header else []), ("0.5", ""), ("-1e-3", "7")])
+    found = read_maps(tmp_path / "a.csv")
+    assert tuple(found) == (header or ("map 1", "map 2"))
+    assert np.array_equal(np.stack(list(found.values())), [[0.5, -1e-3], [np.nan, 7.0]], equal_nan=True)
 
 
 def test_coordinates_whose_volumes_overflow_are_refused(tmp_path: Path) -> None:

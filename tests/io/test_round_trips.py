@@ -36,8 +36,8 @@ SINGLE = (".gii", ".stl", ".white", ".mgh", ".mgz", ".nii", ".sulc", "lh.m")
 numbers = st.floats(-1e6, 1e6) | st.sampled_from([0.0, -0.0, 1e-30, 1e30, 1e-320, 1e300, 0.1, -7.0])
 # fmt: off
 odd_names = [
-    "1", "nan", "a b", "a_b", "a,b", "x", "z", "faces", "vertices", "hemisphere", "file", "allow_pickle", "a.npy", "#a", "=1+1",
-    "'=a", '"a"', "é", "ä ö", "<a>&", "]]>", "%20", "map 1",
+    "1", "nan", "a b", "a_b", "a,b", "a;b", "a;b,c;d", "x", "z", "faces", "vertices", "hemisphere", "file", "allow_pickle", "a.npy",
+    "#a", "=1+1", "'=a", '"a"', "é", "ä ö", "<a>&", "]]>", "%20", "map 1",
 ]
 # fmt: on
 names = st.text(max_size=6) | st.sampled_from(odd_names)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from surfexp.io.csv_cells import SEPARATORS
+from surfexp.io.csv_cells import separator_of
 from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.lab.errors import UserError
 
@@ -163,8 +163,7 @@ def _reader(table: Path) -> Any:
         text = table.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise UserError(f"table {str(table)!r} cannot be read: {' '.join(str(error).split())}") from None
-    head = text.partition("\n")[0]
-    return csv.reader(io.StringIO(text, newline=""), delimiter=max(SEPARATORS, key=head.count), strict=True)
+    return csv.reader(io.StringIO(text, newline=""), delimiter=separator_of(text.splitlines()), strict=True)
 
 
 def _columns(rows: Any) -> list[str]:

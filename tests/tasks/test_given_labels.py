@@ -1,0 +1,58 @@
+"""Labels that are handed over, of one surface or by hemisphere: names meet, and colours of their own stay."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from surfexp.mesh.both_hemispheres import joined
+from surfexp.mesh.coloured_labels import ColouredLabels
+from surfexp.mesh.label_map import LabelMap
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+from surfexp.tasks.drawn_labels import drawn_labels, maps_apart
+from surfexp.tasks.given_labels import labels_on
+
+RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+BALL = icosphere(1).mesh
+COUNT = len(BALL.vertices)
+ONE = Surface(BALL, hemisphere="left")
+BOTH = joined(ONE, Surface(BALL, hemisphere="right"))
+# one name on both sides, under other numbers
+LEFT = ColouredLabels(np.arange(COUNT) % 2 + 1, {1: "V1", 2: "insula"}, {1: RED, 2: BLUE})
+RIGHT = ColouredLabels(np.arange(COUNT) % 2 + 1, {1: "insula", 2: "cuneus"}, {1: RED})
+
+
+def _colors(owner: Surface, given: Any) -> dict[str, tuple[float, ...]]:
+    drawn = drawn_labels(owner, given)
+    assert drawn is not None
+    return {name: tuple(color) for name, color in zip(drawn.names, drawn.colors.tolist(), strict=True)}
+
+
+@pytest.mark.parametrize(
+    ("owner", "given"), [(ONE, LEFT), (ONE, {"left": LEFT}), (BOTH, {"left": LEFT, "right": RIGHT})]
+)
+def test_labels_keep_the_colours_that_they_came_with(owner: Surface, given: Any) -> None:
+    found = labels_on(owner, given)
+    assert isinstance(found, ColouredLabels) and found.by_name == {"V1": RED, "insula": BLUE}
+    colors = _colors(owner, given)
+    assert colors["V1"] == RED and colors["insula"] == BLUE
+
+
+def test_each_hemisphere_is_drawn_in_the_colours_of_both() -> None:
+    left, right = maps_apart([BOTH], [{"left": LEFT, "right": RIGHT}])
+    of_right = _colors(BOTH.hemispheres()["right"], right)
+    assert of_right["insula"] == _colors(BOTH.hemispheres()["left"], left)["insula"] == BLUE
+    assert of_right["cuneus"] not in (RED, BLUE)
+
+
+def test_what_has_one_name_on_both_sides_is_one_label() -> None:
+    found = labels_on(BOTH, {"left": LEFT, "right": RIGHT})
+    named = np.array([found.names[key] for key in found.keys.tolist()])
+    assert named[:COUNT].tolist() == ["V1", "insula"] * (COUNT // 2)
+    assert named[COUNT:].tolist() == ["insula", "cuneus"] * (COUNT // 2)
+    assert not isinstance(
+        labels_on(BOTH, {"left": LabelMap(LEFT.keys, LEFT.names), "right": RIGHT.keys}), ColouredLabels
+    )
