@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 import numpy as np
+from numba import njit
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
@@ -77,17 +78,27 @@ def _area_quantiles(mesh: TriangleMesh, values: Floats, shares: Floats) -> Float
 
 
 def area_below(mesh: TriangleMesh, values: Floats, levels: Floats) -> Floats:
-    """(K,) area of {f < level} for each level, exactly for a piecewise linear function."""
+    """(K,) area of {f < level} for each of increasing levels, exactly for a piecewise linear function."""
     corners = np.sort(values[mesh.faces], axis=1)
-    total = np.zeros(len(levels))
-    for k, level in enumerate(levels):
-        low, middle, high = corners.T
-        with np.errstate(divide="ignore", invalid="ignore"):
-            rising = (level - low) ** 2 / ((middle - low) * (high - low))
-            falling = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
-        share = np.where(level <= low, 0.0, np.where(level <= middle, rising, np.where(level < high, falling, 1.0)))
-        total[k] = (share * mesh.areas).sum()
-    return total
+    return _area_below(corners, mesh.areas, levels, np.searchsorted(levels, corners[:, 0], side="right"))
+
+
+@njit(cache=True, nogil=True)
+def _area_below(corners: Floats, areas: Floats, levels: Floats, above_lowest: Integers) -> Floats:
+    cut, whole = np.zeros(len(levels)), np.zeros(len(levels))
+    for face in range(len(areas)):
+        low, middle, high = corners[face]
+        for k in range(above_lowest[face], len(levels)):
+            level = levels[k]
+            if level >= high:
+                whole[k] += areas[face]
+                break
+            if level <= middle:
+                share = (level - low) ** 2 / ((middle - low) * (high - low))
+            else:
+                share = 1.0 - (high - level) ** 2 / ((high - low) * (high - middle))
+            cut[k] += share * areas[face]
+    return cut + np.cumsum(whole)
 
 
 def distances_between_levels(mesh: TriangleMesh, values: Floats, levels: Floats) -> Floats:

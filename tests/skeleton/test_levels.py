@@ -51,6 +51,29 @@ def test_area_below_agrees_with_the_levels_of_a_plane():
     assert np.allclose(area_below(FLAT, COSINE, np.array([-2.0, 2.0])), [0.0, 5.0])
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_area_below_is_the_divided_difference_of_squares(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    values = rng.standard_normal(len(FLAT.vertices))
+    levels = np.unique(np.r_[np.linspace(-4.0, 4.0, 30), rng.choice(values, 20)])
+    corners = values[FLAT.faces]
+    shares = np.zeros((len(levels), len(corners)))
+    for i, (j, k) in enumerate([(1, 2), (2, 0), (0, 1)]):
+        apart = (corners[:, j] - corners[:, i]) * (corners[:, k] - corners[:, i])
+        shares += np.maximum(levels[:, None] - corners[:, i], 0.0) ** 2 / apart
+    assert area_below(FLAT, values, levels) == pytest.approx(shares @ FLAT.areas, abs=1e-7)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_areas_on_both_sides_and_of_plateaus_are_the_whole(seed: int) -> None:
+    values = np.random.default_rng(seed).integers(0, 4, len(FLAT.vertices)) / 2.0
+    levels = np.linspace(-0.5, 2.0, 11)
+    corners = values[FLAT.faces]
+    plateau = [FLAT.areas[(corners == level).all(axis=1)].sum() for level in levels]
+    above = area_below(FLAT, -values, -levels[::-1])[::-1]
+    assert area_below(FLAT, values, levels) + above + plateau == pytest.approx(FLAT.area, rel=1e-13)
+
+
 def test_critical_levels_separate_all_critical_values():
     mesh = rectangle(61, 61, 2.0, 2.0).mesh
     x, y = mesh.vertices[:, :2].T
