@@ -7,18 +7,13 @@ from numba import njit
 from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Integers
-from surfexp.mesh.vertex_star import vertex_stars
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Flags = NDArray[np.bool_]
 
 
-def opposite_sides(faces: Integers, vertex_count: int) -> Integers:
+def opposite_sides(mesh: TriangleMesh) -> Integers:
     """Side 3 g + l of the other face at side 3 f + k, which joins corners k and k + 1; -1 on the boundary.
-
-    Parameters
-    ----------
-    faces : (m, 3) int64
-    vertex_count : int
 
     Returns
     -------
@@ -29,14 +24,17 @@ def opposite_sides(faces: Integers, vertex_count: int) -> Integers:
     ValueError
         If three faces meet at an edge.
     """
-    start, star = vertex_stars(faces, vertex_count)
-    twins, bad = _opposite(faces, start, star)
-    if bad >= 0:
-        a, b = faces[bad // 3, bad % 3], faces[bad // 3, (bad + 1) % 3]
+    table = mesh.edge_table
+    if len(crowded := np.flatnonzero(table.counts > 2)):
+        a, b = table.edges[crowded[0]]
         raise ValueError(
-            f"the edge between vertices {a} and {b} has 3 faces or more, at most 2 are allowed: "
+            f"the edge between vertices {a} and {b} has {table.counts[crowded[0]]} faces, at most 2 are allowed: "
             "surfexp repair divides the surface there"
         )
+    first = table.starts[:-1][table.counts == 2]
+    one, other = table.half_edges[first], table.half_edges[first + 1]
+    twins = np.full(len(table.half_edges), -1, dtype=np.int64)
+    twins[one], twins[other] = other, one
     return twins
 
 
@@ -80,22 +78,3 @@ def _other_side(faces: Integers, side: int, v: int) -> int:
         if 3 * f + k != side and (faces[f, k] == v or faces[f, (k + 1) % 3] == v):
             return 3 * f + k
     return -1
-
-
-@njit(cache=True, nogil=True)
-def _opposite(faces: Integers, start: Integers, star: Integers) -> tuple[Integers, int]:
-    twins = np.full(faces.size, -1, np.int64)
-    for f in range(len(faces)):
-        for k in range(3):
-            a, b = faces[f, k], faces[f, (k + 1) % 3]
-            for at in range(start[a], start[a + 1]):
-                g = star[at]
-                if g == f:
-                    continue
-                for j in range(3):
-                    c, d = faces[g, j], faces[g, (j + 1) % 3]
-                    if (c == a and d == b) or (c == b and d == a):
-                        if twins[3 * f + k] >= 0:
-                            return twins, 3 * f + k
-                        twins[3 * f + k] = 3 * g + j
-    return twins, -1

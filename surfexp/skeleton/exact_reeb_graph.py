@@ -55,7 +55,7 @@ def exact_reeb_graph(mesh: TriangleMesh, values: Floats) -> ReebGraph:
     """
     values = checked_feature(values, len(mesh.vertices))
     start, star = vertex_stars(mesh.faces, len(mesh.vertices))
-    twins = opposite_sides(mesh.faces, len(mesh.vertices))
+    twins = opposite_sides(mesh)
     order = np.argsort(values, kind="stable")
     rank = np.empty(len(order), np.int64)
     rank[order] = np.arange(len(order))

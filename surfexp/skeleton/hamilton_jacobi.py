@@ -50,7 +50,7 @@ def hamilton_jacobi_skeleton(
     start, star = vertex_stars(mesh.faces, n)
     strong = flux(mesh, distance) < threshold
     order = np.argsort(distance, kind="stable")
-    kept = _thin(mesh.faces, opposite_sides(mesh.faces, n), start, star, order, strong)
+    kept = _thin(mesh.faces, opposite_sides(mesh), start, star, order, strong)
     kept &= np.bincount(mesh.faces.ravel(), minlength=n) > 0
     number = np.cumsum(kept) - 1
     arcs = _spanning_edges(mesh, kept, number)

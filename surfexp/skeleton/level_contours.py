@@ -83,7 +83,7 @@ def level_contours(mesh: TriangleMesh, values: Floats, levels: Floats) -> LevelC
     corners = slabs[mesh.faces]
     low, high = corners.min(axis=1), corners.max(axis=1)
     face_starts = np.concatenate([[0], np.cumsum(high - low)])
-    twins = opposite_sides(mesh.faces, len(mesh.vertices))
+    twins = opposite_sides(mesh)
     boundary_sides = int((twins < 0).sum())
     points = int(face_starts[-1]) + boundary_sides * len(levels)
     label, level, closed, starts, ends = _walk(mesh.faces, twins, slabs, low, high, face_starts, points)

@@ -73,6 +73,19 @@ def test_no_eigenvalue_exceeds_the_bound(name: str) -> None:
     assert largest * (1.0 - 1e-14) <= largest_eigenvalue_bound(operator) <= 3.0 * largest
 
 
+@pytest.mark.parametrize("name", SHAPES)
+def test_the_bound_is_the_largest_quotient_of_a_triangle(name: str) -> None:
+    operator = fem(SHAPES[name].mesh)
+    weights = np.random.default_rng(0).uniform(0.01, 1.0, operator.vertex_count)
+    for given_weights in (None, weights):
+        own = np.ones(operator.vertex_count) if given_weights is None else given_weights
+        quotients = [
+            eigh(3.0 * hats @ hats.T, np.diag(own[corners]), eigvals_only=True)[-1]
+            for hats, corners in zip(operator.hat_gradients, operator.faces, strict=True)
+        ]
+        assert largest_eigenvalue_bound(operator, given_weights) == pytest.approx(max(quotients), rel=1e-12)
+
+
 @given(st.floats(1e-3, 10.0), st.integers(0, 2**31))
 def test_constants_stay_the_integral_stays_and_times_add(time: float, seed: int) -> None:
     operator = fem(SHAPES["torus"].mesh)
