@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.csv_cells import SEPARATORS, cell, separator_of, uncell
+from surfexp.io.csv_cells import cell, separator_of, uncell
 from surfexp.io.numbers import real_array
 
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
@@ -64,9 +64,7 @@ def write_table(path: Path, maps: dict[str, Floats]) -> None:
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, delimiter="," if named else " ", lineterminator="\n")
         if named:
-            is_plain = not any(mark in name for name in maps for mark in SEPARATORS)
-            header = csv.writer(stream, quoting=csv.QUOTE_MINIMAL if is_plain else csv.QUOTE_ALL, lineterminator="\n")
-            header.writerow(map(cell, maps))
+            writer.writerow(map(cell, maps))
         for row in zip(*(values.tolist() for values in maps.values()), strict=True):
             writer.writerow(map(repr, row))
 

@@ -19,6 +19,7 @@ from surfexp.io.freesurfer_sizes import check_volume
 from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.io.map_files import read_maps, read_mask, read_scalars, write_maps
 from surfexp.io.reading import read_mesh
+from surfexp.io.text_tables import read_table, write_table
 from surfexp.io.writing import write_mesh
 from surfexp.mesh.shapes.icosphere import icosphere
 
@@ -392,6 +393,12 @@ def test_columns_are_separated_as_a_spreadsheet_does_it(tmp_path: Path, between:
     found = read_maps(tmp_path / "a.csv")
     assert tuple(found) == (header or ("map 1", "map 2"))
     assert np.array_equal(np.stack(list(found.values())), [[0.5, -1e-3], [np.nan, 7.0]], equal_nan=True)
+
+
+@pytest.mark.parametrize("names", [("a;b",), ("a;b,c;d",), ("a\tb;c", "d"), ("a;b;c", "d;e;f")])
+def test_names_with_separators_come_back_from_a_table(tmp_path: Path, names: tuple[str, ...]) -> None:
+    write_table(tmp_path / "a.csv", dict.fromkeys(names, VALUES))
+    assert tuple(read_table(tmp_path / "a.csv")) == names
 
 
 def test_coordinates_whose_volumes_overflow_are_refused(tmp_path: Path) -> None:
