@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from surfexp.contract.arrays import Floats, Integers
+from surfexp.mesh.edge_table import half_edge_table
 from surfexp.operators.elements_lagrange import lagrange_nodes
 
 
@@ -41,26 +42,24 @@ def number_nodes(faces: Integers, vertex_count: int, order: int) -> ElementNodes
     order : int
     """
     sides = np.stack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]], axis=1)
-    edges, inverse, counts = np.unique(
-        np.sort(sides, axis=2).reshape(-1, 2), axis=0, return_inverse=True, return_counts=True
-    )
-    inverse = inverse.reshape(-1, 3)
+    table = half_edge_table(faces, vertex_count)
+    edge_of = table.edge_of.reshape(-1, 3)
     backwards = sides[:, :, 0] > sides[:, :, 1]
     columns = [faces]
     for side in range(3):
         for step in range(1, order):
             along = np.where(backwards[:, side], order - step, step)
-            columns.append((vertex_count + inverse[:, side] * (order - 1) + along - 1)[:, None])
+            columns.append((vertex_count + edge_of[:, side] * (order - 1) + along - 1)[:, None])
     inner = (order - 1) * (order - 2) // 2
-    first_inner = vertex_count + len(edges) * (order - 1)
+    first_inner = vertex_count + len(table.edges) * (order - 1)
     columns.append(first_inner + np.arange(len(faces))[:, None] * inner + np.arange(inner))
-    rim = np.flatnonzero(counts == 1)
+    rim = np.flatnonzero(table.counts == 1)
     on_rim = vertex_count + rim[:, None] * (order - 1) + np.arange(order - 1)
     return ElementNodes(
         order=order,
         connectivity=np.concatenate(columns, axis=1),
         count=int(first_inner + len(faces) * inner),
-        boundary=np.unique(np.concatenate([edges[rim].ravel(), on_rim.ravel()])),
+        boundary=np.unique(np.concatenate([table.edges[rim].ravel(), on_rim.ravel()])),
     )
 
 

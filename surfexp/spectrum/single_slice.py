@@ -14,7 +14,8 @@ from surfexp.spectrum.spectrum_slice import SliceRequest, SpectrumSlice, solve_s
 # few pairs are found soonest from their middle, many from above it
 FIRST_SHIFT, INNER_SHIFT, FEW = 0.6, 0.5, 60
 SHIFT_ATTEMPTS = 12
-SOLVE_ACCURACY = 2e-10
+# what rounding leaves of a shift grows with the rows, 4e-16 to 1.5e-15 of it for each where no eigenvalue is near
+SOLVE_ACCURACY, SOLVE_ACCURACY_PER_ROW = 2e-10, 2e-15
 # beyond this loss of orthogonality Ritz values are no longer those of the pencil to working accuracy
 LARGEST_DRIFT, SHIFT_STEP, SHIFT_MOVES = 1e-6, 0.37, 4
 
@@ -64,8 +65,13 @@ def solve_at_good_shift(
         part = solve_slice(pencil, shift, factors, request, seed)
         if part.drift < LARGEST_DRIFT:
             break
-        shift, factors = pencil.factor(shift + SHIFT_STEP * request.spacing, SOLVE_ACCURACY)
+        shift, factors = pencil.factor(shift + SHIFT_STEP * request.spacing, solve_accuracy(pencil.size))
     return part
+
+
+def solve_accuracy(size: int) -> float:
+    """Return the doubt, relative to a shift, with which the factors of a pencil with `size` rows are good enough for a slice."""
+    return max(SOLVE_ACCURACY, SOLVE_ACCURACY_PER_ROW * size)
 
 
 def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> tuple[float, LDLT]:
@@ -75,7 +81,7 @@ def _choose_shift(pencil: ShiftedPencil, found: int, count: int, low: float) -> 
     for _ in range(SHIFT_ATTEMPTS):
         guess = guess_eigenvalue(found + fraction * count, area, pencil.counts)
         wanted = max(guess, low + 1e-3 * abs(low)) if found else guess
-        shift, factors = pencil.factor(wanted, SOLVE_ACCURACY)
+        shift, factors = pencil.factor(wanted, solve_accuracy(pencil.size))
         below = pencil.counts[shift] - found
         if 0.35 * count <= below <= 0.75 * count:
             break

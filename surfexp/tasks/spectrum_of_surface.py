@@ -79,7 +79,7 @@ class Spectrum:
 
     @cached_property
     def _elements(self) -> SurfaceElements:
-        return elements_of(self._cut, assembled(self._operator, self.boundary), mass=self.mass, boundary=self.boundary)
+        return elements_of(self._cut, assembled(self._operator), mass=self.mass, boundary=self.boundary)
 
     @cached_property
     def _pencil(self) -> ShiftedPencil:
@@ -118,7 +118,7 @@ class Spectrum:
         if self._found is None or count > len(self._found.values):
             system = self._certain(
                 lambda: surface_spectrum(
-                    *(self._cut, assembled(self._operator, self.boundary), count),
+                    *(self._cut, assembled(self._operator), count),
                     mass=self.mass,
                     boundary=self.boundary,
                     tolerance=self.tolerance,

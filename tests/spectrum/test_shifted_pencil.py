@@ -8,10 +8,15 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 
 from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.shapes.rectangle import flat_torus
 from surfexp.operators.assembly import mass_matrix, stiffness
+from surfexp.operators.elements_nodes import number_nodes
+from surfexp.operators.elements_surface import assemble_elements
 from surfexp.operators.fem import fem
 from surfexp.spectrum.counting_function import guess_eigenvalue
+from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
+from surfexp.spectrum.single_slice import solve_accuracy
 
 
 @pytest.fixture(scope="module")
@@ -89,3 +94,16 @@ def test_counting_function_starts_from_weyl_and_follows_counts() -> None:
     assert guess_eigenvalue(40.0, 4.0 * np.pi, tube) == pytest.approx(1600.0)
     assert guess_eigenvalue(14.0, 4.0 * np.pi, tube) == pytest.approx(196.0, rel=0.02)
     assert guess_eigenvalue(10.0, 4.0 * np.pi, {10.0: 0}) > 10.0
+
+
+def test_good_enough_grows_with_the_rows() -> None:
+    assert solve_accuracy(100_000) == solve_accuracy(1_000) == 2e-10
+    assert solve_accuracy(1_000_000) == pytest.approx(2e-9)
+
+
+@pytest.mark.slow
+def test_a_large_pencil_is_factorised_no_oftener_than_a_small_one() -> None:
+    faces, corners = flat_torus(800)
+    elements = assemble_elements(number_nodes(faces, 640_000, 1), corners)
+    system = eigenpairs(elements.stiffness, elements.mass, 10)
+    assert system.metrics["factorisations"] <= 3 and system.complete
