@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.spatial_frame import SpatialFrame
+from surfexp.mesh.surface_facts import SurfaceFacts
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,8 @@ class Decoded:
         What was passed over, one sentence each.
     frame : SpatialFrame
         Where the vertices lie.
+    facts : SurfaceFacts
+        Unit, mask, labels and sides.
     """
 
     vertices: NDArray[np.generic]
@@ -34,6 +37,7 @@ class Decoded:
     scalars: dict[str, Floats] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     frame: SpatialFrame = field(default_factory=SpatialFrame)
+    facts: SurfaceFacts = field(default_factory=SurfaceFacts)
 
 
 @dataclass(frozen=True)
@@ -50,6 +54,8 @@ class MeshFile:
         What was passed over or may be read in several ways, one sentence each.
     frame : SpatialFrame
         Where the vertices lie.
+    facts : SurfaceFacts
+        Unit, mask, labels and sides.
     """
 
     vertices: Floats
@@ -57,3 +63,4 @@ class MeshFile:
     scalars: dict[str, Floats]
     notes: tuple[str, ...] = ()
     frame: SpatialFrame = field(default_factory=SpatialFrame)
+    facts: SurfaceFacts = field(default_factory=SurfaceFacts)

@@ -9,14 +9,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
-from surfexp.io.map_shapes import scalar_channels
-from surfexp.io.numbers import checked_geometry, real_array
 from surfexp.io.unpacked_sizes import check_arrays
-from surfexp.mesh.triangle_mesh import TriangleMesh
 
 HEMISPHERE, SIDES = "hemisphere", ("left", "right")
+# what makes an archive one of a surface, and how the names of its parts that are no maps begin
+MESH, OWN = ("vertices", "faces"), "surface."
 
 
 def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
@@ -38,24 +36,10 @@ def read_arrays(path: Path) -> dict[str, NDArray[np.generic]]:
         return {name: loaded[name] for name in loaded.files}
 
 
-def read_npz_mesh(path: Path) -> tuple[Floats, Integers, dict[str, Floats]]:
-    """Return `vertices`, `faces`, and every other array with one row a vertex as a map.
-
-    Raises
-    ------
-    ValueError
-        If the two are not there.
-    """
-    arrays = read_arrays(path)
-    if not {"vertices", "faces"} <= set(arrays):
-        raise ValueError(f"it has the arrays {', '.join(arrays) or 'none'}; 'vertices' and 'faces' are needed")
-    vertices, faces = arrays.pop("vertices"), arrays.pop("faces")
-    maps = {name: real_array(values, name) for name, values in arrays.items() if values.shape[:1] == vertices.shape[:1]}
-    return *checked_geometry(vertices, faces), maps
-
-
 def read_rows(path: Path, hemisphere: str = "") -> dict[str, NDArray[np.generic]]:
     """Return the arrays of an archive without what says the hemisphere; where it is said of each row, the rows of one.
+
+    Of the archive of a surface these are its maps.
 
     Parameters
     ----------
@@ -69,6 +53,8 @@ def read_rows(path: Path, hemisphere: str = "") -> dict[str, NDArray[np.generic]
         As `read_arrays`.
     """
     arrays = read_arrays(path)
+    if set(MESH) <= set(arrays):
+        arrays = {name: array for name, array in arrays.items() if name not in MESH and not name.startswith(OWN)}
     if HEMISPHERE not in arrays or arrays[HEMISPHERE].dtype.kind != "U":
         return arrays
     said = arrays.pop(HEMISPHERE)
@@ -88,19 +74,6 @@ def hemisphere_of_npz(path: Path) -> str:
     """
     found = read_arrays(path).get(HEMISPHERE)
     return str(found) if found is not None and found.dtype.kind == "U" and str(found) in SIDES else ""
-
-
-def write_npz_mesh(path: Path, mesh: TriangleMesh, maps: dict[str, Floats], hemisphere: str = "") -> None:
-    """Write vertices, faces, maps and the hemisphere, compressed.
-
-    Raises
-    ------
-    ValueError
-        As `write_arrays`, or if a map is called "vertices" or "faces".
-    """
-    if {"vertices", "faces"} & set(maps):
-        raise ValueError("a map is called 'vertices' or 'faces', the names of the mesh: rename it")
-    write_arrays(path, {"vertices": mesh.vertices, "faces": mesh.faces, **scalar_channels(maps)}, hemisphere)
 
 
 def write_arrays(

@@ -16,7 +16,6 @@ from surfexp.io.gifti import is_gifti, read_gifti_rest, read_gifti_surface
 from surfexp.io.map_files import read_maps
 from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.mesh_file import Decoded, MeshFile
-from surfexp.io.npz import read_npz_mesh
 from surfexp.io.numbers import LARGEST_BYTES, checked_geometry, real_array
 from surfexp.io.obj import read_obj
 from surfexp.io.off import read_off
@@ -24,16 +23,17 @@ from surfexp.io.open3d_files import MESH_SUFFIXES, POINT_SUFFIXES, read_with_ope
 from surfexp.io.ply import read_ply
 from surfexp.io.polygons import triangulate
 from surfexp.io.stl import read_stl
+from surfexp.io.surface_archive import read_surface_archive
 from surfexp.io.tosca import read_vert_tri
 from surfexp.io.vtk import read_vtk
 from surfexp.io.vtp import read_vtp, read_vtu
 from surfexp.mesh.spatial_frame import SpatialFrame
 
 READERS: dict[str, Callable[[Path], Decoded]] = {".off": read_off, ".obj": read_obj, ".stl": read_stl, ".ply": read_ply}
-READERS |= {".vtk": read_vtk, ".vtp": read_vtp, ".vtu": read_vtu}
-ARRAYS: dict[str, Callable[[Path], Any]] = {".vert": read_vert_tri, ".tri": read_vert_tri, ".npz": read_npz_mesh}
+READERS |= {".vtk": read_vtk, ".vtp": read_vtp, ".vtu": read_vtu, ".npz": read_surface_archive}
+ARRAYS: dict[str, Callable[[Path], Any]] = {".vert": read_vert_tri, ".tri": read_vert_tri}
 ARRAYS |= {".asc": freesurfer.read_ascii_geometry}
-KNOWN = ", ".join([*READERS, ".gii, .npz, .vert/.tri, .asc, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"])
+KNOWN = ", ".join([*READERS, ".gii, .vert/.tri, .asc, FreeSurfer geometry, and with open3d .glb, .gltf, .fbx"])
 
 __all__ = ["read_maps", "read_mesh", "read_mesh_file"]
 
@@ -76,7 +76,7 @@ def read_mesh_file(path: Path | str) -> MeshFile:
         for name, values in found.scalars.items():
             if len(values) != len(points):
                 raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")
-    return MeshFile(points, corners, found.scalars, (*found.notes, *notes), found.frame)
+    return MeshFile(points, corners, found.scalars, (*found.notes, *notes), found.frame, found.facts)
 
 
 def _read(path: Path) -> Decoded:

@@ -10,24 +10,24 @@ from surfexp.io.freesurfer import hemisphere_of, write_freesurfer_geometry
 from surfexp.io.gifti import write_gifti
 from surfexp.io.hemisphere import check_named_side
 from surfexp.io.map_names import check_map_names
-from surfexp.io.npz import write_npz_mesh
 from surfexp.io.obj import write_obj
 from surfexp.io.off import write_off
 from surfexp.io.ply import write_ply
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.stl import write_stl
+from surfexp.io.surface_archive import write_surface_archive
 from surfexp.io.vtk import write_vtk
 from surfexp.io.vtp import write_vtp
 from surfexp.mesh.spatial_frame import SpatialFrame
+from surfexp.mesh.surface_facts import SurfaceFacts
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 Writer = Callable[[Path, TriangleMesh], None]
 WriterOfMaps = Callable[[Path, TriangleMesh, dict[str, Floats]], None]
-WriterOfSides = Callable[[Path, TriangleMesh, dict[str, Floats], str], None]
-WITH_HEMISPHERE: dict[str, WriterOfSides] = {".ply": write_ply, ".npz": write_npz_mesh}
 VTK: dict[str, WriterOfMaps] = {".vtk": write_vtk, ".vtp": write_vtp}
-WITH_MAPS = (".ply", *VTK, ".npz")
+PLY, ARCHIVE = ".ply", ".npz"
+WITH_MAPS = (PLY, *VTK, ARCHIVE)
 WITHOUT_MAPS: dict[str, Writer] = {".off": write_off, ".obj": write_obj, ".stl": write_stl}
 GIFTI = ".gii"
 SUFFIXES = (*WITHOUT_MAPS, GIFTI, *WITH_MAPS)
@@ -41,11 +41,13 @@ def write_mesh(
     scalars: dict[str, Floats] | None = None,
     frame: SpatialFrame | None = None,
     hemisphere: str = "",
+    facts: SurfaceFacts | None = None,
 ) -> None:
     """Write a mesh as .off, .obj, .stl, .ply, .gii, .vtk, .vtp, .npz or FreeSurfer geometry.
 
     .ply, .vtk, .vtp and .npz carry scalar maps; .gii, .stl and FreeSurfer's files keep single precision. GIFTI and
-    FreeSurfer's files carry their own part of `frame`, the space of the vertices; GIFTI, .ply and .npz the hemisphere.
+    FreeSurfer's files carry their own part of `frame`, the space of the vertices; GIFTI and .ply the hemisphere. .npz
+    carries all of these, and `facts`.
 
     Raises
     ------
@@ -61,7 +63,7 @@ def write_mesh(
                 f"scalar map {name!r} has {len(values)} values, the mesh has {len(mesh.vertices)} vertices"
             )
         maps[name] = values
-    writer = _writer(path, mesh, maps, frame, hemisphere)
+    writer = _writer(path, mesh, maps, frame, hemisphere, facts)
     with replacing(path) as temporary:
         writer(temporary)
 
@@ -88,14 +90,21 @@ def _is_freesurfer(path: Path) -> bool:
 
 
 def _writer(
-    path: Path, mesh: TriangleMesh, maps: dict[str, Floats], frame: SpatialFrame | None, hemisphere: str
+    path: Path,
+    mesh: TriangleMesh,
+    maps: dict[str, Floats],
+    frame: SpatialFrame | None,
+    hemisphere: str,
+    facts: SurfaceFacts | None,
 ) -> Callable[[Path], None]:
     """Return what writes the mesh, once the format is known to hold it."""
     check_mesh_target(path)
     check_named_side(path, hemisphere)
     suffix = path.suffix.lower()
-    if suffix in WITH_HEMISPHERE:
-        return lambda place: WITH_HEMISPHERE[suffix](place, mesh, maps, hemisphere)
+    if suffix == ARCHIVE:
+        return lambda place: write_surface_archive(place, mesh, maps, hemisphere, frame, facts)
+    if suffix == PLY:
+        return lambda place: write_ply(place, mesh, maps, hemisphere)
     if suffix in VTK:
         return lambda place: VTK[suffix](place, mesh, maps)
     if maps:

@@ -33,7 +33,8 @@ def read(
     Parameters
     ----------
     path : path
-        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry, .vert/.tri.
+        OFF, OBJ, PLY, STL, VTK (.vtk, .vtp, .vtu), GIFTI, npz, FreeSurfer geometry, .vert/.tri. An .npz that `write` made also
+        has mask, labels, unit and both hemispheres; what is given here replaces what it has under the same name.
     left, right : path, optional
         The two hemispheres, in place of `path`.
     maps : path, list of paths, or dict of name to path, optional

@@ -17,7 +17,7 @@ from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import SpatialFrame
-from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.mesh.surface import BOTH, HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.repaired_surface import repaired
 from surfexp.tasks.soundness import sound_part
@@ -49,28 +49,37 @@ def read_surface(
     files += [(f"map {name!r}", file) for name, file in map_files.items()]
     files += [(f"labels {name!r}", file) for name, file in label_files.items()]
     files += [("mask", str(mask).partition(":")[0])] if isinstance(mask, str | Path) else []
+    facts = file_read.facts
     side = hemisphere or common_hemisphere(files)
+    if facts.right is not None:
+        if side:
+            raise ValueError(
+                f"{path} holds both hemispheres, one file or hemisphere= says {side}: give what is of both"
+            )
+        side = BOTH
     notes = (*file_read.notes, *_overridden(hemisphere, path))
     for name, file in map_files.items():
         scalars |= _named(name, read_maps(file, side), count, file)
     tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side) for name, file in label_files.items()}
+    tables = {**facts.labels, **tables}
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")
     if isinstance(mask, str | Path):
         notes = (*notes, *mask_notes(mask, side))
         mask = read_mask(mask, count, side)
-    inside = None if mask is None else mask_array(mask, count)
+    inside = facts.mask if mask is None else mask_array(mask, count)
     surface = Surface(
         TriangleMesh(vertices, faces),
         Path(path).stem,
-        unit or _unit_of(file_read.frame),
+        unit or facts.unit or _unit_of(file_read.frame),
         scalars,
         mask=inside,
         hemisphere=side,
         labels=tables,
         notes=notes,
         frame=file_read.frame,
+        right=facts.right,
     )
     try:
         return sound_part(surface, str(path), repair="")

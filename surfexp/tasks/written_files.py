@@ -18,11 +18,12 @@ from surfexp.io.label_colours import write_coloured_labels
 from surfexp.io.map_files import check_map_target, write_maps
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
-from surfexp.io.writing import WITH_MAPS, check_mesh_target, format_of, write_mesh
+from surfexp.io.writing import ARCHIVE, WITH_MAPS, check_mesh_target, format_of, write_mesh
 from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_arrays import map_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_facts import SurfaceFacts
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.export import write_common_space, write_skeleton
@@ -39,8 +40,9 @@ SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
 def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> None:
     """Write a surface, a map, labels, or a result; the suffix decides the format.
 
-    What the format cannot hold (maps, mask, labels, hemisphere, the space of the vertices) is named in a warning. Maps of both
-    hemispheres are one file as .dscalar.nii or .npz; everything else becomes two, lh.NAME and rh.NAME.
+    A surface as .npz comes back from `read` with its maps, mask, labels, unit, hemispheres and the space of its vertices; what
+    another format cannot hold of them is named in a warning. Both hemispheres are one file as .npz, their maps also as
+    .dscalar.nii; everything else becomes two, lh.NAME and rh.NAME.
 
     Parameters
     ----------
@@ -95,7 +97,7 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
             raise ValueError("two surfaces are given: give write(path, surface), or write(path, map, surface)")
         surface = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
     both = what if isinstance(what, Surface) else surface
-    if both is not None and both.right is not None and (is_mesh(what) or not holds_both(target)):
+    if both is not None and both.right is not None and not holds_both(target):
         return _written_apart(target, what, both)
     if is_mesh(what):
         owner = what if isinstance(what, Surface) else Surface(TriangleMesh(*arrays_of(what)))
@@ -104,7 +106,8 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
                 f"surface has {len(owner.mesh.vertices)} vertices and 0 faces, at least one face is needed"
             )
         scalars = owner.scalars if target.suffix.lower() in WITH_MAPS else {}
-        write_mesh(target, owner.mesh, scalars, owner.frame, owner.hemisphere)
+        facts = SurfaceFacts(owner.unit, owner.mask, owner.labels, owner.right)
+        write_mesh(target, owner.mesh, scalars, owner.frame, owner.hemisphere, facts)
         return left_out(target, owner)
     side = surface.hemisphere if surface is not None else ""
     unsaid = _side_left_out(target, side)
@@ -172,6 +175,8 @@ def _side_of_rows(surface: Surface | None) -> str | NDArray[np.str_]:
 def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
     """Return what the format of a file cannot hold of a surface, one sentence each."""
     target = Path(path)
+    if target.suffix.lower() == ARCHIVE:
+        return ()
     maps = {} if target.suffix.lower() in WITH_MAPS else surface.scalars
     lost = [f"maps ({', '.join(maps)})"] if maps else []
     lost += [f"labels ({', '.join(surface.labels)})"] if surface.labels else []

@@ -117,7 +117,7 @@ def test_mask_and_labels_that_are_left_out_are_named(working_folder: Path) -> No
     parts = LabelMap((HEIGHT > 0).astype(int), {0: "south", 1: "north"})
     surface = sx.Surface(BALL, mask=HEIGHT > 0, labels={"parts": parts})
     with pytest.warns(UserWarning, match=r"labels \(parts\) and mask"):
-        sx.write("ball.npz", surface)
+        sx.write("ball.vtp", surface)
 
 
 @pytest.mark.parametrize(
