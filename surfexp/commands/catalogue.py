@@ -86,16 +86,22 @@ def _experiments_at(place: Place, console: Console) -> None:
 
 
 def _documents() -> dict[str, Any]:
-    """Contents of all experiment files by name, read fast."""
+    """Contents of all experiment files by name, read fast; those that cannot be read are named."""
     import yaml
 
     from surfexp.lab.registry.folders import experiments
 
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    return {
-        name: yaml.load(file.read_bytes(), Loader=loader) or {}  # noqa: S506, one of the two safe ones
-        for name, file in experiments().items()
-    }
+    loader, documents = getattr(yaml, "CSafeLoader", yaml.SafeLoader), {}
+    for name, file in experiments().items():
+        try:
+            found = yaml.load(file.read_bytes(), Loader=loader) or {}  # noqa: S506, one of the two safe ones
+        except (yaml.YAMLError, UnicodeDecodeError):
+            found = None
+        if isinstance(found, dict):
+            documents[name] = found
+        else:
+            echo(f"warning: {file} is no experiment and left out; surfexp check {file} says why", err=True)
+    return documents
 
 
 def _console() -> Console:
@@ -118,9 +124,10 @@ def _menu(console: Console) -> None:
     """Experiments by chapter: where to start, those of the dissertation, the rest, each once."""
     rows: dict[str, list[tuple[int, str, str]]] = {heading: [] for heading in (START, *HEADINGS.values(), OTHERS)}
     for name, known in _documents().items():
-        chapter, place = known.get("chapter") or (0, 0)
-        heading = START if "start" in known else HEADINGS.get(chapter, OTHERS)
-        rows[heading].append((known.get("start", place), name, str(known.get("title", ""))))
+        chapter, place = _whole_numbers(known.get("chapter"), 2) or (0, 0)
+        start = _whole_numbers([known.get("start")], 1)
+        heading = START if start else HEADINGS.get(chapter, OTHERS)
+        rows[heading].append((start[0] if start else place, name, str(known.get("title", ""))))
     width = max(len(name) for found in rows.values() for _, name, _ in found)
     for heading, found in rows.items():
         if found:
@@ -128,6 +135,12 @@ def _menu(console: Console) -> None:
             _rows(console, [(f"  {name:{width}}", title) for _, name, title in sorted(found)])
     console.print()
     console.print("surfexp run experiment=NAME computes one, surfexp info NAME tells what it is.")
+
+
+def _whole_numbers(given: Any, count: int) -> tuple[int, ...]:
+    """What a file of the user's says, where it is so many whole numbers, else nothing."""
+    fit = isinstance(given, list | tuple) and len(given) == count and all(isinstance(one, int) for one in given)
+    return tuple(given) if fit else ()
 
 
 def _rows(console: Console, rows: list[tuple[str, ...]]) -> None:

@@ -104,6 +104,7 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
     from surfexp.io.hemisphere import check_same_side, holds_both
     from surfexp.io.map_files import read_maps
     from surfexp.mesh.vertex_colours import colour_of
+    from surfexp.tasks.maps_of_file import vertices_of_file
 
     if given in surface.scalars:
         return {given: surface.scalars[given]}
@@ -125,4 +126,4 @@ def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) ->
     files.add(given)
     if side is None:
         check_same_side("map", given, surface.hemisphere)
-    return read_maps(given, surface.hemisphere)
+    return read_maps(given, surface.hemisphere, vertices_of_file(surface))

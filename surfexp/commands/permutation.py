@@ -78,6 +78,9 @@ def test(
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.permutation_testing import permutation_test
 
+    twice = next((name for name in map_names if map_names.count(name) > 1), None)
+    if twice is not None:
+        raise ValueError(f"map {twice} is given {map_names.count(twice)} times, each subject counts once: give it once")
     surface, files = opened(path, **given)
     read = {name: given_maps(surface, name, files, given["hemisphere"]) for name in map_names}
     values = np.column_stack([side_by_side(maps, name) for name, maps in read.items()])
@@ -102,7 +105,8 @@ def test(
         from surfexp.io.csv_cells import write_columns
 
         write_columns(table, found.table("clusters"))
-    return finish(target, found.maps, surface, "permutation test", options, files, facts, (*said, *found.notes))
+    model = {name: said for name, said in (columns | {"design": design, "contrast": contrast}).items() if said}
+    return finish(target, found.maps, surface, "permutation test", model | options, files, facts, (*said, *found.notes))
 
 
 def _names(read: dict[str, dict[str, Floats]]) -> list[str]:
@@ -121,6 +125,10 @@ def _of_subjects(
     """What the columns of the table say of each map, and how its rows were found."""
     asked = {name: column for name, column in columns.items() if column}
     if not asked:
+        if subjects is not None:
+            raise ValueError(
+                f"--subjects {subjects} says nothing of the test: name a column (--groups, --covariates, --blocks)"
+            )
         return {}, ()
     if subjects is None:
         raise ValueError(f"--{next(iter(asked))} names a column: give --subjects FILE")

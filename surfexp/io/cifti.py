@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
 from surfexp.io.foreign import parsing
+from surfexp.io.map_names import told_apart
 from surfexp.io.numbers import real_array
 from surfexp.mesh.label_map import LabelMap
 
@@ -36,7 +37,7 @@ def read_cifti_maps(path: Path, hemisphere: str) -> dict[str, Floats]:
     kind = type(axis).__name__
     if kind == "SeriesAxis":
         return {"series": np.ascontiguousarray(values.T)}
-    return {str(name): np.ascontiguousarray(row) for name, row in zip(axis.name, values, strict=True)}
+    return {name: np.ascontiguousarray(row) for name, row in zip(told_apart(axis.name), values, strict=True)}
 
 
 def read_cifti_labels(path: Path, hemisphere: str) -> dict[str, LabelMap]:
@@ -52,7 +53,24 @@ def read_cifti_labels(path: Path, hemisphere: str) -> dict[str, LabelMap]:
         raise ValueError(f"it holds maps of type {type(axis).__name__}, labels are needed (.dlabel.nii)")
     rows = np.where(np.isnan(values), -1.0, values).astype(np.int64)
     tables = ({int(key): str(name) for key, (name, _) in table.items()} for table in axis.label)
-    return {str(name): LabelMap(row, table) for name, row, table in zip(axis.name, rows, tables, strict=True)}
+    return {name: LabelMap(row, table) for name, row, table in zip(told_apart(axis.name), rows, tables, strict=True)}
+
+
+def hemisphere_of_cifti(path: Path) -> str:
+    """Return the hemisphere of which a file has vertices, nothing where it has those of both or of none.
+
+    Raises
+    ------
+    ValueError
+        If the file is no CIFTI-2 file.
+    """
+    import nibabel
+
+    with parsing("CIFTI-2 file"):
+        models = nibabel.cifti2.load(path).header.get_axis(1)
+        names = {str(name) for name in models.name} if type(models).__name__ == "BrainModelAxis" else set()
+    sides = [side for side, structure in STRUCTURES.items() if structure in names]
+    return sides[0] if len(sides) == 1 else ""
 
 
 def write_cifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str | NDArray[np.str_]) -> None:
@@ -71,7 +89,9 @@ def write_cifti_maps(path: Path, maps: dict[str, Floats], hemisphere: str | NDAr
     inside: NDArray[np.bool_] = np.asarray(np.isfinite(values).any(axis=0))
     if not inside.any():
         raise ValueError("no map has a finite value")
-    sides = [hemisphere] if isinstance(hemisphere, str) else [side for side in STRUCTURES if (hemisphere == side).any()]
+    words = [hemisphere] if isinstance(hemisphere, str) else list(STRUCTURES)
+    # a side where nothing is known has no model
+    sides = [side for side in words if inside[np.broadcast_to(np.asarray(hemisphere) == side, len(inside))].any()]
     rows = [np.flatnonzero(np.broadcast_to(np.asarray(hemisphere) == side, len(inside))) for side in sides]
     models = [
         cifti2.BrainModelAxis.from_mask(inside[own], name=_structure(side))

@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from surfexp.io.cifti import is_cifti
+from surfexp.io.cifti import hemisphere_of_cifti, is_cifti
 from surfexp.io.declared_sizes import check_declared_sizes
+from surfexp.io.entrance import reading
 from surfexp.io.gifti import hemisphere_of_gifti, is_gifti
 from surfexp.io.npz import hemisphere_of_npz
 from surfexp.io.ply import hemisphere_of_ply
@@ -19,7 +20,7 @@ NAMED_SIDE = re.compile(r"(?:^|(?<=[._-]))(lh|rh|LH|RH|left|right|(?<=hemi-)[LR]
 
 
 def hemisphere_of_file(path: Path | str) -> str:
-    """Return "left" or "right" where a GIFTI, PLY or npz file, or the name of any file, says so, else nothing.
+    """Return "left" or "right" where a GIFTI, CIFTI, PLY or npz file, or the name of another one, says so, else nothing.
 
     Raises
     ------
@@ -28,6 +29,11 @@ def hemisphere_of_file(path: Path | str) -> str:
     """
     path = Path(path)
     inside = ""
+    if is_cifti(path) and path.is_file():
+        # one that holds both may be called after a movement of the left hand
+        with reading(path, "cannot be read"):
+            check_declared_sizes(path)
+            return hemisphere_of_cifti(path)
     if is_gifti(path):
         check_declared_sizes(path)
         inside = hemisphere_of_gifti(path)

@@ -8,8 +8,10 @@ import numpy as np
 
 from surfexp.io.cifti import is_cifti
 from surfexp.io.foreign import parsing
+from surfexp.io.gifti import LABELS, image_code, is_gifti
 from surfexp.io.label_files import label_colors, write_label_map
 from surfexp.io.map_files import read_named_labels
+from surfexp.io.map_names import told_apart
 from surfexp.io.replacing import replacing
 from surfexp.mesh.coloured_labels import Colour, ColouredLabels
 from surfexp.mesh.label_map import LabelMap
@@ -43,6 +45,21 @@ def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabe
     )
     says = apart and (len({*colors.values()}) > 1 or len(found.names) == 1)
     return ColouredLabels(found.keys, found.names, colors if says else {})
+
+
+def passed_over(path: Path | str) -> tuple[str, ...]:
+    """Say where a file that has been read holds other labels behind the first, which alone are taken."""
+    import nibabel
+
+    file, names = Path(path), []
+    if is_cifti(file):
+        names = told_apart(nibabel.load(file).header.get_axis(0).name)
+    elif is_gifti(file):
+        arrays = [array for array in nibabel.load(file).darrays if array.intent == image_code(LABELS)]
+        names = told_apart(array.metadata.get("Name", "") for array in arrays)
+    if len(names) < 2:
+        return ()
+    return (f"{file.name} has {len(names)} maps of labels, {', '.join(map(repr, names))}: the first is taken.",)
 
 
 def write_coloured_labels(path: Path | str, table: LabelMap, hemisphere: str = "") -> None:

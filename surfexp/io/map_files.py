@@ -15,6 +15,7 @@ from surfexp.io.entrance import reading
 from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
 from surfexp.io.hemisphere import check_named_side, holds_both
 from surfexp.io.label_files import read_label_map
+from surfexp.io.listed_vertices import with_last_vertices
 from surfexp.io.map_names import check_map_names
 from surfexp.io.map_shapes import check_map_shapes, scalar_channels
 from surfexp.io.medial_wall import named_labels, outside_names
@@ -36,15 +37,35 @@ KNOWN = (
     ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .nii, .npy, .npz, .csv, .txt, .asc, or a FreeSurfer curvature file "
     "(lh.sulc)"
 )
+WRITABLE = (
+    ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or a FreeSurfer curvature file (lh.sulc)"
+)
+# names such as lh.thickness.fsaverage are FreeSurfer's own; these belong to others, or to what is no map
+OTHERS: tuple[str, ...] = (
+    ".annot",
+    ".label",
+    ".nii",
+    ".gz",
+    ".asc",
+    ".mat",
+    ".tsv",
+    ".json",
+    ".h5",
+    ".hdf5",
+    ".parquet",
+    ".pkl",
+    ".xlsx",
+)
+OTHERS += (".png", ".jpg", ".svg", ".pdf", ".html", ".vtu", ".obj", ".off", ".stl", ".ply", ".vtk", ".vtp", ".zip")
 # files of labels with names
 LABEL_FILES = (".annot", ".label.gii", ".label.gii.gz", ".dlabel.nii")
 
 
-def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
+def read_maps(path: Path | str, hemisphere: str = "", count: int = 0) -> dict[str, Floats]:
     """Return the maps of a file by name, each (n,) or (n, c), NaN where nothing is known.
 
     GIFTI, CIFTI-2 (one hemisphere), .mgh/.mgz, .npy/.npz, text, FreeSurfer curvature (lh.sulc). A file with one unnamed map
-    names it after itself.
+    names it after itself. GIFTI may list the vertices of its rows, and then leave out the last ones of a surface with `count`.
 
     Raises
     ------
@@ -58,7 +79,7 @@ def read_maps(path: Path | str, hemisphere: str = "") -> dict[str, Floats]:
         if not 0 < path.stat().st_size <= LARGEST_BYTES:
             raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
         check_declared_sizes(path)
-        maps = _read(path, hemisphere)
+        maps = _read(path, hemisphere, count)
         check_map_shapes(maps)
     if len(maps) == 1 and next(iter(maps)) in UNNAMED:
         return {name_of_map(path): next(iter(maps.values()))}
@@ -71,7 +92,7 @@ def name_of_map(path: Path | str) -> str:
     return ".".join(words[:2]) if words[0] in ("lh", "rh") and len(words) > 1 else words[0]
 
 
-def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
+def _read(path: Path, hemisphere: str, count: int) -> dict[str, Floats]:
     suffix = path.suffix.lower()
     if suffix in (".npy", ".npz"):
         return {name: real_array(array, f"array {name!r}") for name, array in read_rows(path, hemisphere).items()}
@@ -80,7 +101,7 @@ def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
     if is_cifti(path):
         return read_cifti_maps(path, hemisphere)
     if is_gifti(path):
-        return read_gifti_maps(path)
+        return with_last_vertices(path, read_gifti_maps(path), count)
     if suffix in VOLUMES or path.name.lower().endswith(NIFTI):
         return {"map": freesurfer.read_volume_map(path)}
     if suffix == ".asc":
@@ -96,7 +117,7 @@ def _read(path: Path, hemisphere: str) -> dict[str, Floats]:
     raise ValueError(f"its format is unknown; known are {KNOWN}")
 
 
-def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
+def read_scalars(path: Path | str, hemisphere: str = "", count: int = 0) -> Floats:
     """Return (n,) or (n, c) values: the one map of a file, or its maps side by side.
 
     Raises
@@ -104,7 +125,7 @@ def read_scalars(path: Path | str, hemisphere: str = "") -> Floats:
     ValueError
         As `read_maps`, or if the maps have different lengths.
     """
-    return side_by_side(read_maps(path, hemisphere), path)
+    return side_by_side(read_maps(path, hemisphere, count), path)
 
 
 def side_by_side(maps: dict[str, Floats], path: Path | str) -> Floats:
@@ -272,6 +293,11 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str | NDAr
             freesurfer.write_curvature(temporary, next(iter(check_single_precision_maps(maps).values())))
 
 
+def _is_sheet(suffix: str) -> bool:
+    """Whether FreeSurfer's surfaces are called so: lh.pial."""
+    return suffix in (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness", ".smoothwm")
+
+
 def check_map_target(
     path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None, unknown: bool = False
 ) -> None:
@@ -296,9 +322,16 @@ def check_map_target(
     """
     path = Path(path)
     suffix = path.suffix.lower()
-    known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or is_cifti(path) or is_gifti(path)
-    if not known and not freesurfer.hemisphere_of(path):
-        raise ValueError(f"{path} has an unknown format of maps, choose one of {KNOWN}")
+    if path.name.lower().endswith((*LABEL_FILES, ".label", ".surf.gii")):
+        raise ValueError(
+            f"{path} is named as a file of labels or of a surface, a map is none: choose one of {WRITABLE}"
+        )
+    cifti = path.name.lower().endswith(".dscalar.nii")
+    known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or cifti or is_gifti(path)
+    if not known and (
+        not freesurfer.hemisphere_of(path) or suffix in OTHERS or (path.name.count(".") == 1 and _is_sheet(suffix))
+    ):
+        raise ValueError(f"{path} has an unknown format of maps, choose one of {WRITABLE}")
     if count != 1 and not holds_names(path):
         raise ValueError(f"{path} holds one map, there are {count}: choose .npz, .func.gii or .csv")
     if channels > 1 and not holds_names(path) and suffix not in (".npy", *VOLUMES):

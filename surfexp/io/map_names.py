@@ -56,6 +56,23 @@ def names_without_spaces(names: Iterable[str], reserved: Collection[str] = ()) -
     return words
 
 
+def told_apart(names: Iterable[object]) -> list[str]:
+    """Return names of which no two are the same: an empty one, and one that stands before it, get their place from 1.
+
+    Examples
+    --------
+    >>> told_apart(["pre", "post", "pre", ""])
+    ['pre', 'post', 'pre 3', 'map 4']
+    """
+    found: list[str] = []
+    for place, name in enumerate(names, 1):
+        word = str(name).strip() or f"map {place}"
+        while word in found:
+            word = f"{word} {place}"
+        found.append(word)
+    return found
+
+
 def printable_name(name: str) -> str:
     """Return a name that every format holds: what is not printed becomes a space, nothing becomes "map"."""
     shown = "".join(character if character.isprintable() else " " for character in name)

@@ -50,7 +50,7 @@ def read_rows(path: Path, hemisphere: str = "") -> dict[str, NDArray[np.generic]
     Raises
     ------
     ValueError
-        As `read_arrays`.
+        As `read_arrays`, or if a row is of another side than left and right.
     """
     arrays = read_arrays(path)
     if set(MESH) <= set(arrays):
@@ -58,10 +58,26 @@ def read_rows(path: Path, hemisphere: str = "") -> dict[str, NDArray[np.generic]
     if HEMISPHERE not in arrays or arrays[HEMISPHERE].dtype.kind != "U":
         return arrays
     said = arrays.pop(HEMISPHERE)
+    if said.ndim and not np.isin(said, SIDES).all():
+        raise ValueError(
+            f"array {HEMISPHERE!r} has {str(said[~np.isin(said, SIDES)][0])!r}: 'left' and 'right' are known"
+        )
     if not hemisphere or not said.ndim:
         return arrays
     rows = said == hemisphere
     return {name: array[rows] if array.shape[:1] == said.shape else array for name, array in arrays.items()}
+
+
+def says_sides(path: Path) -> bool:
+    """Whether an archive says the hemisphere of each row.
+
+    Raises
+    ------
+    ValueError
+        As `read_arrays`.
+    """
+    said = read_arrays(path).get(HEMISPHERE)
+    return said is not None and said.dtype.kind == "U" and said.ndim == 1
 
 
 def hemisphere_of_npz(path: Path) -> str:

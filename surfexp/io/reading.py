@@ -102,6 +102,16 @@ def _read(path: Path) -> Decoded:
             f"{suffix} holds points without faces; make a surface of them first (surfexp info surface/point_cloud)"
         )
     if freesurfer.is_geometry(path):
+        _check_no_map(path, size)
         vertices, faces = freesurfer.read_geometry(path)
         return Decoded(vertices, faces, frame=SpatialFrame(volume=freesurfer.read_volume_geometry(path)))
     raise ValueError(f"its format is unknown; known are {KNOWN}")
+
+
+def _check_no_map(path: Path, size: int) -> None:
+    """Refuse FreeSurfer's maps, which begin as quadrangles do and say how many vertices they have."""
+    with path.open("rb") as stream:
+        head = stream.read(7)
+    count = int.from_bytes(head[3:], "big")
+    if head[:3] == b"\xff\xff\xff" and size == 15 + 4 * count:
+        raise ValueError(f"it is a map of FreeSurfer's for {count} vertices: give the surface first, then the map")

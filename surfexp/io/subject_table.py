@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
+from itertools import combinations
 from pathlib import Path
 
 from surfexp.io.csv_cells import separator_of, uncell
@@ -48,9 +49,10 @@ def read_subjects(path: Path | str) -> dict[str, list[str]]:
 
 
 def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> tuple[str, list[int]] | None:
-    """Return the row of a table for each map, by the first column whose words stand in the names of the maps.
+    """Return the row of a table for each map, by the column, or the two columns, whose words stand in the names of the maps.
 
     A word stands in a name where no letter or digit is beside it: "sub-1" in "sub-1.thickness.mgh", not in "sub-12.mgh".
+    Folders count where the name of the file has no word of the column, the nearest one first.
 
     Parameters
     ----------
@@ -62,33 +64,66 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     Returns
     -------
     tuple of str and list of int, optional
-        The column, and a row for each map; None where no column names any map.
+        The column, and a row for each map. Of several the one with the longest words: an id says more than the number of
+        a row. None where no column names any map.
 
     Raises
     ------
     ValueError
-        If a column names most of the maps but not all, or several alike.
+        If a column names half of the maps but not all, or several alike, or two columns say different rows.
 
     Examples
     --------
     >>> rows_of_maps({"id": ["a", "b", "c"]}, ["c.mgh", "a.mgh"])
     ('id', [2, 0])
+    >>> rows_of_maps({"id": ["a", "a", "b"], "visit": ["1", "2", "1"]}, ["a_2.mgh", "b_1.mgh", "a_1.mgh"])
+    ('id and visit', [1, 2, 0])
     """
-    best: tuple[str, list[list[int]]] | None = None
-    for column, words in columns.items():
-        patterns = [re.compile(rf"(?<![^\W_]){re.escape(word)}(?![^\W_])") if word else None for word in words]
-        found = [[row for row, one in enumerate(patterns) if one and one.search(name)] for name in maps]
-        rows = [fitting[0] for fitting in found if len(fitting) == 1]
-        if len(rows) == len(set(rows)) == len(maps):
-            return column, rows
-        if best is None and 2 * len(set(rows)) > len(maps):
-            best = column, found
-    if best is not None:
-        column, found = best
-        taken: set[int] = set()
-        for name, fitting in zip(maps, found, strict=True):
-            if len(fitting) != 1 or fitting[0] in taken:
-                many = f"{len(fitting)} rows" if len(fitting) != 1 else "a row that another map has too"
-                raise ValueError(f"{name} has {many} by column {column!r}, one of its own is needed")
-            taken.add(fitting[0])
+    fits = {column: _fitting(words, maps) for column, words in columns.items()}
+    alone = {column: rows for column, found in fits.items() if (rows := _one_each(found)) is not None}
+    if alone:
+        said = {column: sum(len(columns[column][row]) for row in rows) for column, rows in alone.items()}
+        longest = [column for column in alone if said[column] == max(said.values())]
+        other = next((column for column in longest if alone[column] != alone[longest[0]]), None)
+        if other is not None:
+            raise ValueError(
+                f"columns {longest[0]!r} and {other!r} both name the maps, in different orders: leave one out"
+            )
+        return longest[0], alone[longest[0]]
+    whole = {column: found for column, found in fits.items() if all(found)}
+    for first, second in combinations(whole, 2):
+        common = [sorted({*a} & {*b}) for a, b in zip(whole[first], whole[second], strict=True)]
+        if (rows := _one_each(common)) is not None:
+            return f"{first} and {second}", rows
+    for column, found in fits.items():
+        named = {columns[column][row].lower() for fitting in found for row in fitting}
+        if 2 * len(named) >= len(maps) > 1 and 2 * sum(map(bool, found)) >= len(maps):
+            raise ValueError(_misfit(column, found, maps))
     return None
+
+
+def _fitting(words: Sequence[str], maps: Sequence[str]) -> list[list[int]]:
+    """The rows whose word stands in the name of each map."""
+    patterns = [
+        re.compile(rf"(?<![^\W_]){re.escape(word)}(?![^\W_])", re.IGNORECASE) if word else None for word in words
+    ]
+    found = []
+    for name in maps:
+        parts = reversed(name.replace("\\", "/").split("/"))
+        rows = ([row for row, one in enumerate(patterns) if one and one.search(part)] for part in parts)
+        found.append(next(filter(None, rows), []))
+    return found
+
+
+def _one_each(found: Sequence[Sequence[int]]) -> list[int] | None:
+    """The row of each map, where each has one of its own."""
+    rows = [fitting[0] for fitting in found if len(fitting) == 1]
+    return rows if len(rows) == len(set(rows)) == len(found) else None
+
+
+def _misfit(column: str, found: Sequence[Sequence[int]], maps: Sequence[str]) -> str:
+    """What is wrong with the first map that has not a row of its own."""
+    earlier = [found[:k] for k in range(len(found))]
+    worst = next(k for k, rows in enumerate(found) if len(rows) != 1 or rows in earlier[k])
+    many = f"{len(found[worst])} rows" if len(found[worst]) != 1 else "a row that another map has too"
+    return f"{maps[worst]} has {many} by column {column!r}, one of its own is needed"

@@ -17,7 +17,8 @@ UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
 def read_table(path: Path) -> dict[str, Floats]:
     """Return the columns of a text table by name, or by number from 1; empty cells and NA are NaN.
 
-    Columns are separated by white space, in .csv by commas, semicolons or tabs: what makes most cells of its first rows.
+    Columns are separated by white space, in .csv by commas, semicolons or tabs: what makes most cells of its first rows. A first
+    column that has no name and counts the rows from 0, the index that pandas writes, is no map.
 
     Raises
     ------
@@ -41,6 +42,8 @@ def read_table(path: Path) -> dict[str, Floats]:
                 decimal = ", with a decimal point" if _is_number(word.replace(",", ".", 1)) else ""
                 raise ValueError(f"row {number} has the cell {word[:20]!r}, a number is needed{decimal}")
     values = np.array([list(map(_number, row)) for row in rows], dtype=np.float64).reshape(len(rows), width)
+    if header and not header[0] and width > 1 and np.array_equal(values[:, 0], np.arange(len(values))):
+        header, values, width = header[1:], values[:, 1:], width - 1
     names = header or [f"map {k + 1}" for k in range(width)]
     if len(set(names)) < len(names):
         raise ValueError(f"two columns have the name {next(name for name in names if names.count(name) > 1)!r}")

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from surfexp.contract.arrays import Floats
-from surfexp.io.hemisphere import check_given_side, common_name, holds_both
+from surfexp.io.hemisphere import check_given_side, common_name, holds_both, without_side
 from surfexp.io.label_colours import read_coloured_labels
 from surfexp.io.map_files import name_of_map, read_maps
+from surfexp.io.npz import says_sides
 from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
 from surfexp.mesh.coloured_labels import coloured_as
 from surfexp.mesh.label_map import LabelMap
@@ -69,6 +70,11 @@ def of_side(given: Pair, side: str, what: str) -> Any:
         found = given[side]
     elif isinstance(given, str | Path) and holds_both(Path(given)):
         found = given
+        if Path(given).suffix.lower() == ".npz" and Path(given).is_file() and not says_sides(Path(given)):
+            raise ValueError(
+                f"{what} {given} does not say which rows are left and right: give {{'left': file, 'right': file}}, or an "
+                f"array 'hemisphere' of 'left' and 'right' in it"
+            )
     else:
         raise ValueError(
             f"{what} is {given!r} for two hemispheres: give {{'left': file, 'right': file}}, or a file that holds both "
@@ -87,12 +93,32 @@ def maps_of_both(surface: Surface, given: Pair) -> dict[str, Floats]:
     ValueError
         If a file cannot be read, is of the other hemisphere, or the two do not fit.
     """
-    left, right = (read_maps(of_side(given, side, "map"), side) for side in HEMISPHERES)
-    if len(left) != len(right):
-        raise ValueError(f"{given['left']} has {len(left)} maps, {given['right']} has {len(right)}: give as many")
-    pairs = zip(left.items(), right.items(), strict=True)
-    both = {common_name(a, b): of_both(surface, first, second, f"map {a!r}") for (a, first), (b, second) in pairs}
+    counts = {side: len(part.mesh.vertices) for side, part in surface.hemispheres().items()}
+    left, right = (read_maps(of_side(given, side, "map"), side, counts[side]) for side in HEMISPHERES)
+    pairs = _same_maps(list(left), list(right), given)
+    both = {name: of_both(surface, left[a], right[b], f"map {a!r}") for name, a, b in pairs}
     return {name: values.astype(np.float64, copy=False) for name, values in both.items()}
+
+
+def _same_maps(left: list[str], right: list[str], given: Pair) -> list[tuple[str, str, str]]:
+    """Return a name for each map of both hemispheres, and those that the two files give it.
+
+    Maps of one name belong together, in whatever order they stand, and else those whose names are the same without what
+    says the side; a map that stands alone in either file needs no name.
+    """
+    if set(left) == set(right):
+        return [(name, name, name) for name in left]
+    lefts, rights = ({without_side(name): name for name in names} for names in (left, right))
+    if set(lefts) == set(rights) and len(lefts) == len(left) and len(rights) == len(right):
+        return [(name, lefts[name], rights[name]) for name in lefts]
+    if len(left) == len(right) == 1:
+        return [(common_name(left[0], right[0]), left[0], right[0])]
+    alone = sorted(set(left) ^ set(right))
+    files = [given[side] if isinstance(given, Mapping) else given for side in HEMISPHERES]
+    raise ValueError(
+        f"{files[0]} has {len(left)} maps, {files[1]} has {len(right)}, and {', '.join(map(repr, alone[:3]))} "
+        "in one of them alone: give the maps of both sides the same names"
+    )
 
 
 def labels_of_both(surface: Surface, given: Pair) -> LabelMap:

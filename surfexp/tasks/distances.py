@@ -21,7 +21,7 @@ from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, m
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
-from surfexp.spectrum.eigensystem import EigenSystem
+from surfexp.spectrum.eigensystem import SMALLEST_GAP, EigenSystem
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for, require_connected
 
@@ -42,7 +42,9 @@ def distance(
 ) -> Distance:
     """Return the spectral distance of two surfaces, minimised over the signs of their eigenfunctions, with the proof.
 
-    Both surfaces are scaled to area 1, so that size and pose do not matter.
+    Both surfaces are scaled to area 1, so that size and pose do not matter. Eigenvalues are taken to be simple: of several
+    that are equal, as on a body with a symmetry of rotation, any rotation of their eigenfunctions is as good, the distance
+    depends on the one that the solver gave, and a note says so.
 
     Parameters
     ----------
@@ -83,12 +85,24 @@ def distance(
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
     most = search_limit(first, second) if limit is None else limit
     found = spectral_distance(first, second, limit=most, progress=progress)
-    found = replace(found, notes=found.notes + _mirror_images(first, second, found))
+    found = replace(found, notes=found.notes + _clusters(first, second) + _mirror_images(first, second, found))
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
     correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
     moved = second_part.extend(found.target_points)
     return replace(
         found, source_points=first_part.extend(found.source_points), target_points=moved, correspondence=correspondence
+    )
+
+
+def _clusters(first: SpectralEmbedding, second: SpectralEmbedding) -> tuple[str, ...]:
+    """Say which modes have no basis of their own, so that the distance hangs on that which the solver gave."""
+    blocks = eigenvalue_blocks(first.values, second.values, gap=SMALLEST_GAP)
+    equal = [f"{start + 1} to {stop}" for start, stop in blocks if stop - start > 1]
+    if not equal:
+        return ()
+    return (
+        f"Modes {', '.join(equal)} have equal eigenvalues, and any rotation of them is as good: the distance depends on the one "
+        "that the solver gave, and is proved least over signs alone; sx.align rotates them.",
     )
 
 

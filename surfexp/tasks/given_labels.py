@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from surfexp.io.hemisphere import check_same_side
+from surfexp.io.label_colours import read_coloured_labels
 from surfexp.mesh.coloured_labels import coloured_as
 from surfexp.mesh.given_arrays import index_array, real_array
+from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.tasks.both_files import labels_of_sides
+from surfexp.tasks.both_files import labels_of_both, labels_of_sides
 from surfexp.tasks.inputs import as_labels, sides_of
 
 
@@ -21,8 +25,9 @@ def labels_on(surface: Surface, given: Any) -> LabelMap:
     Parameters
     ----------
     surface : Surface
-    given : LabelMap or (n,) array_like, or for both hemispheres a mapping of left and right to one of them each
-        As `labels_of_array` takes them. What has one name on both sides is one label.
+    given : str, path, LabelMap or (n,) array_like, or for both hemispheres a mapping of left and right to one of them each
+        The name of labels of the surface, a file of labels, or as `labels_of_array` takes them. What has one name on both
+        sides is one label.
 
     Returns
     -------
@@ -32,12 +37,16 @@ def labels_on(surface: Surface, given: Any) -> LabelMap:
     Raises
     ------
     ValueError
-        If there are fewer or more, a side is missing, or a number is no whole one.
+        If there are fewer or more, a side is missing, a number is no whole one, or a file cannot be read.
     """
+    if isinstance(given, str | Path):
+        return _named_or_read(surface, given)
     parts = sides_of(given, "data")
     if parts is None:
         table = given if isinstance(given, LabelMap) else labels_of_array(given)
         return coloured_as(LabelMap(as_labels(surface, table.keys), table.names), table)
+    if surface.right is not None and all(isinstance(one, str | Path) for one in parts.values()):
+        return labels_of_both(surface, parts)
     if surface.right is None:
         if surface.hemisphere not in parts:
             raise ValueError(f"labels have {' and '.join(parts)}, the surface is of hemisphere {surface.hemisphere!r}")
@@ -46,6 +55,20 @@ def labels_on(surface: Surface, given: Any) -> LabelMap:
         raise ValueError(f"labels have no {missing[0]} hemisphere, the surface is both: give both")
     tables = (one if isinstance(one, LabelMap) else labels_of_array(one) for one in map(parts.__getitem__, HEMISPHERES))
     return labels_of_sides(surface, *tables)
+
+
+def _named_or_read(surface: Surface, given: str | Path) -> LabelMap:
+    """Return the labels that a surface has under a name, else those of a file."""
+    if given in surface.labels or not Path(given).is_file():
+        if not surface.labels:
+            raise ValueError(
+                f"labels are {str(given)!r}: there is no such file, and surface {surface.name!r} carries no labels"
+            )
+        return labels_on(surface, surface.labels[one_of(str(given), "labels", surface.labels)])
+    if surface.right is not None:
+        return labels_of_both(surface, given)
+    check_same_side("labels", given, surface.hemisphere)
+    return labels_on(surface, read_coloured_labels(given, surface.hemisphere))
 
 
 def labels_of_array(given: ArrayLike) -> LabelMap:
@@ -72,10 +95,12 @@ def labels_of_array(given: ArrayLike) -> LabelMap:
     >>> labels_of_array(["V1", "V2", "V1"]).keys.tolist()
     [1, 2, 1]
     """
+    if isinstance(given, np.ma.MaskedArray) and given.dtype.kind in "UO":
+        given = given.filled("")
     hidden = isinstance(given, np.ma.MaskedArray)
     listed = [] if hidden else np.asarray(given).ravel().tolist()
     if any(isinstance(one, str) for one in listed):
-        words = np.array(["" if one is None or one != one else str(one) for one in listed])
+        words = np.array([one if isinstance(one, str) else "" if is_missing(one) else str(one) for one in listed])
         names, numbers = np.unique(words[words != ""], return_inverse=True)
         keys = np.zeros(words.shape, dtype=np.int64)
         keys[words != ""] = 1 + numbers
@@ -85,6 +110,17 @@ def labels_of_array(given: ArrayLike) -> LabelMap:
         given = np.where(np.isnan(values), 0.0, values)
     keys = index_array(given, "labels")
     return LabelMap(keys, {key: str(key) for key in np.unique(keys).tolist() if key != 0})
+
+
+def is_missing(cell: Any) -> bool:
+    """Whether a cell of a table is None, NaN, or pandas's NA, which is not equal to itself nor unequal.
+
+    Examples
+    --------
+    >>> is_missing(float("nan")), is_missing(None), is_missing(0)
+    (True, True, False)
+    """
+    return cell is None or not isinstance(same := cell == cell, bool | np.bool_) or not same
 
 
 def are_labels(given: Any) -> bool:

@@ -22,6 +22,7 @@ from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import colour_of
 from surfexp.tasks.both_files import maps_of_both
+from surfexp.tasks.maps_of_file import vertices_of_file
 from surfexp.tasks.soundness import sound_part, usable_vertices
 
 SurfaceLike = Any
@@ -173,7 +174,7 @@ def _of_files(surface: Surface, given: Any) -> Floats:
     if surface.right is not None:
         return side_by_side(maps_of_both(surface, given), "map")
     check_same_side("map", given, surface.hemisphere)
-    return read_scalars(given, surface.hemisphere)
+    return read_scalars(given, surface.hemisphere, vertices_of_file(surface))
 
 
 def _map_of_sides(surface: Surface, given: Any) -> Floats:

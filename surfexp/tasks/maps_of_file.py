@@ -32,7 +32,12 @@ def maps_of_file(surface: Surface, given: Any) -> MapsOfFile:
     if surface.right is not None:
         return MapsOfFile(maps_of_both(surface, given))
     check_same_side("map", given, surface.hemisphere)
-    return MapsOfFile(read_maps(given, surface.hemisphere))
+    return MapsOfFile(read_maps(given, surface.hemisphere, vertices_of_file(surface)))
+
+
+def vertices_of_file(surface: Surface) -> int:
+    """Return how many vertices the file of a surface has."""
+    return len(surface.mesh.vertices) if surface.file is None else len(surface.file.standing)
 
 
 def is_pair(given: Any) -> bool:

@@ -7,9 +7,8 @@ from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.medial_wall import is_outside
-from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
-from surfexp.mesh.surface import HEMISPHERES, Surface
+from surfexp.mesh.surface import HEMISPHERES
 from surfexp.tasks.given_labels import labels_on
 from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
 from surfexp.tasks.parcel_table import Parcels
@@ -27,8 +26,8 @@ def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | Arra
     values : str or (n,) or (n, c) float64
         Name of a map of the surface, or the map, or the maps of c subjects; NaN where nothing is known.
     labels : str, LabelMap, (n,) int or (n,) str
-        Name of labels of the surface, or the labels. Those called unknown or medial wall are left out with a note, and so are
-        vertices whose label has no name. Whole numbers are their own names, and 0 and NaN are none.
+        Name of labels of the surface, or their file, or the labels. Those called unknown or medial wall are left out with a
+        note, and so are vertices whose label has no name. Whole numbers are their own names, and 0 and NaN are none.
 
     Returns
     -------
@@ -52,7 +51,7 @@ def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | Arra
     """
     owner = as_surface(surface)
     given = as_map(owner, values)
-    table = _labels(owner, labels)
+    table = labels_on(owner, labels)
     left_out = [name for name in table.names.values() if is_outside(name)]
     keys = [key for key, name in table.names.items() if name not in left_out]
     part = part_for(owner)
@@ -85,10 +84,6 @@ def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | Arra
         rows,
         notes,
     )
-
-
-def _labels(owner: Surface, labels: str | LabelMap | ArrayLike) -> LabelMap:
-    return labels_on(owner, owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels)
 
 
 def _numbered(labels: Integers, keys: list[int]) -> Integers:

@@ -15,7 +15,7 @@ from surfexp.inference.exchangeability import allowed_rearrangements, least_p
 from surfexp.inference.linear_model import contrast_model
 from surfexp.inference.permutation_inference import Progress, Statistics, null_distributions
 from surfexp.inference.vertex_graph import graph_of_edges
-from surfexp.mesh.given_numbers import given_threads, one_of, real_number, whole_number
+from surfexp.mesh.given_numbers import given_threads, real_number, whole_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.given_labels import labels_on
@@ -90,7 +90,7 @@ def permutation_test(
     level : float
         Of the regions that are listed.
     labels : str, LabelMap, (n,) int or (n,) str, optional
-        Parcels for the table of clusters, or the name under which the surface carries them.
+        Parcels for the table of clusters, their file, or the name under which the surface carries them.
     seed : int
     threads : int, optional
         All cores if not given; the result is the same for any number.
@@ -169,4 +169,4 @@ def _columns(owner: Surface, maps: MapLike | Sequence[MapLike]) -> Floats:
 def _parcels(owner: Surface, labels: str | LabelMap | ArrayLike | None) -> LabelMap | None:
     if labels is None:
         return None
-    return labels_on(owner, owner.labels[one_of(labels, "labels", owner.labels)] if isinstance(labels, str) else labels)
+    return labels_on(owner, labels)

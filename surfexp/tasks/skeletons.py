@@ -98,8 +98,8 @@ def geodesic(
     """Return the geodesic distance of every vertex from a set of vertices: the length of a path, with a bound from below.
 
     Fronts run over the intrinsic Delaunay triangulation, and straight lines over unfolded triangles follow them back, so that
-    the shape of the triangles does not matter. On meshes tried against the exact distance the paths are too long by .1 % in
-    the mean, and by 2 % at most where a surface is rough.
+    the shape of the triangles does not matter. On seven models tried against the exact distance, from two vertices each, the
+    paths are too long by .02 to .09 % in the mean. The worst single one is too long by .9 to 5.5 %, some edges from the source.
 
     Parameters
     ----------
@@ -154,7 +154,9 @@ def geodesic(
         )
     if not bounds:
         return part.extend(part.length * geodesic_distance(part.mesh, number[wanted], progress))
-    upper, lower = geodesic_bounds(part.mesh, number[wanted], progress)
+    # where no path leads, infinite less infinite
+    with np.errstate(invalid="ignore"):
+        upper, lower = geodesic_bounds(part.mesh, number[wanted], progress)
     return part.extend(part.length * upper), part.extend(part.length * lower)
 
 

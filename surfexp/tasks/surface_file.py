@@ -9,7 +9,7 @@ from typing import Any
 from surfexp.contract.arrays import Floats
 from surfexp.io.gifti import is_gifti
 from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
-from surfexp.io.label_colours import read_coloured_labels
+from surfexp.io.label_colours import passed_over, read_coloured_labels
 from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import READERS, read_mesh_file
@@ -59,9 +59,10 @@ def read_surface(
         side = BOTH
     notes = (*file_read.notes, *_overridden(hemisphere, path))
     for name, file in map_files.items():
-        scalars |= _named(name, read_maps(file, side), count, file)
+        scalars |= _named(name, read_maps(file, side, count), count, file)
     tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side) for name, file in label_files.items()}
     tables = {**facts.labels, **tables}
+    notes += tuple(note for file in label_files.values() for note in passed_over(file))
     for name, table in tables.items():
         if len(table.keys) != count:
             raise ValueError(f"labels {name!r} have {len(table.keys)} entries, {path} has {count} vertices")

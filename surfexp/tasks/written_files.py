@@ -29,6 +29,7 @@ from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.export import write_common_space, write_skeleton
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.given_labels import labels_of_array
 from surfexp.tasks.inputs import SurfaceLike, arrays_of, as_map, is_mesh
 from surfexp.tasks.parcel_table import Parcels
 
@@ -111,7 +112,7 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         return left_out(target, owner)
     side = surface.hemisphere if surface is not None else ""
     unsaid = _side_left_out(target, side)
-    table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
+    table = _labels_for(target, what)
     if table is not None and (target.name.endswith(LABEL_SUFFIXES) or isinstance(what, LabelMap)):
         _check_rows(len(table.keys), surface, "labels")
         write_coloured_labels(target, replace(table, keys=_on_file(table.keys, surface)), side)
@@ -138,10 +139,26 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     return left_out(target, replace(surface, scalars={}, mask=None, labels={}))
 
 
+def _labels_for(target: Path, what: Any) -> LabelMap | None:
+    """Return labels where they are given; for a file of labels those that an array of whole numbers or names is."""
+    table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
+    array = getattr(what, "values", what)
+    if (
+        table is not None
+        or not target.name.endswith(LABEL_SUFFIXES)
+        or isinstance(array, Mapping)
+        or not np.ndim(array)
+    ):
+        return table
+    table = labels_of_array(array)
+    # 0 is none, which an annotation writes for labels without a name
+    return table if target.suffix != ".annot" else replace(table, keys=np.where(table.keys == 0, -1, table.keys))
+
+
 def _written_apart(target: Path, what: Any, both: Surface) -> tuple[str, ...]:
     """Write each hemisphere to a file of its own."""
     check_named_side(target, both.hemisphere)
-    table = what if isinstance(what, LabelMap) else getattr(what, "label_map", None)
+    table = _labels_for(target, what)
     said: list[str] = []
     for side, one in both.hemispheres().items():
         own = vertices_of(both, side)

@@ -111,7 +111,9 @@ def test_one_file_of_all_maps_and_a_design(folder: Path, capsys: pytest.CaptureF
 def test_pairs_of_a_table(folder: Path) -> None:
     call = ["test", "ball.surf.gii", "all.npz", "--subjects", "subjects.tsv", "--groups", "sex", "--pairs", "pair"]
     assert main([*call, "--to", "found.npz"]) == 0
-    assert json.loads(Path("found.npz.json").read_text())["tested"] == "f less m in pairs"
+    certificate = json.loads(Path("found.npz.json").read_text())
+    assert certificate["tested"] == "f less m in pairs"
+    assert certificate["options"]["groups"] == "sex" and certificate["options"]["pairs"] == "pair"
 
 
 @pytest.mark.parametrize(
@@ -121,6 +123,8 @@ def test_pairs_of_a_table(folder: Path) -> None:
         (["--subjects", "subjects.tsv", "--groups", "sexe"], "--groups = 'sexe', choose one of id, sex, age, pair"),
         (["--subjects", "subjects.tsv", "--covariates", "sex"], "sex has 'f', a number is needed"),
         (["--subjects", "none.tsv", "--groups", "sex"], "none.tsv: no such file"),
+        (["--subjects", "none.tsv"], "--subjects none.tsv says nothing of the test: name a column"),
+        (["all.npz"], "map all.npz is given 2 times, each subject counts once"),
         (["--contrast", "1,x"], "--contrast has 'x', a number is needed"),
         (["--labels", "all.npz"], "is no file of labels"),
         (["--table", "clusters.xls"], "choose .csv"),

@@ -123,7 +123,7 @@ def test_surfaces_with_maps(name: str, data: st.DataObject) -> None:
             assert np.array_equal(again.mesh.vertices[again.mesh.faces], points[mesh.faces])
         else:
             assert np.array_equal(again.mesh.vertices, points) and np.array_equal(again.mesh.faces, mesh.faces)
-        holds = name.endswith((".ply", ".npz", ".gii"))
+        holds = name.endswith((".ply", ".npz", ".gii", ".dscalar.nii"))
         assert again.hemisphere == (
             side or ("left" if name.startswith("lh.") else "") if holds or "lh." in name else ""
         )
@@ -154,7 +154,7 @@ def test_maps_and_masks(name: str, data: st.DataObject) -> None:
             found = dict(zip(wanted, found.values(), strict=True))
         columns = {key: v[:, 0] if v.ndim == 2 and v.shape[1] == 1 else v for key, v in wanted.items()}
         same_maps(found, columns, name)
-        said = name.startswith("lh.") or name.endswith((".ply", ".npz", ".gii"))
+        said = name.startswith("lh.") or name.endswith((".ply", ".npz", ".gii", ".dscalar.nii"))
         assert hemisphere_of_file(path) == ((side or ("left" if name.startswith("lh.") else "")) if said else "")
 
     trying(lambda path: sx.write(path, maps, surface), name, check)

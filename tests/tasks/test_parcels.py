@@ -110,7 +110,7 @@ def test_both_hemispheres_have_rows_of_their_own() -> None:
 @pytest.mark.parametrize(
     ("values", "labels", "line"),
     [
-        (HEIGHT, "aparc", "labels = 'aparc', choose one of"),
+        (HEIGHT, "aparc", "labels are 'aparc': there is no such file"),
         (HEIGHT, BANDS.keys[1:], "labels have shape \\(10241,\\), the surface has 10242 vertices"),
         (HEIGHT, np.zeros(len(HEIGHT), int), "no vertex of 10242 is in a parcel"),
         (HEIGHT, HEIGHT, "whole numbers are needed"),

@@ -268,7 +268,7 @@ def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
         ({"count": 1}, "count = 1, 2 to"),
         ({"forming_p": 0.7}, "below 0.5"),
         ({"level": 2}, "level = 2"),
-        ({"labels": "none"}, "labels = 'none', choose one of"),
+        ({"labels": "none"}, "labels are 'none': there is no such file"),
         ({"extent_power": -1}, "extent_power"),
     ],
 )

@@ -68,6 +68,8 @@ def one_line(where: str, error: ValidationError) -> str:
     """The first complaint of pydantic with the thing, its value and the bound, in one line."""
     first = error.errors()[0]
     path = ".".join([where, *(str(part) for part in first["loc"])])
+    if first["type"] == "missing" and isinstance(first["loc"][-1], int):
+        return f"{path.rpartition('.')[0]} has {first['loc'][-1]} values, more are needed"
     if first["type"] == "missing":
         return f"{path} is required; set {path.partition('/')[0]}.{first['loc'][-1]}=VALUE"
     return f"{path} = {first.get('input')!r}: {first['msg']}"

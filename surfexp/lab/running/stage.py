@@ -82,8 +82,8 @@ def told(error: Exception) -> str:
 
     Examples
     --------
-    >>> told(ValueError("weight is -1,\\n  choose a positive one")), told(KeyError())
-    ('weight is -1, choose a positive one', 'KeyError')
+    >>> told(ValueError("weight is -1,\\n  choose a positive one")), told(KeyError()), told(KeyError("age"))
+    ('weight is -1, choose a positive one', 'KeyError', "KeyError: 'age'")
     """
     kind = type(error)
     if kind.__module__.partition(".")[0] == "numba":
@@ -91,7 +91,9 @@ def told(error: Exception) -> str:
             "it does not compile for these inputs, as for a map of several channels where one value a vertex is needed "
             f"(numba's {kind.__name__}, which SURFEXP_DEBUG=1 shows)"
         )
-    return " ".join(str(error).split()) or kind.__name__
+    said = " ".join(str(error).split())
+    # the text of a KeyError is the key alone
+    return f"{kind.__name__}: {said}" if said and isinstance(error, KeyError) else said or kind.__name__
 
 
 def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
