@@ -12,8 +12,8 @@ import numpy as np
 import surfexp as sx
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.label_files import write_labels
-from surfexp.io.map_files import write_maps
 from surfexp.io.writing import write_mesh
+from surfexp.io.written_maps import write_maps
 
 MESHES = ("a.off", "a.obj", "a.ply", "a.stl", "a.surf.gii", "a.vtk", "a.vtp", "a.npz", "lh.white", "a.tri")
 MAPS = ("m.shape.gii", "m.npy", "m.npz", "m.csv", "m.txt", "m.mgh", "m.mgz", "lh.curv", "m.dscalar.nii")

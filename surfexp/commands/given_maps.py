@@ -67,6 +67,7 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
     from surfexp.io.hemisphere import check_same_side
     from surfexp.io.label_colours import read_coloured_labels
     from surfexp.io.map_files import LABEL_FILES
+    from surfexp.tasks.maps_of_file import vertices_of_file
 
     if given in surface.labels:
         return surface.labels[given]
@@ -80,7 +81,7 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
     files.add(given)
     if side is None:
         check_same_side("labels", given, surface.hemisphere)
-    return read_coloured_labels(given, surface.hemisphere)
+    return read_coloured_labels(given, surface.hemisphere, vertices_of_file(surface))
 
 
 def shown_borders(surface: Surface, given: str | None, files: Inputs, side: str | None) -> LabelMap | str | None:

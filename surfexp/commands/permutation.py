@@ -78,9 +78,10 @@ def test(
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.permutation_testing import permutation_test
 
-    twice = next((name for name in map_names if map_names.count(name) > 1), None)
+    places = [str(Path(name).resolve()) if Path(name).is_file() else name for name in map_names]
+    twice = next((name for name, place in zip(map_names, places, strict=True) if places.count(place) > 1), None)
     if twice is not None:
-        raise ValueError(f"map {twice} is given {map_names.count(twice)} times, each subject counts once: give it once")
+        raise ValueError(f"map {twice} is given more than once, each subject counts once: give it once")
     surface, files = opened(path, **given)
     read = {name: given_maps(surface, name, files, given["hemisphere"]) for name in map_names}
     values = np.column_stack([side_by_side(maps, name) for name, maps in read.items()])

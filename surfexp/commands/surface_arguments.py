@@ -158,8 +158,8 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     """
     import numpy as np
 
-    from surfexp.io.map_files import holds_names
     from surfexp.io.writing import WITH_MAPS
+    from surfexp.io.written_maps import holds_names
     from surfexp.mesh.vertex_colours import NAMES
 
     if len(maps) == 1 and next(iter(maps)) in NAMES and target.suffix.lower() == ".ply" and np.isfinite(values).all():

@@ -170,7 +170,7 @@ def distance(
     """
     import numpy as np
 
-    from surfexp.io.map_files import check_map_target
+    from surfexp.io.written_maps import check_map_target
     from surfexp.tasks.distances import distance as task
 
     files = Inputs(first, second)

@@ -17,7 +17,7 @@ from surfexp.mesh.coloured_labels import Colour, ColouredLabels
 from surfexp.mesh.label_map import LabelMap
 
 
-def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabels:
+def read_coloured_labels(path: Path | str, hemisphere: str = "", count: int = 0) -> ColouredLabels:
     """Return the labels of a .label.gii, .annot or .dlabel.nii (its first map) with the colours of its table.
 
     Parameters
@@ -25,6 +25,8 @@ def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabe
     path : path
     hemisphere : {"", "left", "right"}
         Of a .dlabel.nii.
+    count : int
+        Vertices of the surface, of which GIFTI may leave out the last ones.
 
     Returns
     -------
@@ -37,7 +39,7 @@ def read_coloured_labels(path: Path | str, hemisphere: str = "") -> ColouredLabe
     ValueError
         As `read_named_labels`.
     """
-    found = read_named_labels(path, hemisphere)
+    found = read_named_labels(path, hemisphere, count)
     colors = _table(Path(path))
     made = dict(zip(found.names, map(tuple, (label_colors(len(found.names)) / 255.0).tolist()), strict=True))
     apart = any(

@@ -1,7 +1,8 @@
-"""Maps on a surface as files: the format follows from the file's name."""
+"""Maps, labels and masks on a surface read from files: the format follows from the file's name."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,27 +10,21 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
 from surfexp.io import freesurfer
-from surfexp.io.cifti import is_cifti, read_cifti_maps, write_cifti_maps
+from surfexp.io.cifti import is_cifti, read_cifti_maps
 from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.io.entrance import reading
-from surfexp.io.gifti import is_gifti, read_gifti_maps, write_gifti_maps
-from surfexp.io.hemisphere import check_named_side, holds_both
+from surfexp.io.gifti import is_gifti, read_gifti_maps
 from surfexp.io.label_files import read_label_map
 from surfexp.io.listed_vertices import with_last_vertices
-from surfexp.io.map_names import check_map_names
-from surfexp.io.map_shapes import check_map_shapes, scalar_channels
+from surfexp.io.map_shapes import check_map_shapes
 from surfexp.io.medial_wall import named_labels, outside_names
-from surfexp.io.npz import read_rows, write_arrays
+from surfexp.io.npz import read_rows
 from surfexp.io.numbers import LARGEST_BYTES, real_array
-from surfexp.io.replacing import check_writable, replacing
-from surfexp.io.single_precision import check_single_precision_maps
-from surfexp.io.text_tables import read_table, write_table
+from surfexp.io.text_tables import read_table
 from surfexp.mesh.label_map import LabelMap
-from surfexp.mesh.surface import BOTH
 
 TEXT = (".csv", ".txt", ".dat")
 VOLUMES = (".mgh", ".mgz")
-CURVATURES = (".curv", ".sulc", ".thickness", ".area")
 NIFTI = (".nii", ".nii.gz")
 UNNAMED = ("map", "map 1")
 SURFACES = (".ply", ".vtk", ".vtp", ".vtu", ".obj", ".off", ".stl")
@@ -37,26 +32,6 @@ KNOWN = (
     ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .nii, .npy, .npz, .csv, .txt, .asc, or a FreeSurfer curvature file "
     "(lh.sulc)"
 )
-WRITABLE = (
-    ".shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or a FreeSurfer curvature file (lh.sulc)"
-)
-# names such as lh.thickness.fsaverage are FreeSurfer's own; these belong to others, or to what is no map
-OTHERS: tuple[str, ...] = (
-    ".annot",
-    ".label",
-    ".nii",
-    ".gz",
-    ".asc",
-    ".mat",
-    ".tsv",
-    ".json",
-    ".h5",
-    ".hdf5",
-    ".parquet",
-    ".pkl",
-    ".xlsx",
-)
-OTHERS += (".png", ".jpg", ".svg", ".pdf", ".html", ".vtu", ".obj", ".off", ".stl", ".ply", ".vtk", ".vtp", ".zip")
 # files of labels with names
 LABEL_FILES = (".annot", ".label.gii", ".label.gii.gz", ".dlabel.nii")
 
@@ -143,8 +118,10 @@ def side_by_side(maps: dict[str, Floats], path: Path | str) -> Floats:
     return np.ascontiguousarray(columns[:, 0]) if columns.shape[1] == 1 else columns
 
 
-def read_named_labels(path: Path | str, hemisphere: str = "") -> LabelMap:
+def read_named_labels(path: Path | str, hemisphere: str = "", count: int = 0) -> LabelMap:
     """Return the labels of a .label.gii, .annot or .dlabel.nii (its first map) that anybody may have sent.
+
+    Where GIFTI lists the vertices of its rows, the last ones of a surface with `count` may be left out: they have none, -1.
 
     Raises
     ------
@@ -155,7 +132,8 @@ def read_named_labels(path: Path | str, hemisphere: str = "") -> LabelMap:
     if path.is_file():
         with reading(path, "is not a readable file of labels"):
             check_declared_sizes(path)
-    return read_label_map(path, hemisphere)
+    found = read_label_map(path, hemisphere)
+    return replace(found, keys=with_last_vertices(path, {"": found.keys}, count, -1)[""]) if is_gifti(path) else found
 
 
 def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.bool_]:
@@ -175,7 +153,7 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     if file.suffix == ".label":
         inside = _listed(file, count)
     elif _has_names(file):
-        labels = read_named_labels(file, hemisphere)
+        labels = read_named_labels(file, hemisphere, count)
         wanted = [name.strip() for name in names.split(",") if name.strip()]
         inside = np.isin(labels.keys, list(named_labels(labels.keys, labels.names)))
         if wanted:
@@ -187,7 +165,7 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     else:
         if names:
             raise ValueError(f"{file} is a map without names of labels, {names!r} cannot be chosen: give {file} alone")
-        values = read_scalars(file, hemisphere)
+        values = read_scalars(file, hemisphere, count)
         inside = np.isfinite(values) & (values != 0)
     if inside.shape != (count,):
         raise ValueError(f"{file} has shape {inside.shape} as a mask, the surface has {count} vertices")
@@ -246,103 +224,3 @@ def _listed(file: Path, count: int) -> NDArray[np.bool_]:
     inside = np.zeros(count, dtype=bool)
     inside[numbers] = True
     return inside
-
-
-def holds_names(path: Path | str) -> bool:
-    """Whether a format of maps has room for several maps with their names."""
-    path = Path(path)
-    return path.suffix.lower() in (".npz", *TEXT) or is_cifti(path) or is_gifti(path)
-
-
-def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str | NDArray[np.str_] = "") -> None:
-    """Write maps of one length as .shape.gii, .func.gii, .dscalar.nii, .mgh, .mgz, .npy, .npz, .csv, .txt, or as curvature.
-
-    Of both hemispheres .dscalar.nii and .npz hold maps; `hemisphere` is then that of each vertex.
-
-    Raises
-    ------
-    ValueError
-        If the format is unknown, takes a single map, cannot say NaN where there is one, or has too small a range, or the file
-        is named as the other hemisphere.
-    """
-    path = Path(path)
-    channels = max((values.shape[1] for values in maps.values() if values.ndim == 2), default=1)
-    check_map_target(path, len(maps), channels, hemisphere if isinstance(hemisphere, str) else BOTH)
-    if not isinstance(hemisphere, str) and not holds_both(path):
-        raise ValueError(f"{path} holds one hemisphere, the maps are of both: choose .dscalar.nii or .npz")
-    check_map_names(maps)
-    lengths = {len(values) for values in maps.values()}
-    # an archive also holds results whose arrays are no maps
-    if len(lengths) != 1 and path.suffix.lower() != ".npz":
-        raise ValueError(f"{path}: maps have {sorted(lengths)} values, one for each vertex of one surface is needed")
-    suffix = path.suffix.lower()
-    with replacing(path) as temporary:
-        if suffix == ".npz":
-            write_arrays(temporary, maps, hemisphere)
-        elif suffix in TEXT:
-            write_table(temporary, scalar_channels(maps))
-        elif is_cifti(path):
-            write_cifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), hemisphere)
-        elif is_gifti(path):
-            write_gifti_maps(temporary, check_single_precision_maps(scalar_channels(maps)), str(hemisphere))
-        elif suffix == ".npy":
-            np.save(temporary, next(iter(maps.values())))
-        elif suffix in VOLUMES:
-            freesurfer.write_volume_map(temporary, next(iter(check_single_precision_maps(maps).values())))
-        else:
-            freesurfer.write_curvature(temporary, next(iter(check_single_precision_maps(maps).values())))
-
-
-def _is_sheet(suffix: str) -> bool:
-    """Whether FreeSurfer's surfaces are called so: lh.pial."""
-    return suffix in (".pial", ".white", ".inflated", ".sphere", ".orig", ".midthickness", ".smoothwm")
-
-
-def check_map_target(
-    path: Path | str, count: int = 1, channels: int = 1, hemisphere: str | None = None, unknown: bool = False
-) -> None:
-    """Refuse a file that maps cannot be written to: of a format that is unknown or too narrow, or in no writable folder.
-
-    Parameters
-    ----------
-    path : path
-    count : int
-        Number of maps.
-    channels : int
-        The most channels that one has.
-    hemisphere : {"", "left", "right", "both"}, optional
-        Of the maps; None if it is not known yet.
-    unknown : bool
-        Whether they are NaN somewhere.
-
-    Raises
-    ------
-    ValueError
-        Naming the formats that can hold them, or if the file is named as the other hemisphere.
-    """
-    path = Path(path)
-    suffix = path.suffix.lower()
-    if path.name.lower().endswith((*LABEL_FILES, ".label", ".surf.gii")):
-        raise ValueError(
-            f"{path} is named as a file of labels or of a surface, a map is none: choose one of {WRITABLE}"
-        )
-    cifti = path.name.lower().endswith(".dscalar.nii")
-    known = suffix in (".npz", ".npy", *TEXT, *VOLUMES, *CURVATURES) or cifti or is_gifti(path)
-    if not known and (
-        not freesurfer.hemisphere_of(path) or suffix in OTHERS or (path.name.count(".") == 1 and _is_sheet(suffix))
-    ):
-        raise ValueError(f"{path} has an unknown format of maps, choose one of {WRITABLE}")
-    if count != 1 and not holds_names(path):
-        raise ValueError(f"{path} holds one map, there are {count}: choose .npz, .func.gii or .csv")
-    if channels > 1 and not holds_names(path) and suffix not in (".npy", *VOLUMES):
-        raise ValueError(f"{path} holds one number a vertex, the map has {channels}: choose .mgh, .npz or .func.gii")
-    as_curvature = suffix not in (".npz", ".npy", *TEXT, *VOLUMES) and not is_cifti(path) and not is_gifti(path)
-    if unknown and as_curvature:
-        raise ValueError(
-            f"{path} cannot say NaN, which the map has outside of its mask: choose .mgh, .shape.gii or .npz"
-        )
-    if hemisphere is not None:
-        check_named_side(path, hemisphere)
-        if is_cifti(path) and not hemisphere:
-            raise ValueError(f"{path} needs a hemisphere, none is known: give the surface, or hemisphere=left or right")
-    check_writable(path)

@@ -129,9 +129,9 @@ def labels_of_both(surface: Surface, given: Pair) -> LabelMap:
     ValueError
         As `maps_of_both`.
     """
-    return labels_of_sides(
-        surface, *(read_coloured_labels(of_side(given, side, "labels"), side) for side in HEMISPHERES)
-    )
+    counts = {side: len(part.mesh.vertices) for side, part in surface.hemispheres().items()}
+    sides = (read_coloured_labels(of_side(given, side, "labels"), side, counts[side]) for side in HEMISPHERES)
+    return labels_of_sides(surface, *sides)
 
 
 def labels_of_sides(surface: Surface, left: LabelMap, right: LabelMap) -> LabelMap:

@@ -17,6 +17,7 @@ from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.tasks.both_files import labels_of_both, labels_of_sides
 from surfexp.tasks.inputs import as_labels, sides_of
+from surfexp.tasks.maps_of_file import vertices_of_file
 
 
 def labels_on(surface: Surface, given: Any) -> LabelMap:
@@ -68,7 +69,7 @@ def _named_or_read(surface: Surface, given: str | Path) -> LabelMap:
     if surface.right is not None:
         return labels_of_both(surface, given)
     check_same_side("labels", given, surface.hemisphere)
-    return labels_on(surface, read_coloured_labels(given, surface.hemisphere))
+    return labels_on(surface, read_coloured_labels(given, surface.hemisphere, vertices_of_file(surface)))
 
 
 def labels_of_array(given: ArrayLike) -> LabelMap:

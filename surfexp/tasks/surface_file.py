@@ -60,7 +60,7 @@ def read_surface(
     notes = (*file_read.notes, *_overridden(hemisphere, path))
     for name, file in map_files.items():
         scalars |= _named(name, read_maps(file, side, count), count, file)
-    tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side) for name, file in label_files.items()}
+    tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side, count) for name, file in label_files.items()}
     tables = {**facts.labels, **tables}
     notes += tuple(note for file in label_files.values() for note in passed_over(file))
     for name, table in tables.items():

@@ -15,10 +15,10 @@ from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import write_columns
 from surfexp.io.hemisphere import check_named_side, files_of_sides, hemisphere_of_name, holds_both, holds_hemisphere
 from surfexp.io.label_colours import write_coloured_labels
-from surfexp.io.map_files import check_map_target, write_maps
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.writing import ARCHIVE, WITH_MAPS, check_mesh_target, format_of, write_mesh
+from surfexp.io.written_maps import check_map_target, write_maps
 from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.given_arrays import map_array
 from surfexp.mesh.label_map import LabelMap

@@ -17,10 +17,11 @@ from nibabel import cifti2
 
 from surfexp.io.freesurfer_sizes import check_volume
 from surfexp.io.hemisphere import hemisphere_of_file
-from surfexp.io.map_files import read_maps, read_mask, read_scalars, write_maps
+from surfexp.io.map_files import read_maps, read_mask, read_scalars
 from surfexp.io.reading import read_mesh
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.io.writing import write_mesh
+from surfexp.io.written_maps import write_maps
 from surfexp.mesh.shapes.icosphere import icosphere
 
 MESH = icosphere(2).mesh

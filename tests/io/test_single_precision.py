@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from surfexp.io.map_files import read_scalars, write_maps
+from surfexp.io.map_files import read_scalars
 from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
+from surfexp.io.written_maps import write_maps
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 

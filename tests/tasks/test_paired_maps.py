@@ -101,3 +101,20 @@ def test_vertices_behind_the_last_that_a_file_lists_are_unknown(working_folder: 
     assert np.isnan(found[30:]).all() and np.array_equal(found[:30], Z[:30].astype(np.float32))
     smooth = sx.smooth(Surface(BALL), "part.shape.gii", 0.1).values
     assert np.isnan(smooth[30:]).all() and np.isfinite(smooth).sum() > 20
+
+
+def test_labels_and_masks_may_leave_out_the_last_vertices_too(working_folder: Path) -> None:
+    nodes = nib.gifti.GiftiDataArray(np.arange(30, dtype=np.int32), "NIFTI_INTENT_NODE_INDEX")
+    keys = nib.gifti.GiftiDataArray(np.ones(30, dtype=np.int32), "NIFTI_INTENT_LABEL")
+    table = nib.gifti.GiftiLabelTable()
+    entry = nib.gifti.GiftiLabel(1, 1.0, 0.0, 0.0, 1.0)
+    entry.label = "V1"
+    table.labels.append(entry)
+    nib.save(nib.gifti.GiftiImage(darrays=[nodes, keys], labeltable=table), "part.label.gii")
+    nib.save(nib.gifti.GiftiImage(darrays=[nodes, nib.gifti.GiftiDataArray(np.ones(30, np.float32))]), "part.shape.gii")
+    sx.write("ball.ply", (BALL.vertices, BALL.faces))
+    for mask in ("part.label.gii", "part.label.gii:V1", "part.shape.gii"):
+        found = sx.read("ball.ply", labels={"p": "part.label.gii"}, mask=mask)
+        assert found.mask is not None and np.array_equal(found.mask, np.arange(COUNT) < 30)
+        assert np.array_equal(found.labels["p"].keys, np.where(np.arange(COUNT) < 30, 1, -1))
+    assert sx.parcels(Surface(BALL), Z, "part.label.gii").names == ("V1",)

@@ -12,11 +12,11 @@ from surfexp.commands.exporting.writers import Place, arrays_of, maps_of, write,
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.gifti import write_gifti, write_gifti_labels
 from surfexp.io.label_files import label_colors
-from surfexp.io.map_files import write_maps
 from surfexp.io.map_names import printable_name
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.single_precision import check_single_precision_points
 from surfexp.io.writing import write_mesh
+from surfexp.io.written_maps import write_maps
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.feature import Feature
 from surfexp.variational.image import Image
