@@ -70,6 +70,10 @@ def test_an_archive_serves_both_sides_where_it_says_which_rows_are_whose(working
             sx.write(f"{side}h.ply", (BALL.vertices, BALL.faces))
         with pytest.raises(ValueError, match=r"one.npz does not say which rows are left and right: give .'left'"):
             call()
+    np.savez("one.npz", thickness=X, hemisphere=np.array("left"))
+    for given in ({"maps": "one.npz"}, {"mask": "one.npz"}):
+        with pytest.raises(ValueError, match=r"one.npz does not say which rows are left and right"):
+            sx.read(left="lh.ply", right="rh.ply", **given)  # type: ignore[arg-type]
     np.savez("both.npz", thickness=np.repeat([1.0, 3.0], COUNT), hemisphere=np.repeat(["left", "right"], COUNT))
     assert means("both.npz") == [2.0]
     np.savez("short.npz", thickness=np.repeat([1.0, 3.0], COUNT), hemisphere=np.repeat(["L", "R"], COUNT))
