@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from surfexp.mesh.both_hemispheres import joined
+from surfexp.mesh.coloured_labels import coloured_as
 from surfexp.mesh.file_vertices import under_own_numbers
 from surfexp.mesh.repair import repair
 from surfexp.mesh.surface import Surface, Truth
@@ -32,7 +33,8 @@ def repaired(surface: Surface, largest_component: bool = False, renumber: bool =
         halves = (replace(one, notes=()) for one in surface.hemispheres().values())
         left, right = (repaired(one, largest_component, renumber) for one in halves)
         whole = joined(left, right, surface.name)
-        return replace(whole, notes=(*surface.notes, *whole.notes))
+        labels = {name: coloured_as(table, surface.labels[name]) for name, table in whole.labels.items()}
+        return replace(whole, labels=labels, notes=(*surface.notes, *whole.notes))
     given = surface.mesh
     found = repair(given.vertices, given.faces, largest_component=largest_component)
     mesh, file, origin = found.mesh, None, found.origin

@@ -15,7 +15,7 @@ import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.io.surface_archive import RECORD
 from surfexp.mesh.both_hemispheres import joined
-from surfexp.mesh.coloured_labels import ColouredLabels
+from surfexp.mesh.coloured_labels import ColouredLabels, coloured_as
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.spatial_frame import CoordinateTransform, SpatialFrame
@@ -79,6 +79,7 @@ def _told_apart(names: dict[int, str]) -> bool:
 
 def test_both_hemispheres_are_one_file(working_folder: Path) -> None:
     brain = joined(FULL, FULL)
+    brain = replace(brain, labels={"parts": coloured_as(brain.labels["parts"], TABLE)})
     sx.write("brain.npz", brain)
     assert [file.name for file in Path().iterdir()] == ["brain.npz"]
     found = sx.read("brain.npz")
