@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from surfexp.tasks.denoising import smooth as smooth
     from surfexp.tasks.denoising_path import denoise_path as denoise_path
     from surfexp.tasks.distance_transformer import SpectralDistance as SpectralDistance
-    from surfexp.tasks.distances import align as align
     from surfexp.tasks.distances import distance as distance
     from surfexp.tasks.files import read as read
     from surfexp.tasks.fingerprints import fingerprint as fingerprint
+    from surfexp.tasks.mode_alignment import align as align
     from surfexp.tasks.noise_of_map import noise as noise
     from surfexp.tasks.null_maps import null_maps as null_maps
     from surfexp.tasks.parcellation import parcels as parcels

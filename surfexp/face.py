@@ -7,7 +7,7 @@ FACE = {
     "Solid": "surfexp.tasks.solids",
     "Spectrum": "surfexp.tasks.spectrum_of_surface",
     "Surface": "surfexp.mesh.surface",
-    "align": "surfexp.tasks.distances",
+    "align": "surfexp.tasks.mode_alignment",
     "check": "surfexp.tasks.repairing",
     "check_reeb_distance": "surfexp.tasks.reeb_distances",
     "compare_maps": "surfexp.tasks.comparison_of_maps",

@@ -34,8 +34,8 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     """
     from surfexp.io.replacing import check_writable
     from surfexp.mesh.given_numbers import whole_number
+    from surfexp.tasks.fingerprint_sources import structures
     from surfexp.tasks.fingerprints import fingerprint as task
-    from surfexp.tasks.fingerprints import structures
 
     if target.suffix != ".csv":
         raise ValueError(f"{target} has an unknown format, choose .csv")

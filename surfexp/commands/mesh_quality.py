@@ -69,7 +69,8 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
 
     from surfexp.io.hemisphere import hemisphere_of_file
     from surfexp.tasks.repairing import repair as task
-    from surfexp.tasks.written_files import check_surface_target, written
+    from surfexp.tasks.written_files import written
+    from surfexp.tasks.written_targets import check_surface_target
 
     files = Inputs(file)
     side = hemisphere or hemisphere_of_file(file)

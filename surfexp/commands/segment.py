@@ -36,7 +36,7 @@ def segment(
     its size: gyri and sulci of a cortex.
     """
     from surfexp.tasks.segmentation import segment as task
-    from surfexp.tasks.written_files import check_target
+    from surfexp.tasks.written_targets import check_target
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None

@@ -200,7 +200,7 @@ def ready_map(target: Path, files: Inputs, surface: Surface, *maps: Any, **wante
     """Refuse a file that maps on a surface, NaN where it has no vertex or a map no value, cannot be written to, as `ready`."""
     import numpy as np
 
-    from surfexp.tasks.written_files import check_target
+    from surfexp.tasks.written_targets import check_target
 
     outside = surface.mask is not None and not surface.mask.all()
     faces_at = np.bincount(surface.mesh.faces.ravel(), minlength=len(surface.mesh.vertices))

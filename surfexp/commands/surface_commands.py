@@ -209,7 +209,7 @@ def align(first: str, second: str, count: int, repair: bool, target: Path) -> No
     Signs, order and rotations of the modes of SECOND become those of FIRST.
     """
     from surfexp.io.replacing import check_writable
-    from surfexp.tasks.distances import align as task
+    from surfexp.tasks.mode_alignment import align as task
 
     files = Inputs(first, second)
     if target.suffix.lower() != ".npz":
@@ -243,7 +243,8 @@ def convert(path: str, result: Path | None, target: Path | None, **given: Any) -
     targets = [one for one in (result, target) if one is not None]
     if len(targets) != 1:
         raise click.UsageError(f"{len(targets)} targets are given, one is needed: surfexp convert SURFACE TARGET")
-    from surfexp.tasks.written_files import check_surface_target, written
+    from surfexp.tasks.written_files import written
+    from surfexp.tasks.written_targets import check_surface_target
 
     surface, files = opened(path, **given)
     ready(targets[0], files, check_surface_target, hemisphere=surface.hemisphere)

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from surfexp.commands.console import Console
 from surfexp.records.table import Comparison, Row, format_number, number_notes, short_name
-from surfexp.report.repeats import Repeats, repeats_of, spread
+from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word
 
 # a name of a method longer than this is broken over lines
@@ -73,7 +73,7 @@ def _repeats_table(repeats: Repeats) -> Table:
     for row in repeats.rows:
         values = [escape(word(row.parameters.get(name, "–"))) for name in repeats.columns]
         count = str(row.count) if row.solved == row.count else f"{row.solved} of {row.count}"
-        table.add_row(*values, *(spread(row.metrics.get(name)) for name in repeats.metrics), count)
+        table.add_row(*values, *(row.shown(name) for name in repeats.metrics), count)
     return table
 
 

@@ -150,7 +150,7 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
     """
     text, _, names = str(path).partition(":") if not Path(path).is_file() else (str(path), "", "")
     file = Path(text)
-    if file.suffix == ".label":
+    if file.suffix.lower() == ".label":
         inside = _listed(file, count)
     elif _has_names(file):
         labels = read_named_labels(file, hemisphere, count)
@@ -163,8 +163,6 @@ def read_mask(path: Path | str, count: int, hemisphere: str = "") -> NDArray[np.
             f"{file} has no named labels, {names!r} can be chosen from .label.gii, .annot and .dlabel.nii only"
         )
     else:
-        if names:
-            raise ValueError(f"{file} is a map without names of labels, {names!r} cannot be chosen: give {file} alone")
         values = read_scalars(file, hemisphere, count)
         inside = np.isfinite(values) & (values != 0)
     if inside.shape != (count,):
@@ -210,7 +208,7 @@ def mask_notes(path: Path | str, hemisphere: str = "") -> tuple[str, ...]:
 
 
 def _has_names(file: Path) -> bool:
-    return file.name.endswith(LABEL_FILES)
+    return file.name.lower().endswith(LABEL_FILES)
 
 
 def _listed(file: Path, count: int) -> NDArray[np.bool_]:

@@ -5,30 +5,20 @@ from __future__ import annotations
 import json
 import logging
 import os
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
-from dataclasses import asdict, dataclass
-from functools import cache
+from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from surfexp.lab.digests import digest
-from surfexp.lab.errors import UserError
-from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome, outcome
-from surfexp.lab.plan.plan import Leaf, Plan
-from surfexp.lab.registry.registry import plugin
-from surfexp.lab.store import store
+from surfexp.lab.plan.outcome import outcome
+from surfexp.lab.plan.plan import Plan
+from surfexp.records.leaf_changes import changes_of
+from surfexp.records.leaf_run import names_of_runs, run_of_leaf
 from surfexp.records.origin import commit
-from surfexp.records.table import DATA, Row, comparisons, short_name
-
-if TYPE_CHECKING:
-    from surfexp.records.run_content import KnownRun, RunContent, RunDataset
 
 DATABASE = "mlflow.db"
-NOTE = "mlflow.note.content"
-# what a run shows: another number writes the runs of earlier versions again
-CONTENT = 2
 PACKAGES = ("surfexp", "numpy", "scipy", "numba", "libigl", "snakemake", "hydra-core", "mlflow")
 
 
@@ -118,14 +108,14 @@ def record(plan: Plan, results: Path) -> Recording:
     parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
     outcomes = {node.key: outcome(results, node) for node in plan.stored}
     versions = _versions()
-    changes = _changes(plan, outcomes, runs)
+    changes = changes_of(plan, outcomes, runs)
     tags = {**versions, "mlflow.parentRunId": parent_id}
     page = f"#/experiments/{experiment.experiment_id}/runs/{parent_id}/artifacts/report.html"
-    names = _names(plan) if changes else {}
+    names = names_of_runs(plan) if changes else {}
     identities = written.write_runs(
         database,
         experiment,
-        ((change.run, _content(plan, results, change, outcomes, names, tags, page)) for change in changes),
+        ((change.run, run_of_leaf(plan, results, change, outcomes, names, tags, page)) for change in changes),
     )
     written.set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
     by_leaf = {run.tags["leaf"]: run.identity for run in reversed(runs) if "leaf" in run.tags}
@@ -159,146 +149,6 @@ def _way_to_write(client: Any, results: Path, location: str) -> tuple[Any, Any]:
 
 def _new_parent(client: Any, experiment: str, name: str) -> str:
     return str(client.create_run(experiment, run_name=name, tags={"leaf": "plan"}).info.run_id)
-
-
-@dataclass(frozen=True)
-class _Change:
-    """A leaf that is not recorded as it is: the stored stages before it, the run that it takes, those of older code."""
-
-    leaf: Leaf
-    upstream: tuple[str, ...]
-    state: str
-    run: str | None
-    superseded: list[str]
-
-
-def _changes(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRun]) -> list[_Change]:
-    by_leaf = {run.tags.get("leaf"): run for run in runs}
-    by_configuration: dict[str | None, list[KnownRun]] = {}
-    for run in runs:
-        by_configuration.setdefault(run.tags.get("configuration"), []).append(run)
-    states = {key: digest(asdict(item)) for key, item in outcomes.items()}
-    upstream: dict[str, tuple[str, ...]] = {}
-    changes, taken = [], set[str]()
-    for leaf in plan.leaves:
-        stored = tuple(key for key in _upstream(plan, leaf.key, upstream) if key in outcomes)
-        state = digest([[states[key] for key in stored], leaf.configuration, CONTENT])
-        same = by_configuration.get(leaf.configuration, [])
-        free = (run for run in same if run.status == "FAILED" and run.identity not in taken)
-        mine = by_leaf.get(leaf.key) or next(free, None)
-        if mine is None or mine.tags.get("state") != state:
-            identity = mine.identity if mine else None
-            others = [one.identity for one in same if one.identity != identity]
-            changes.append(_Change(leaf, stored, state, identity, others))
-            taken |= {identity} if identity else set()
-    return changes
-
-
-def _content(
-    plan: Plan,
-    results: Path,
-    change: _Change,
-    outcomes: Mapping[str, Outcome],
-    names: Mapping[str, str],
-    tags: Mapping[str, str],
-    page: str,
-) -> RunContent:
-    """What the run of a leaf shows: its options, its numbers and history, what the stages before it took.
-
-    A new run leads to the page with its row; after that its note is a person's.
-    """
-    from surfexp.records.run_content import RunContent
-
-    leaf, own = change.leaf, outcomes[change.leaf.key]
-    upstream = {key: outcomes[key] for key in change.upstream}
-    metrics = dict(own.metrics)
-    for key, item in upstream.items():
-        name = f"seconds.{plan.nodes[key].kind}"
-        metrics[name] = metrics.get(name, 0.0) + (item.seconds or 0.0)
-        metrics["peak_memory_mb"] = max(metrics.get("peak_memory_mb", 0.0), item.peak_memory_mb or 0.0)
-    kind = plan.nodes[leaf.key].kind
-    history = {} if own.failure else store.load(results, kind, leaf.key, "history") or {}
-    series = [(_safe(key), 0, value) for key, value in metrics.items()]
-    steps = history.get("iteration", [])
-    series += [
-        (f"history.{_safe(key)}", int(step), float(value))
-        for key, values in history.items()
-        if key != "iteration"
-        for step, value in zip(steps, values, strict=False)
-    ]
-    failures = [item.failure for item in upstream.values() if item.failure not in ("", NOT_COMPUTED)]
-    own_tags = {"leaf": leaf.key, "configuration": leaf.configuration, "current": "true", "state": change.state}
-    parameters = {key: str(value) for key, value in _used(plan, leaf).items()}
-    status = "FAILED" if own.failure else "FINISHED"
-    note = (
-        {} if change.run else {NOTE: f"A row of [report.html]({page}): `{leaf.key}` in the column leaf of metrics.csv."}
-    )
-    all_tags = {**tags, **own_tags, **note, "failure": "; ".join(failures)}
-    return RunContent(
-        names[leaf.key], status, own.seconds or 0.0, parameters, series, all_tags, _datasets(plan, change, results)
-    )
-
-
-def _used(plan: Plan, leaf: Leaf) -> dict[str, Any]:
-    """The options of a leaf; of one that was left to its method, what its description says of the default, or nothing."""
-    used, given = {}, plan.parameters(leaf)
-    for name, value in given.items():
-        if value is None:
-            stage, _, option = name.rpartition(".")
-            kind = stage.rpartition(".")[2]
-            value = _default(kind, str(given.get(f"{stage}.name")), option)
-        if value is not None:
-            used[name] = value
-    return used
-
-
-@cache
-def _default(kind: str, method: str, option: str) -> str | None:
-    """What the description of an option says behind "default:"; None where it says nothing, or the method is unknown."""
-    with suppress(UserError, ImportError, KeyError):
-        described = plugin(kind, method).options.model_fields[option].description or ""
-        return (described.partition("default: ")[2] and f"default: {described.partition('default: ')[2]}") or None
-    return None
-
-
-def _datasets(plan: Plan, change: _Change, results: Path) -> list[RunDataset]:
-    """The surfaces and images that a leaf was made from."""
-    from surfexp.records.run_content import RunDataset
-
-    found = []
-    for node in (plan.nodes[key] for key in change.upstream if plan.nodes[key].kind in DATA):
-        said = ", ".join(f"{name} {value}" for name, value in node.options.items() if value not in (None, "", []))
-        place = store.result_folder(results, node.kind, node.key)
-        files = ", ".join(f"{name} sha256 {value}" for name, value in node.files.items())
-        profile = json.dumps({"method": node.plugin, "options": said[:500], "files": files[:500]})
-        source = json.dumps({"uri": str(place)})
-        found.append(RunDataset(f"{node.kind} {node.plugin}", node.key[:36], source, profile))
-    return found
-
-
-def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:
-    """All stages before one, and itself; `known` are those that were asked for before."""
-    if key not in known:
-        before = dict.fromkeys(one for child in plan.nodes[key].children for one in _upstream(plan, child, known))
-        known[key] = (*before, key)
-    return known[key]
-
-
-def _names(plan: Plan) -> dict[str, str]:
-    """A name for the run of every leaf: what tells it from the others of its table, then the table among several."""
-    groups = comparisons([Row(leaf, plan.parameters(leaf), {}, None) for leaf in plan.leaves])
-    names = {}
-    for group in groups:
-        for row in group.rows:
-            known = [(name, row.parameters[name]) for name in group.varying if row.parameters.get(name) is not None]
-            parts = [str(value) if name.endswith(".name") else f"{short_name(name)} {value}" for name, value in known]
-            where = [group.title] if len(groups) > 1 else []
-            names[row.leaf.key] = " · ".join([*(parts or [row.leaf.key[:8]]), *where])[:250]
-    return names
-
-
-def _safe(name: str) -> str:
-    return "".join(c if c.isalnum() or c in "_-./ " else "_" for c in name)
 
 
 def _versions() -> dict[str, str]:

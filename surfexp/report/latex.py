@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from surfexp.records.table import Comparison, Row, format_number, short_name
-from surfexp.report.repeats import Repeats, repeats_of, spread
+from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word
 
 SPECIAL = {character: f"\\{character}" for character in "&%$#_{}"} | {
@@ -140,8 +140,9 @@ def _repeated_cells(repeats: Repeats) -> list[list[str]]:
     for row in repeats.rows:
         cells = [escape(word(row.parameters.get(name, "–"))) for name in repeats.columns]
         for name in repeats.metrics:
-            parts = [_power(text) for text in spread(row.metrics.get(name)).split(" ± ")]
-            cells.append("--" if parts == ["–"] else "$" + r" \pm ".join(parts) + "$")
+            value, _, fewer = row.shown(name).partition(" (")
+            parts = [_power(text) for text in value.split(" ± ")]
+            cells.append("--" if value == "–" else "$" + r" \pm ".join(parts) + "$" + (fewer and f" ({fewer}"))
         found.append([*cells, f"${row.solved}$" if row.solved == row.count else f"${row.solved}$ of ${row.count}$"])
     return found
 

@@ -27,12 +27,22 @@ class RepeatedRow:
         How many there are, and how many of them converged and did not fail: these are averaged.
     metrics : dict of str to (float, float)
         Mean and standard deviation (with count - 1) of each metric; the deviation of a single value is NaN.
+    known : dict of str to int
+        Over how many rows: those that are solved and whose metric is a number.
     """
 
     parameters: dict[str, Any]
     count: int
     solved: int
     metrics: dict[str, tuple[float, float]]
+    known: dict[str, int]
+
+    def shown(self, name: str) -> str:
+        """Mean and deviation of a metric as tables show them, over how many rows where those are fewer; a dash for nothing."""
+        if name not in self.metrics:
+            return "–"
+        fewer = f" (of {self.known[name]})" if self.known[name] < self.solved else ""
+        return mean_and_deviation(*self.metrics[name]) + fewer
 
 
 @dataclass(frozen=True)
@@ -78,7 +88,7 @@ def _repeated(rows: Sequence[Row], columns: Sequence[str], names: Sequence[str])
     }
     metrics = {name: (fmean(some), stdev(some) if len(some) > 1 else math.nan) for name, some in values.items() if some}
     parameters = {name: rows[0].parameters[name] for name in columns if name in rows[0].parameters}
-    return RepeatedRow(parameters, len(rows), len(solved), metrics)
+    return RepeatedRow(parameters, len(rows), len(solved), metrics, {name: len(values[name]) for name in metrics})
 
 
 def mean_and_deviation(mean: float, deviation: float) -> str:
@@ -102,11 +112,6 @@ def mean_and_deviation(mean: float, deviation: float) -> str:
     if not 1 <= digits <= LAST_PLACE:
         return f"{format_number(mean)} ± {format_number(deviation)}"
     return f"{_short_exponent(f'{mean:.{digits}e}')} ± {_short_exponent(f'{deviation:.1e}')}"
-
-
-def spread(found: tuple[float, float] | None) -> str:
-    """Mean and deviation of a metric as a table shows them; a dash for nothing."""
-    return "–" if found is None else mean_and_deviation(*found)
 
 
 def _short_exponent(text: str) -> str:

@@ -13,8 +13,10 @@ from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.surface_part import finite_mask
 from surfexp.nulls.rejection import correlations, effective_interval, p_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.null_maps import MOST_LOST, NullMaps, TooFewVerticesError, null_maps
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.own_unit import own_unit
 
 

@@ -17,8 +17,10 @@ from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.smoothing.heat_polynomial import heat_polynomial, largest_eigenvalue_bound
 from surfexp.tasks.automatic_denoising import automatically_denoised
 from surfexp.tasks.denoised_map import DenoisedMap, Evidence
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.tasks.given_map import MapLike, as_map, name_of
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.noisy_image import noisy_image
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.fidelity import Progress
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.generalised_variation import GeneralisedVariation

@@ -18,7 +18,8 @@ from surfexp.mesh.given_arrays import real_array
 from surfexp.mesh.given_numbers import real_number, real_pair
 from surfexp.smoothing.path_risk import PathRisk, path_risk
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import MapLike, SurfaceLike
+from surfexp.tasks.given_map import MapLike
+from surfexp.tasks.given_surface import SurfaceLike
 from surfexp.tasks.noisy_image import NoisyImage, noisy_image
 from surfexp.tasks.risk_curve import AT_AN_END, HEAVY_TAILS, RiskCurve
 from surfexp.variational.fitted_noise import FittedNoise

@@ -11,8 +11,8 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
 from surfexp.mesh.given_numbers import one_of, whole_number
-from surfexp.tasks.distances import embedded
-from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.embedded_surface import embedded
+from surfexp.tasks.given_surface import SurfaceLike
 from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer, of_each
 
 

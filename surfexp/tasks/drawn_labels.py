@@ -17,8 +17,8 @@ from surfexp.mesh.both_hemispheres import vertices_of
 from surfexp.mesh.coloured_labels import ColouredLabels
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.tasks.given_labels import are_labels, labels_on
-from surfexp.tasks.inputs import as_labels, as_map
+from surfexp.tasks.given_labels import are_labels, as_labels, labels_on
+from surfexp.tasks.given_map import as_map
 
 
 def known_labels(owner: Surface, given: Any) -> Any:

@@ -15,9 +15,9 @@ from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.tasks.comparison_of_maps import MapComparison
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.denoising_path import DenoisingPath
-from surfexp.tasks.distances import ModeAlignment
 from surfexp.tasks.map_colours import CENTRAL, DIVERGING, central_ends
 from surfexp.tasks.map_row import MapRow
+from surfexp.tasks.mode_alignment import ModeAlignment
 from surfexp.tasks.null_maps import NullMaps
 from surfexp.tasks.parcel_table import Parcels
 from surfexp.tasks.tested_maps import PermutationTest

@@ -11,26 +11,22 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure_surface, structures_in
+from surfexp.anatomy.aseg import LabelledStructure, read_label_volume, structure_surface
 from surfexp.anatomy.enclosed_volume import enclosed_volume
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
-from surfexp.io.mesh_patterns import MESH_PATTERNS
 from surfexp.mesh.given_numbers import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.tasks.files import read
-from surfexp.tasks.inputs import part_for
+from surfexp.tasks.fingerprint_sources import structures
+from surfexp.tasks.part_of_task import part_for
 from surfexp.tasks.surface_file import PathLike
 
-CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
-# FreeSurfer's segmentation volume: in a subject's folder, and as fMRIPrep writes it among BIDS derivatives
-SEGMENTATION, DERIVATIVE = Path("mri/aseg.mgz"), "*_desc-aseg_dseg.nii.gz"
 # the file, how many are done, how many there are
 Progress = Callable[[str, int, int], None]
-Source = Path | LabelledStructure
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -183,72 +179,3 @@ def _measure(table: Fingerprints, name: str, surface: Surface, count: int, toler
     table.complete[name] = system.complete
     if notes := (*surface.notes, *operator.notes):
         table.repairs[name] = notes
-
-
-def structures(sources: Sequence[PathLike]) -> dict[str, Source]:
-    """Return the surfaces and labelled structures of files, folders and FreeSurfer subjects, by the name of their column.
-
-    Raises
-    ------
-    ValueError
-        If a source is not there, there is no surface at all, or two have one name.
-    """
-    found: dict[str, Source] = {}
-    for given in map(_path, sources):
-        for name, source in _structures_of(given).items():
-            if name in found and found[name] != source:
-                raise ValueError(f"{found[name]} and {source} are both called {name!r}: give the folder above them")
-            found[name] = source
-    if not found:
-        given_names = ", ".join(map(str, sources))
-        raise ValueError(
-            f"no surface in {given_names}: neither surf/lh.white and the like, nor {SEGMENTATION}, nor {', '.join(MESH_PATTERNS)}"
-        )
-    return found
-
-
-def _path(given: Any) -> Path:
-    if not isinstance(given, str | Path):
-        kind = type(given).__name__
-        raise ValueError(
-            f"sources hold a {kind}, paths are needed; of surfaces in memory take sx.ShapeDNA or sx.eigenpairs"
-        )
-    return Path(given)
-
-
-def _structures_of(source: Path) -> dict[str, Source]:
-    if source.is_file():
-        return {_stem(source): source}
-    if not source.is_dir():
-        raise ValueError(f"{source} is neither a file nor a folder")
-    if _is_subject(source):
-        return _subject(source, "")
-    if subjects := sorted(filter(_is_subject, source.iterdir())):
-        return {name: found for one in subjects for name, found in _subject(one, f"{one.name} ").items()}
-    files = sorted({file for pattern in MESH_PATTERNS for file in source.rglob(pattern) if file.is_file()})
-    short = [str(file.relative_to(source).with_name(_stem(file))) for file in files]
-    whole = [str(file.relative_to(source)) for file in files]
-    names = [long if short.count(name) > 1 else name for name, long in zip(short, whole, strict=True)]
-    surfaces: dict[str, Source] = dict(zip(names, files, strict=True))
-    for volume in sorted(source.rglob(DERIVATIVE)):
-        prefix = str(volume.relative_to(source)).removesuffix(DERIVATIVE[1:])
-        surfaces |= {f"{prefix} {name}": structure for name, structure in structures_in(volume).items()}
-    return surfaces
-
-
-def _is_subject(folder: Path) -> bool:
-    return (folder / "surf").is_dir() or (folder / SEGMENTATION).is_file()
-
-
-def _subject(subject: Path, prefix: str) -> dict[str, Source]:
-    files = {name: subject / "surf" / name for name in CORTEX}
-    found: dict[str, Source] = {f"{name.replace('.', '-')}-2d": file for name, file in files.items() if file.is_file()}
-    if (subject / SEGMENTATION).is_file():
-        found |= structures_in(subject / SEGMENTATION)
-    return {f"{prefix}{name}": source for name, source in found.items()}
-
-
-def _stem(file: Path) -> str:
-    if file.suffix in (".white", ".pial"):
-        return file.name
-    return file.name.removesuffix(".surf.gii") if file.name.endswith(".surf.gii") else file.stem

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from surfexp.contract.arrays import Integers
 from surfexp.io.hemisphere import check_same_side
 from surfexp.io.label_colours import read_coloured_labels
 from surfexp.mesh.coloured_labels import coloured_as
@@ -16,7 +17,7 @@ from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.tasks.both_files import labels_of_both, labels_of_sides
-from surfexp.tasks.inputs import as_labels, sides_of
+from surfexp.tasks.given_surface import sides_of
 from surfexp.tasks.maps_of_file import vertices_of_file
 
 
@@ -160,3 +161,18 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def as_labels(surface: Surface, keys: Integers) -> Integers:
+    """Return (n,) labels on the vertices of a surface; those of a file that was repaired are carried over.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer or more.
+    """
+    if surface.file is not None and len(keys) == len(surface.file.standing):
+        keys = np.asarray(surface.file.onto_mesh(keys))
+    if len(keys) != len(surface.mesh.vertices):
+        raise ValueError(f"labels have shape {np.shape(keys)}, the surface has {len(surface.mesh.vertices)} vertices")
+    return np.asarray(keys, dtype=np.int64)

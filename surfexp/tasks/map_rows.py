@@ -15,7 +15,7 @@ from surfexp.io.map_files import side_by_side
 from surfexp.io.quantity_of_file import quantity_named
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.given_labels import are_labels, labels_on
-from surfexp.tasks.inputs import as_map, name_of
+from surfexp.tasks.given_map import as_map, name_of
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, spread_over
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.maps_of_file import MapsOfFile, have_own_names, is_pair, maps_of_file

@@ -7,7 +7,9 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.operators.fem import fem
 from surfexp.smoothing.absurd_values import refuse_absurd_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.noise_reading import ROUNDING, read_noise
 

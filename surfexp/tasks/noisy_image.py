@@ -12,7 +12,9 @@ from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, name_of, part_for
+from surfexp.tasks.given_map import MapLike, as_map, name_of
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.fitted_noise import FittedNoise
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.noise_reading import read_noise

@@ -21,7 +21,9 @@ from surfexp.nulls.variogram import variogram_pairs
 from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.spectrum.lowest_pairs import lowest_pairs
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.own_unit import own_unit
 
 NEIGHBOURS = 1000

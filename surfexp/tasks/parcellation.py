@@ -10,8 +10,10 @@ from surfexp.io.medial_wall import is_outside
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES
 from surfexp.tasks.given_labels import labels_on
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.parcel_table import Parcels
+from surfexp.tasks.part_of_task import part_for
 
 
 def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | ArrayLike) -> Parcels:

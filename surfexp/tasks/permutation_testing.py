@@ -19,7 +19,9 @@ from surfexp.mesh.given_numbers import given_threads, real_number, whole_number
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.tasks.given_labels import labels_on
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_map, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_map, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.tasks.tested_clusters import tested_maps
 from surfexp.tasks.tested_maps import PermutationTest
 

@@ -18,7 +18,7 @@ from surfexp.io.replacing import check_writable, replacing
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoising_path import DenoisingPath
-from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.given_surface import SurfaceLike
 from surfexp.tasks.shown import shown_surfaces
 
 # maps of one surface seen from one side

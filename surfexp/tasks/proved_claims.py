@@ -18,8 +18,9 @@ from surfexp.proof.claim import Claim
 from surfexp.spectrum.eigensystem import EigenSystem, measure
 from surfexp.spectrum.surface_spectrum import elements_of
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.distances import embedded_pairs
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.embedded_surface import embedded_pairs
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 
 # a shift lies where neighbouring eigenvalues differ by more, relatively; stated numbers are refused that differ by more
 CLEAR_GAP, OTHER_OPERATOR = 1e-6, 1e-6

@@ -13,7 +13,7 @@ from surfexp.proof.claim import Claim
 from surfexp.proof.page import claims_page
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.tasks.denoised_map import DenoisedMap
-from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.given_surface import SurfaceLike
 from surfexp.tasks.proved_claims import gap_claim, sign_claims, spectrum_claim
 
 

@@ -12,7 +12,7 @@ from surfexp.io.reading import read_mesh, read_mesh_file
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import Report, validate
-from surfexp.tasks.inputs import SurfaceLike, arrays_of
+from surfexp.tasks.given_surface import SurfaceLike, arrays_of
 from surfexp.tasks.repaired_surface import repaired
 
 

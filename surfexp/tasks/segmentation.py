@@ -19,7 +19,9 @@ from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.smoothing.noisy_phases import NoisyPhases, noisy_phases
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese

@@ -29,7 +29,8 @@ from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
 from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart
-from surfexp.tasks.inputs import as_map, as_surface, name_of
+from surfexp.tasks.given_map import as_map, name_of
+from surfexp.tasks.given_surface import as_surface
 from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps

@@ -15,7 +15,8 @@ from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.nodal_signature import Counting, counted_domains, zero_modes
 from surfexp.spectrum.shape_dna import Normalisation, shape_dna
 from surfexp.spectrum.surface_spectrum import graph_of
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.tasks.surface_transformer import Surfaces, SurfaceTransformer
 
 

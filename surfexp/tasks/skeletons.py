@@ -21,7 +21,9 @@ from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.nodal_signature import zero_modes
-from surfexp.tasks.inputs import MapLike, SurfaceLike, as_single_map, as_surface, part_for
+from surfexp.tasks.given_map import MapLike, as_single_map
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 from surfexp.tasks.soundness import usable_vertices
 
 # a minute and more

@@ -19,7 +19,8 @@ from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.hermitian import hermitian_pairs
 from surfexp.spectrum.lowest_pairs import lowest_pairs
 from surfexp.spectrum.single_slice import Progress
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 
 # largest residual that any request may have, and that of pairs which are right to rounding, over the norm of A
 LOOSEST, ROUNDING = 1e-2, 1e-13

@@ -18,7 +18,8 @@ from surfexp.spectrum.lowest_pairs import assembled, without_slivers
 from surfexp.spectrum.shifted_pencil import ShiftedPencil
 from surfexp.spectrum.spectrum_range import pairs_between
 from surfexp.spectrum.surface_spectrum import elements_of, surface_spectrum
-from surfexp.tasks.inputs import SurfaceLike, as_surface, part_for
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
+from surfexp.tasks.part_of_task import part_for
 
 Answer = TypeVar("Answer")
 

@@ -14,7 +14,7 @@ from sklearn.utils.validation import check_is_fitted
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.given_numbers import whole_number
 from surfexp.mesh.surface import Surface
-from surfexp.tasks.inputs import SurfaceLike
+from surfexp.tasks.given_surface import SurfaceLike
 
 Surfaces = Sequence[SurfaceLike]
 Made = TypeVar("Made")

@@ -19,7 +19,7 @@ from surfexp.mesh.surface import HEMISPHERES
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoising_path import DenoisingPath
-from surfexp.tasks.inputs import SurfaceLike, as_surface
+from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, flat_colors, is_color, spread_over
 from surfexp.tasks.path_scene import path_columns, path_scene
 from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of

@@ -4,23 +4,21 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import write_columns
-from surfexp.io.hemisphere import check_named_side, files_of_sides, hemisphere_of_name, holds_both, holds_hemisphere
+from surfexp.io.hemisphere import check_named_side, files_of_sides, holds_both
 from surfexp.io.label_colours import write_coloured_labels
 from surfexp.io.npz import write_arrays
-from surfexp.io.replacing import check_writable, replacing
-from surfexp.io.writing import ARCHIVE, WITH_MAPS, check_mesh_target, format_of, write_mesh
-from surfexp.io.written_maps import check_map_target, write_maps
+from surfexp.io.replacing import replacing
+from surfexp.io.writing import WITH_MAPS, write_mesh
+from surfexp.io.written_maps import write_maps
 from surfexp.mesh.both_hemispheres import vertices_of
-from surfexp.mesh.given_arrays import map_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_facts import SurfaceFacts
@@ -28,12 +26,13 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.common_space import CommonSpace
 from surfexp.skeleton.export import write_common_space, write_skeleton
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.given_labels import labels_of_array
-from surfexp.tasks.inputs import SurfaceLike, arrays_of, as_map, is_mesh
+from surfexp.tasks.given_map import as_map
+from surfexp.tasks.given_surface import SurfaceLike, arrays_of, is_mesh
+from surfexp.tasks.maps_of_result import maps_of
 from surfexp.tasks.parcel_table import Parcels
+from surfexp.tasks.written_targets import LABEL_SUFFIXES, left_out, side_left_out
 
-LABEL_SUFFIXES = (".label.gii", ".annot")
 # formats that hold a surface beside its maps; an archive holds either
 SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
 
@@ -111,7 +110,7 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         write_mesh(target, owner.mesh, scalars, owner.frame, owner.hemisphere, facts)
         return left_out(target, owner)
     side = surface.hemisphere if surface is not None else ""
-    unsaid = _side_left_out(target, side)
+    unsaid = side_left_out(target, side)
     table = _labels_for(target, what)
     if table is not None and (target.name.endswith(LABEL_SUFFIXES) or isinstance(what, LabelMap)):
         _check_rows(len(table.keys), surface, "labels")
@@ -189,26 +188,6 @@ def _side_of_rows(surface: Surface | None) -> str | NDArray[np.str_]:
     return np.where(_on_file(surface.right, surface), "right", "left")
 
 
-def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
-    """Return what the format of a file cannot hold of a surface, one sentence each."""
-    target = Path(path)
-    if target.suffix.lower() == ARCHIVE:
-        return ()
-    maps = {} if target.suffix.lower() in WITH_MAPS else surface.scalars
-    lost = [f"maps ({', '.join(maps)})"] if maps else []
-    lost += [f"labels ({', '.join(surface.labels)})"] if surface.labels else []
-    lost += ["mask"] if surface.mask is not None else []
-    said = [f"{target.name} does not hold {' and '.join(lost)} of the surface: they are left out."] if lost else []
-    moved = surface.frame.lost_in(format_of(target))
-    return (*said, *_side_left_out(target, surface.hemisphere), *([moved] if moved else []))
-
-
-def _side_left_out(target: Path, side: str) -> tuple[str, ...]:
-    if not side or holds_hemisphere(target) or hemisphere_of_name(target.name) == side:
-        return ()
-    return (f"{target.name} does not say the {side} hemisphere: a name that begins with {side[0]}h. would.",)
-
-
 def _on_file(values: NDArray[Any], surface: Surface | None) -> NDArray[Any]:
     """Return rows on the vertices of the file of a surface."""
     file = None if surface is None else surface.file
@@ -223,81 +202,3 @@ def _check_rows(count: int, surface: Surface | None, what: str) -> None:
     )
     if surface is not None and count not in counts:
         raise ValueError(f"{what} has {count} values, the surface has {len(surface.mesh.vertices)} vertices")
-
-
-def maps_of(what: Any) -> dict[str, Floats]:
-    """Return the maps (n,) or (n, c) that a result consists of, by name.
-
-    Raises
-    ------
-    ValueError
-        If it has none.
-    """
-    if isinstance(what, Mapping):
-        return {str(name): _written_map(values, f"map {str(name)!r}") for name, values in what.items()}
-    if isinstance(named := getattr(what, "maps", None), Mapping):
-        return dict(named)
-    if hasattr(what, "vectors"):
-        return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
-    if is_dataclass(what) and not hasattr(what, "values"):
-        held = [one.name for one in fields(what) if isinstance(getattr(what, one.name), np.ndarray)]
-        rest = f", such as one of its {', '.join(held)}" if held else ""
-        raise ValueError(
-            f"a {type(what).__name__} is no map of the surface: give an array{rest}, or a result that is one"
-        )
-    array = _written_map(getattr(what, "values", what), f"{type(what).__name__} given as a map")
-    return {what.name if isinstance(what, DenoisedMap) else "map": array}
-
-
-def _written_map(given: Any, what: str) -> Floats:
-    array = map_array(given, what)
-    if array.ndim not in (1, 2):
-        raise ValueError(f"{what} has shape {array.shape}, one row a vertex is needed")
-    return array
-
-
-def check_target(
-    path: Path | str,
-    count: int = 1,
-    channels: int = 1,
-    hemisphere: str | None = None,
-    labels: bool = False,
-    unknown: bool = False,
-) -> None:
-    """Refuse a file that maps on a surface cannot be written to, before anything is computed.
-
-    Parameters
-    ----------
-    path : path
-    count, channels : int
-        Of the maps.
-    hemisphere : {"", "left", "right", "both"}, optional
-        Of the maps; None if it is not known yet.
-    labels : bool
-        Whether formats of labels are among those that are known.
-    unknown : bool
-        Whether the maps are NaN somewhere.
-
-    Raises
-    ------
-    ValueError
-        If the format is unknown or too narrow, the folder is missing, or it cannot be written to.
-    """
-    target = Path(path)
-    if target.suffix.lower() in WITH_MAPS or (labels and target.name.endswith(LABEL_SUFFIXES)):
-        check_named_side(target, hemisphere or "")
-        check_writable(target)
-    else:
-        check_map_target(target, count, channels, hemisphere, unknown)
-
-
-def check_surface_target(path: Path | str, hemisphere: str = "") -> None:
-    """Refuse a file that a surface of a hemisphere cannot be written to.
-
-    Raises
-    ------
-    ValueError
-        As `check_mesh_target`, or if it is named as the other hemisphere.
-    """
-    check_mesh_target(path)
-    check_named_side(Path(path), hemisphere)

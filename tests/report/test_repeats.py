@@ -62,6 +62,14 @@ def test_a_metric_that_nobody_has_is_a_dash() -> None:
     assert found.rows[0].metrics["psnr"] == (20.0, 0.0)
 
 
+def test_a_mean_over_fewer_rows_says_over_how_many() -> None:
+    rows = [row(k, "fem", 1.0 + k, psnr=math.nan if k < 2 else 20.0 + k) for k in range(5)]
+    found = repeats_of(group(rows))
+    assert found is not None and found.rows[0].solved == 5
+    assert found.rows[0].shown("psnr") == "23.0 ± 1.0 (of 3)" and found.rows[0].shown("rmse") == "3.0 ± 1.6"
+    assert r"$23.0 \pm 1.0$ (of 3)" in latex_table(group(rows), "t", "surfexp run")
+
+
 @given(st.floats(-1e12, 1e12, allow_subnormal=False), st.floats(1e-12, 1e12, allow_subnormal=False, exclude_min=True))
 def test_the_shown_mean_is_within_a_twentieth_of_the_deviation_or_four_digits(mean: float, deviation: float) -> None:
     shown = mean_and_deviation(mean, deviation).replace("\u202f", "").replace("−", "-")

@@ -14,7 +14,7 @@ from surfexp.mesh.shapes.ellipsoid import ellipsoid
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
-from surfexp.tasks.inputs import as_surface
+from surfexp.tasks.given_surface import as_surface
 
 BODY = ellipsoid(semiaxes=(1.0, 1.3, 1.7), levels=2).mesh
 V, F = BODY.vertices, BODY.faces

@@ -14,6 +14,7 @@ import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.fingerprint_sources import structures
 
 BODY = sx.shape("ellipsoid", levels=3)
 
@@ -176,3 +177,15 @@ def test_the_summary_names_the_largest_residual(working_folder: Path) -> None:
     table = sx.fingerprint(".", 10)
     table = replace(table, residuals=dict(zip(table.residuals, (3e-9, 5e-12), strict=True)))
     assert "3e-09" in repr(table) and "5e-12" not in repr(table)
+
+
+def test_surfaces_of_one_name_are_told_apart_by_their_paths(subjects: Path) -> None:
+    files = [subjects / person / "surf" / "lh.white" for person in ("anna", "bela")]
+    assert set(structures(files)) == {"anna/surf/lh.white", "bela/surf/lh.white"}
+    people = structures([subjects / "anna", subjects / "bela"])
+    assert people.items() <= structures([subjects]).items()
+    assert {"anna lh-white-2d", "bela lh-white-2d"} <= set(people)
+    beside = subjects / "ball.ply"
+    sx.write(beside, BODY)
+    sx.write(subjects / "ball.off", BODY)
+    assert list(structures([beside, files[0], subjects / "ball.off", beside])) == ["ball.ply", "lh.white", "ball.off"]

@@ -10,7 +10,7 @@ import pytest
 import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.mesh.surface import Surface
-from surfexp.tasks.inputs import as_map
+from surfexp.tasks.given_map import as_map
 from surfexp.tasks.map_rows import rows_of_maps
 from surfexp.tasks.shown import shown_surfaces
 
