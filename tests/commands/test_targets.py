@@ -57,7 +57,7 @@ def test_a_target_that_cannot_be_written_is_refused_at_once(
         monkeypatch.setattr(f"surfexp.tasks.{function}", never)
     for function in (
         "distances.distance",
-        "distances.align",
+        "mode_alignment.align",
         "fingerprints.fingerprint",
         "permutation_testing.permutation_test",
     ):
