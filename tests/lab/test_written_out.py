@@ -13,6 +13,7 @@ import yaml
 from surfexp.commands.request import plan_and_act
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.claim import Claim, read_claims
+from surfexp.lab.experiment.configuration import expand, settings_of
 from surfexp.lab.experiment.written_out import named, written_out
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.registry.folders import experiments
@@ -270,8 +271,6 @@ MISTAKES: dict[str, tuple[dict[str, Any], str]] = {
     "level": ({"datasets": {"a": [{"grid": {"surface.x": ["b"]}, "level": "surface.x"}]}}, "the level is 'b'"),
     "level word": ({"datasets": {"a": [{"grid": {"surface.x": [1]}, "level": "high"}]}}, "the level is 'high'"),
     "stage": ({"datasets": {"a": [{"grid": {"surfaces.x": [1]}}]}}, "did you mean 'surface'"),
-    "labels": ({"datasets": {"a": [{"grid": {"surface.x": [1]}}] * 2}}, "two items are 'x 1'"),
-    "values": ({"datasets": {"a": [{"grid": {"surface.x": [1, 1]}}]}}, "leave one of two equal values out"),
     "seed": ({"datasets": {"a": [{"repeat": {"surface.x": 2}}]}}, "'surface.x' is no seed"),
     "figures": ({"figures": 3}, "a list of figures"),
     "claims": ({"claims": {"a": 1}}, "a list of claims"),
@@ -287,6 +286,23 @@ def test_a_mistake_is_refused_with_its_name(given: tuple[dict[str, Any], str]) -
     configuration, said = given
     with pytest.raises(UserError, match=said):
         written_out(named(configuration, "mine"))
+
+
+@pytest.mark.parametrize(
+    ("items", "said"),
+    [
+        ([{"label": "cup", "surface": "torus"}, {"label": "cup", "class": "a"}], "2 items are called 'cup'"),
+        ([{"label": "1"}, {"surface": "torus"}], "2 items are called '1'"),
+        ([{"label": 7}, {"label": "7"}], "2 items are called '7'"),
+        ([{"grid": {"surface.x": [1]}}] * 2, "2 items are called 'x 1'.*tell grids apart"),
+        ([{"grid": {"surface.x": [1, 1]}}], "leave out one of two equal values"),
+    ],
+)
+def test_items_of_one_label_are_refused_however_they_are_written(items: list[dict[str, Any]], said: str) -> None:
+    with pytest.raises(UserError, match=f"dataset a: .*{said}"):
+        settings_of(written_out({"datasets": {"a": items}}))
+    with pytest.raises(UserError, match="dataset a"):  # in a variant, whose datasets are those of its own rows
+        settings_of(expand({"variants": [{"datasets": written_out({"datasets": {"a": items}})["datasets"]}]})[0])
 
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "experiments.md"

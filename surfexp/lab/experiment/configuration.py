@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, ValidationError
@@ -59,9 +60,21 @@ def settings_of(configuration: Mapping[str, Any]) -> Settings:
             )
     check_known("configuration key", configuration, [*Settings.model_fields, *KINDS])
     try:
-        return Settings(**{key: value for key, value in configuration.items() if key in Settings.model_fields})
+        settings = Settings(**{key: value for key, value in configuration.items() if key in Settings.model_fields})
     except ValidationError as error:
         raise UserError(one_line("configuration", error)) from None
+    for name, items in settings.datasets.items():
+        _check_labels(name, items)
+    return settings
+
+
+def _check_labels(name: str, items: Sequence[Mapping[str, Any]]) -> None:
+    """Refuse a dataset in which two items have one label: a method would get one of them."""
+    labels = Counter(item.get("label", str(number)) for number, item in enumerate(items))
+    for label, count in labels.items():
+        if count > 1:
+            ways = "give each a label of its own, leave out one of two equal values, or tell grids apart by class: WORD"
+            raise UserError(f"dataset {name}: {count} items are called {label!r}; {ways}")
 
 
 def one_line(where: str, error: ValidationError) -> str:

@@ -45,7 +45,7 @@ def datasets_written_out(configuration: Configuration) -> Configuration:
     Raises
     ------
     UserError
-        If a fact names an option that the grid does not have, a level is no number, or two items have one label.
+        If a fact names an option that the grid does not have, or a level is no number.
 
     Examples
     --------
@@ -110,14 +110,6 @@ def _items(name: str, items: list[Any], configuration: Configuration) -> list[It
             found += _of_a_grid(name, item, configuration)
         else:
             found.append({"label": str(number), **item})
-    labels: set[str] = set()
-    for item in found:
-        if (label := str(item["label"])) in labels:
-            raise UserError(
-                f"dataset {name}: two items are {label!r}; leave one of two equal values out, or tell the grids apart by "
-                "class: WORD"
-            )
-        labels.add(label)
     return found
 
 
