@@ -1,8 +1,8 @@
-"""Which leaves of a plan are not recorded as they are."""
+"""Which leaves of a plan are not recorded as they are, and which runs are no longer those of its leaves."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 
 from surfexp.lab.digests import digest
@@ -16,13 +16,12 @@ CONTENT = 2
 
 @dataclass(frozen=True)
 class LeafChange:
-    """A leaf that is not recorded as it is: the stored stages before it, the run that it takes, those of older code."""
+    """A leaf that is not recorded as it is: the stored stages before it, and the run that it takes."""
 
     leaf: Leaf
     upstream: tuple[str, ...]
     state: str
     run: str | None
-    superseded: list[str]
 
 
 def changes_of(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[KnownRun]) -> list[LeafChange]:
@@ -42,10 +41,25 @@ def changes_of(plan: Plan, outcomes: Mapping[str, Outcome], runs: Sequence[Known
         mine = by_leaf.get(leaf.key) or next(free, None)
         if mine is None or mine.tags.get("state") != state:
             identity = mine.identity if mine else None
-            others = [one.identity for one in same if one.identity != identity]
-            changes.append(LeafChange(leaf, stored, state, identity, others))
+            changes.append(LeafChange(leaf, stored, state, identity))
             taken |= {identity} if identity else set()
     return changes
+
+
+def wrongly_tagged(plan: Plan, identities: Mapping[str, str], runs: Iterable[KnownRun]) -> dict[str, list[str]]:
+    """The runs whose tag `current` is not right, by what it is to be.
+
+    Of the runs of one configuration those of the plan's leaves are current, whichever code was recorded last; `identities`
+    are the runs of leaves by their keys.
+    """
+    current = {identities[leaf.key] for leaf in plan.leaves}
+    configurations = {leaf.configuration for leaf in plan.leaves}
+    wrong: dict[str, list[str]] = {"true": [], "false": []}
+    for run in runs:
+        right = "true" if run.identity in current else "false"
+        if run.tags.get("configuration") in configurations and run.tags.get("current") != right:
+            wrong[right].append(run.identity)
+    return wrong
 
 
 def _upstream(plan: Plan, key: str, known: dict[str, tuple[str, ...]]) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from typing import Any
 from surfexp.lab.digests import digest
 from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
-from surfexp.records.leaf_changes import changes_of
+from surfexp.records.leaf_changes import changes_of, wrongly_tagged
 from surfexp.records.leaf_run import names_of_runs, run_of_leaf
 from surfexp.records.origin import commit
 
@@ -79,7 +79,7 @@ def record(plan: Plan, results: Path) -> Recording:
     """Create or update one run a leaf, below one parent run for the experiment; a second call changes nothing.
 
     A run belongs to (experiment, leaf key). A leaf whose earlier run failed takes that run over; a run of the same
-    configuration under older code keeps a tag `current=false`.
+    configuration under other code has the tag `current=false`, until that code is run again.
     """
     os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
     os.environ.setdefault("MLFLOW_LOGGING_LEVEL", "WARNING")
@@ -103,7 +103,7 @@ def record(plan: Plan, results: Path) -> Recording:
     if experiment.artifact_location != location:
         written.relocate(database, experiment, location)
         experiment = client.get_experiment(experiment.experiment_id)
-    runs = written.known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state"))
+    runs = written.known_runs(database, experiment.experiment_id, ("leaf", "configuration", "state", "current"))
     parent = next((run for run in runs if run.tags.get("leaf") == "plan"), None)
     parent_id = parent.identity if parent else _new_parent(client, experiment.experiment_id, name)
     outcomes = {node.key: outcome(results, node) for node in plan.stored}
@@ -117,9 +117,12 @@ def record(plan: Plan, results: Path) -> Recording:
         experiment,
         ((change.run, run_of_leaf(plan, results, change, outcomes, names, tags, page)) for change in changes),
     )
-    written.set_tag(database, [run for change in changes for run in change.superseded], "current", "false")
     by_leaf = {run.tags["leaf"]: run.identity for run in reversed(runs) if "leaf" in run.tags}
     by_leaf |= {change.leaf.key: run for change, run in zip(changes, identities, strict=True)}
+    rewritten = {change.run for change in changes}
+    others = [run for run in runs if run.identity not in rewritten]
+    for value, wrong in wrongly_tagged(plan, by_leaf, others).items():
+        written.set_tag(database, wrong, "current", value)
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
     state = (sorted(leaf.key for leaf in plan.leaves), failed)
     own_tags = {"plan": plan.identity, **versions}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import math
@@ -23,6 +24,7 @@ from surfexp.lab.plan.outcome import event_path
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
 from surfexp.records import run_client, run_content, run_database, tracking
+from surfexp.records.leaf_run import names_of_runs
 from surfexp.records.run_names import run_names, run_place
 from surfexp.report.page import write_report
 
@@ -256,8 +258,8 @@ def test_names_tell_runs_apart_and_durations_are_those_of_the_computation(result
 def test_a_run_says_which_table_it_is_in_where_there_are_several(results: Path) -> None:
     tables = [{"comparison": "one", "operator": "fem"}, {"comparison": "other", "operator": "libigl"}]
     plan = plan_of({**sweep(2), "variants": tables}, results)
-    assert {name.rpartition(" · ")[2] for name in tracking._names(plan).values()} == {"one", "other"}
-    assert len(set(tracking._names(plan).values())) == len(plan.leaves) == 4
+    assert {name.rpartition(" · ")[2] for name in names_of_runs(plan).values()} == {"one", "other"}
+    assert len(set(names_of_runs(plan).values())) == len(plan.leaves) == 4
 
 
 def test_a_run_of_older_code_is_kept_and_no_longer_current(results: Path) -> None:
@@ -271,8 +273,29 @@ def test_a_run_of_older_code_is_kept_and_no_longer_current(results: Path) -> Non
     after = recorded(plan, results)
     assert len(after) == 4
     assert after[newer].info.run_id != before[key].info.run_id
-    currents = {leaf: run.data.tags.get("current") for leaf, run in after.items()}
-    assert currents == {"plan": None, key: "false", newer: "true", plan.leaves[1].key: "true"}
+    assert currents(after) == {"plan": None, key: "false", newer: "true", plan.leaves[1].key: "true"}
+
+
+@pytest.mark.parametrize("way", ["tables", "client"])
+def test_the_current_run_is_that_of_the_code_that_was_run_last(
+    results: Path, monkeypatch: pytest.MonkeyPatch, way: str
+) -> None:
+    if way == "client":
+        monkeypatch.setattr(tracking, "_way_to_write", lambda client, *given: (run_client, client))
+    plan = finished(2, results)
+    edited = copy.deepcopy(plan)
+    key, newer = plan.leaves[0].key, "f" * 20
+    edited.nodes[newer] = replace(edited.nodes.pop(key), key=newer)
+    edited.leaves[0].key = newer
+    fill(edited, results)
+    beside = {"plan": None, plan.leaves[1].key: "true"}
+    for shown, left in ((plan, None), (edited, key), (plan, newer), (plan, newer), (edited, key)):
+        after = recorded(shown, results)
+        assert currents(after) == beside | {shown.leaves[0].key: "true"} | ({left: "false"} if left else {})
+
+
+def currents(found: dict[str, Any]) -> dict[str, str | None]:
+    return {leaf: run.data.tags.get("current") for leaf, run in found.items()}
 
 
 INSIDES = ["mlflow.store.tracking.dbmodels.models", "mlflow.store.tracking.sqlalchemy_store", "mlflow.utils.uri"]
