@@ -1,10 +1,11 @@
-"""`surfexp clean`: remove results that no longer belong to a plan."""
+"""`surfexp clean`: remove results that belong to no plan."""
 
 from __future__ import annotations
 
 import shutil
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -12,34 +13,41 @@ from surfexp.commands.click_command import results_option, shown
 from surfexp.commands.terminal import echo
 from surfexp.lab.errors import UserError
 
+if TYPE_CHECKING:
+    from surfexp.lab.plan.plan import Plan
+
 # what runs make below a results folder, which may hold other files as well
-MADE = ("store/*/*", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log", "logs/*/*.log",
-        "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
+MADE = ("store/*/*", "store/KEYS", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log",
+        "logs/*/*.log", "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
 
 
-@click.command(**shown("clean", "", "--all --yes", cls=click.Command))
+@click.command(**shown("clean", "", "--older", "--all --yes", cls=click.Command))
+@click.option("--older", is_flag=True, help="remove plans of older code first, whose rows were planned again since")
 @click.option("--all", "everything", is_flag=True, help="remove every result, plan, log and the dashboard's runs")
 @click.option("--yes", is_flag=True, help="do not ask")
 @results_option
-def clean(everything: bool, yes: bool, results: Path) -> None:
+def clean(older: bool, everything: bool, yes: bool, results: Path) -> None:
     """Remove stored results that no plan names.
 
-    These are results of older code and options. It is asked first.
+    It is asked first. Every run leaves its plan as FOLDER/plans/EXPERIMENT-KEY.json: remove one by hand to give up what it
+    alone names.
     """
     from surfexp.commands.execution import hold_results
 
     if not (results / "store").exists():
         raise UserError(f"{results} holds no stored results")
     hold_results(results)
-    found = _everything(results) if everything else _unplanned(results)
+    found = _everything(results) if everything else _unplanned(results, older)
     doomed = [path for path in found if _is_below(path, results)]
     if left := [path for path in found if path not in doomed]:
         echo(f"left alone: {len(left)} entries that lie elsewhere, behind links, as {left[0]}", err=True)
     if not doomed:
-        echo("nothing to remove: every stored result belongs to the latest plan of its experiment")
+        echo("nothing to remove: plans name every stored result" + ("" if older else "; --older removes older plans"))
         return
     size = sum(file.lstat().st_size for path in doomed for file in ([path] if path.is_file() else path.rglob("*")))
-    echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}")
+    given_up = sorted({_experiment(path) for path in doomed if path.parent == results / "plans"})
+    of = f", with plans of {', '.join(given_up)}" if given_up else ", which no plan names"
+    echo(f"{len(doomed)} entries, {size / 1e6:.1f} MB, below {results}{of}")
     if not yes and (not sys.stdin.isatty() or not click.confirm("remove them?")):
         echo("nothing removed; --yes removes without asking")
         return
@@ -58,7 +66,7 @@ def _is_below(path: Path, results: Path) -> bool:
 def _everything(results: Path) -> list[Path]:
     from surfexp.report.overview import is_ours
 
-    experiments = {file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
+    experiments = {_experiment(file) for file in (results / "plans").glob("*.json")}
     pages = [results / name for name in experiments if (results / name / "report.html").is_file()]
     overview = [page for page in [results / "index.html"] if is_ours(page)]
     return [path for pattern in MADE for path in results.glob(pattern)] + pages + overview
@@ -74,11 +82,34 @@ def _without_content(results: Path) -> list[Path]:
     ]
 
 
-def _unplanned(results: Path) -> list[Path]:
+def _unplanned(results: Path, older: bool) -> list[Path]:
+    """Stored results that no plan names, and older plans if they are not to count."""
+    files = sorted((results / "plans").glob("*.json"), key=lambda file: file.stat().st_mtime)
+    plans = {file: _read(file) for file in files}
+    latest = {(_experiment(file), _asked(plan)): file for file, plan in plans.items()}
+    dropped = set(plans) - set(latest.values()) if older else set[Path]()
+    kept = {key for file, plan in plans.items() if file not in dropped for key in plan.nodes}
+    return [*dropped, *(folder for folder in (results / "store").glob("*/*") if folder.name not in kept)]
+
+
+def _experiment(plan: Path) -> str:
+    return plan.stem.rpartition("-")[0]
+
+
+def _asked(plan: Plan) -> frozenset[str]:
+    """What a plan is asked for, whatever the code: the options of its rows and figures."""
+    from surfexp.lab.digests import digest
+    from surfexp.lab.plan.plan import flat_parameters
+
+    ends = [key for leaf in plan.leaves for key in (leaf.key, *leaf.figures)]
+    return frozenset(digest(flat_parameters(plan.nodes, key)) for key in ends)
+
+
+def _read(file: Path) -> Plan:
     from surfexp.lab.plan.plan import read_plan
 
-    latest: dict[str, Path] = {}
-    for file in sorted((results / "plans").glob("*.json"), key=lambda file: file.stat().st_mtime):
-        latest[file.stem.rpartition("-")[0]] = file
-    kept = {key for file in latest.values() for key in read_plan(file).nodes}
-    return [folder for folder in (results / "store").glob("*/*") if folder.name not in kept]
+    try:
+        return read_plan(file)
+    except (ValueError, KeyError, TypeError, IndexError, OSError) as error:
+        reason = f"{type(error).__name__}: {' '.join(str(error).split())[:80]}"
+        raise UserError(f"plan {file} cannot be read ({reason}): remove it to give up what it alone names") from None

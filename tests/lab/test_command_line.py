@@ -296,11 +296,15 @@ def test_a_new_plugin_is_listed(laboratory: Path) -> None:
 
 
 @pytest.mark.slow
-def test_clean_keeps_what_the_latest_plan_names(laboratory: Path) -> None:
+def test_clean_keeps_what_plans_name(laboratory: Path) -> None:
     surfexp("run", "experiment=chain")
-    kept = store_bytes(laboratory)
+    kept, plans = store_bytes(laboratory), {*(laboratory / "results" / "plans").iterdir()}
     surfexp("run", "experiment=chain", "surface.size=2.0")
-    surfexp("run", "experiment=chain")
+    both = store_bytes(laboratory)
+    surfexp("clean", "--older", "--yes")
+    assert store_bytes(laboratory) == both != kept
+    for plan in {*(laboratory / "results" / "plans").iterdir()} - plans:
+        plan.unlink()
     surfexp("clean", "--yes")
     assert store_bytes(laboratory) == kept
     surfexp("clean", "--all", "--yes")

@@ -46,7 +46,7 @@ def note_on_older_keys(results: Path) -> str:
     older = any((results / "store").glob(f"*/*/{RECORD}"))
     write_text(marker, KEYS)
     said = f"results in {results / 'store'} have keys of an earlier version and are computed again"
-    return f"{said}; `surfexp clean` removes the old ones" if older else ""
+    return f"{said}; `surfexp clean --older` removes the old ones" if older else ""
 
 
 def write_text(path: Path, text: str) -> None:
