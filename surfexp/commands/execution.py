@@ -48,13 +48,17 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
     hold_results(results, wait=True)
     _warn([store.note_on_older_keys(results)])
     path = plan.write(results)
-    tried = set[str]()
+    tried, stages = set[str](), [(node.kind, node.key) for node in plan.stored]
+    store.take_back(results, stages)  # of a run that was killed
     # A stage that finds an input damaged removes it: that result is missing then, and the next round computes it.
     while (missing := unfinished(plan, results)) and not tried.issuperset(missing):
-        clear(plan, results, missing)
         tried |= missing.keys()
-        _warn(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
-        _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
+        try:
+            clear(plan, results, missing)
+            _warn(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
+            _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
+        finally:
+            store.take_back(results, stages)
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
         _warn(warning for event in events for warning in event.get("warnings", ()))
     finish(path, plan, arguments, bool(tried))
@@ -94,17 +98,22 @@ def unfinished(plan: Plan, results: Path) -> dict[str, str]:
     In benchmark mode, a leaf that was not measured alone is among them.
     """
     leaves = [plan.nodes[leaf.key] for leaf in plan.leaves] if plan.settings.timing else []
-    untimed = {node.key: "" for node in leaves if not read_event(results, node.kind, node.key).get("alone")}
+    events = {node.key: read_event(results, node.kind, node.key) for node in leaves}
+    untimed = {key: "" for key, event in events.items() if event.get("failure") or not event.get("alone")}
     return untimed | store.faults(results, [(node.kind, node.key) for node in plan.stored])
 
 
 def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
-    """Remove what is left of unfinished stages: damaged results, which are named, and the traces of earlier runs."""
+    """Remove what is left of unfinished stages: damaged results, which are named, and the traces of earlier runs.
+
+    Sound results that are to be measured again are set aside.
+    """
     lines = []
     for key, fault in missing.items():
         kind = plan.nodes[key].kind
         lines += [fault] if fault else [read_event(results, kind, key).get("damage", "")]
-        store.discard(results, kind, key)
+        is_sound = not fault and store.is_done(results, kind, key)
+        (store.set_aside if is_sound else store.discard)(results, kind, key)
         for suffix in (".json", ".progress"):
             event_path(results, kind, key).with_suffix(suffix).unlink(missing_ok=True)
     lines = [line for line in lines if line]

@@ -193,6 +193,36 @@ def test_where_clocks_matter_a_leaf_is_measured_alone_and_once(run: Run, plan: P
     assert run() == []
 
 
+def test_a_result_that_is_measured_again_is_kept_until_the_new_one_is_there(
+    run: Run, plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run()
+    results = Path(plan.settings.results)
+    sound = store_bytes(results)
+    timed = plan.settings.model_copy(update={"timing": True})
+    plain, plan.settings = plan.settings, timed
+    with monkeypatch.context() as interrupted:
+        interrupted.setattr(execution, "_snakemake", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            run()
+    assert store_bytes(results) == sound
+    module = sys.modules[registry.plugin("pairing", "toy_distance").function.__module__]
+    with monkeypatch.context() as failing, pytest.raises(StageFailure, match="division by zero"):
+        failing.setattr(module, "Pairing", lambda *values, **metrics: 1 / 0)
+        run()
+    assert store_bytes(results) == sound
+    execution.clear(plan, results, execution.unfinished(plan, results))  # killed with nothing but that done
+    assert store_bytes(results) != sound
+    plan.settings = plain
+    assert run() == [] and store_bytes(results) == sound
+    plan.settings = timed
+    assert run() == ["toy_distance"] and run() == [] and store_bytes(results) == sound
+
+
+def interrupt(*given: Any) -> None:
+    raise KeyboardInterrupt
+
+
 def test_a_failure_is_told_once_and_not_tried_twice(run: Run, plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
     module = sys.modules[registry.plugin("pairing", "toy_distance").function.__module__]
     monkeypatch.setattr(module, "Pairing", lambda *values, **metrics: 1 / 0)

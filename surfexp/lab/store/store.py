@@ -21,7 +21,7 @@ from surfexp.lab.errors import DamagedResult
 from surfexp.lab.store.result_tree import decoded, encoded
 
 HOST = os.uname().nodename  # processes of two machines that share a folder may have one number
-RECORD, ARRAYS = "record.json", "arrays.npz"
+RECORD, ARRAYS, ASIDE = "record.json", "arrays.npz", "record.aside.json"
 # how keys are made; another word means that no key of before is one of now
 KEYS = "of what computes"
 SEAL = ',\n "sha256": "{}"\n}}\n'
@@ -168,6 +168,22 @@ def faults(results: Path, stages: Iterable[tuple[str, str]], anew: bool = False)
 def discard(results: Path, kind: str, key: str) -> None:
     """Remove a result and what an interrupted stage left beside it."""
     shutil.rmtree(result_folder(results, kind, key), ignore_errors=True)
+
+
+def set_aside(results: Path, kind: str, key: str) -> None:
+    """Let a sound result count as missing while it is made again; `take_back` ends that."""
+    folder = result_folder(results, kind, key)
+    (folder / RECORD).rename(folder / ASIDE)
+
+
+def take_back(results: Path, stages: Iterable[tuple[str, str]]) -> None:
+    """Let results that were set aside count again where no new one has taken their places, as after an interruption."""
+    for kind, key in stages:
+        aside = result_folder(results, kind, key) / ASIDE
+        if is_done(results, kind, key):
+            aside.unlink(missing_ok=True)
+        elif aside.exists():
+            aside.rename(aside.with_name(RECORD))
 
 
 def _seal(body: bytes) -> bytes:
