@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from surfexp.commands.error_line import tell
@@ -18,11 +19,17 @@ def apart(arguments: Sequence[str]) -> list[list[str]]:
     for place, text in enumerate(arguments):
         key, _, value = text.partition("=")
         names = [name.strip() for name in value.split(",")]
-        if key == "experiment" and len(names) > 1 and all(name.isidentifier() for name in names):
+        if key == "experiment" and len(names) > 1 and all(map(_can_be_a_name, names)):
             return [
                 [*arguments[:place], f"experiment={name}", *arguments[place + 1 :]] for name in dict.fromkeys(names)
             ]
     return [list(arguments)]
+
+
+def _can_be_a_name(text: str) -> bool:
+    from surfexp.lab.experiment.configuration import NAME
+
+    return re.fullmatch(NAME, text) is not None
 
 
 def each(run: Callable[[list[str]], int], requests: list[list[str]]) -> int:
