@@ -132,7 +132,8 @@ def _markup(results: Path) -> None:
     for file in results.glob("plans/small-*.json"):
         file.write_text(file.read_text().replace("Small & quick", MARKUP))
     (results / "small" / "summary.json").write_text(json.dumps({"title": MARKUP, "question": MARKUP}))
-    (results / "small" / "origin.json").write_text(json.dumps({"command": MARKUP, "date": MARKUP}))
+    for file in results.glob("small/origin/*.json"):
+        file.write_text(json.dumps({"command": MARKUP, "date": MARKUP}))
 
 
 def _links(results: Path) -> None:

@@ -210,15 +210,17 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
     results = path.parent.parent
     if is_finished(path, plan):
         return
-    views, state, done = results / plan.settings.experiment, _state(path, plan, results), _done(results, plan)
-    from surfexp.records.origin import forget_origin, write_origin
+    state, done = _state(path, plan, results), _done(results, plan)
+    from surfexp.records.origin import forget_origin, note_origin
     from surfexp.records.tracking import record
     from surfexp.report.page import write_report  # which draws with matplotlib
 
     done.unlink(missing_ok=True)
     with _told("the report is not written"):
-        if computed:
-            write_origin(views, arguments) if arguments is not None else forget_origin(views)
+        if arguments is not None:
+            note_origin(results, plan, arguments, computed)
+        elif computed:
+            forget_origin(results, plan)
         recording = None
         with _told("runs are not recorded in MLflow"):  # before the page, which leads to them
             recording = record(plan, results)

@@ -55,7 +55,7 @@ def _print(plan: Plan, results: Path, form: str) -> None:
     from surfexp.report.latex import latex_table
 
     experiment = plan.settings.experiment
-    made_by = read_origin(results / experiment).get("command", f"surfexp run experiment={experiment}")
+    made_by = read_origin(results, plan).get("command", f"surfexp run experiment={experiment}")
     for count, group in enumerate(groups, 1):
         group.metrics = declared_by(plan, group.rows)
         echo(latex_table(group, f"{experiment}-{count}", made_by))

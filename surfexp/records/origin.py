@@ -1,4 +1,4 @@
-"""Where the results of a page come from: command, date, versions and machine of the last computation."""
+"""Where the results of a plan come from: its command, and date, versions and machine of the last computation."""
 
 from __future__ import annotations
 
@@ -12,38 +12,53 @@ from contextlib import suppress
 from datetime import datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
+from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
 
-FILE = "origin.json"
 KEYS = ("command", "date", "version", "python", "commit", "machine")
 
 
-def write_origin(folder: Path, arguments: Sequence[str]) -> None:
-    """Note beside a report how its results were just made: by `surfexp run` with these arguments."""
-    origin = {
-        "command": shlex.join(["surfexp", "run", *arguments]),
+def note_origin(results: Path, plan: Plan, arguments: Sequence[str], computed: bool) -> None:
+    """Note which command asks for a plan: `surfexp run` with these arguments; and where its results were just computed.
+
+    Where nothing was computed, what is known of the plan stays.
+    """
+    file, command = _file(results, plan), shlex.join(["surfexp", "run", *arguments])
+    if computed or not (file.exists() or read_origin(results, plan).get("command") == command):
+        store.write_text(file, json.dumps({"command": command} | (_here() if computed else {}), indent=1))
+
+
+def read_origin(results: Path, plan: Plan) -> dict[str, str]:
+    """What `note_origin` noted, as text; empty where nothing was noted, as by plain Snakemake.
+
+    Earlier versions kept one note for all plans of an experiment.
+    """
+    for file in (_file(results, plan), results / plan.settings.experiment / "origin.json"):
+        with suppress(OSError, ValueError, TypeError, RecursionError):
+            found = dict(json.loads(file.read_text()))
+            return {key: str(found[key]).encode(errors="replace").decode() for key in KEYS if key in found}
+    return {}
+
+
+def forget_origin(results: Path, plan: Plan) -> None:
+    """Remove what was noted: something was computed in another way since."""
+    _file(results, plan).unlink(missing_ok=True)
+    (results / plan.settings.experiment / "origin.json").unlink(missing_ok=True)
+
+
+def _file(results: Path, plan: Plan) -> Path:
+    return results / plan.settings.experiment / "origin" / f"{plan.identity}.json"
+
+
+def _here() -> dict[str, str]:
+    return {
         "date": datetime.now().isoformat(" ", "minutes"),
         "version": version("surfexp"),
         "python": platform.python_version(),
         "commit": commit(),
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} processors",
     }
-    store.write_text(folder / FILE, json.dumps(origin, indent=1))
-
-
-def read_origin(folder: Path) -> dict[str, Any]:
-    """What `write_origin` noted, as text; empty where nothing was noted, as by plain Snakemake."""
-    with suppress(OSError, ValueError, TypeError, RecursionError):
-        found = dict(json.loads((folder / FILE).read_text()))
-        return {key: str(found[key]).encode(errors="replace").decode() for key in KEYS if key in found}
-    return {}
-
-
-def forget_origin(folder: Path) -> None:
-    """Remove what was noted: something was computed in another way since."""
-    (folder / FILE).unlink(missing_ok=True)
 
 
 def commit() -> str:

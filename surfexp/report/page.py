@@ -70,7 +70,7 @@ def write_report(plan: Plan, results: Path) -> Path:
     verdicts = judge(read_claims(plan.settings.claims), rows)
     table = to_csv(rows)
     store.write_text(folder / "metrics.csv", table)
-    made = read_origin(folder)
+    made = read_origin(results, plan)
     search = search_of(rows, plan.settings.objective, made.get("command", ""))
     searched = write_search(search, folder / "figures") if search else ""
     data = as_data(table.encode(), "text/csv;charset=utf-8")

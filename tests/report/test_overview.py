@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import html
 import json
+import shlex
 from pathlib import Path
 
+import pytest
+
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.records.origin import read_origin, write_origin
+from surfexp.commands.command_line import main
+from surfexp.records.origin import note_origin, read_origin
 from surfexp.report.overview import FILE, is_ours, write_overview
 from surfexp.report.page import write_report
 
@@ -73,21 +78,39 @@ def test_an_index_of_somebody_else_is_left_alone(tmp_path: Path) -> None:
 def test_a_report_adds_its_experiment_and_says_how_it_was_made(tmp_path: Path) -> None:
     plan = plan_of(sweep(3), tmp_path)
     fill(plan, tmp_path)
-    folder = tmp_path / plan.settings.experiment
     first = (write_report(plan, tmp_path) / "report.html").read_text()
     assert "Last computed" not in first and 'href="./synthetic/report.html"' in (tmp_path / "index.html").read_text()
-    write_origin(folder, ["experiment=synthetic", "grid.x=[1, 2]"])
+    note_origin(tmp_path, plan, ["experiment=synthetic", "grid.x=[1, 2]"], computed=True)
+    (file,) = (tmp_path / plan.settings.experiment / "origin").iterdir()
     second = (write_report(plan, tmp_path) / "report.html").read_text()
-    assert (
-        "surfexp run experiment=synthetic &#39;grid.x=[1, 2]&#39;" in second and read_origin(folder)["commit"] in second
-    )
+    assert "surfexp run experiment=synthetic &#39;grid.x=[1, 2]&#39;" in second
+    assert read_origin(tmp_path, plan)["commit"] in second
     for commit, said in (
         ("0123abcd", "surfexp 1.2.3 at commit 0123abcd, Python"),
         ("release 1.2.3", "surfexp release 1.2.3, Python"),
     ):
-        origin = read_origin(folder) | {"version": "1.2.3", "commit": commit}
-        (folder / "origin.json").write_text(json.dumps(origin))
+        origin = read_origin(tmp_path, plan) | {"version": "1.2.3", "commit": commit}
+        file.write_text(json.dumps(origin))
         third = (write_report(plan, tmp_path) / "report.html").read_text()
         assert said in third and "working folder" not in third
-    (folder / "origin.json").write_text("[]")
+    file.write_text("[]")
     assert "Last computed" not in (write_report(plan, tmp_path) / "report.html").read_text()
+
+
+def test_a_command_belongs_to_the_plan_that_it_asks_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    plan, other = plan_of(sweep(2), tmp_path), plan_of({**sweep(2), "solver": "newton"}, tmp_path)
+    part = plan_of(sweep(1), tmp_path)
+    for one, asked, computed, shown, dated in [
+        (plan, "", True, "", True),
+        (other, " solver=newton", True, " solver=newton", True),
+        (plan, " cores=1", False, "", True),
+        (part, " 'solver.tolerance=[0.1]'", False, " 'solver.tolerance=[0.1]'", False),
+    ]:
+        fill(one, tmp_path)
+        one.write(tmp_path)
+        note_origin(tmp_path, one, ["experiment=synthetic", *shlex.split(asked)], computed)
+        assert main(["table", "synthetic", "--format", "latex", "--results", str(tmp_path)]) == 0
+        assert capsys.readouterr().out.startswith(f"% surfexp run experiment=synthetic{shown}\n")
+        page = html.unescape((write_report(one, tmp_path) / "report.html").read_text())
+        assert f"<code>surfexp run experiment=synthetic{shown}</code>" in page
+        assert ("Last computed" in page) == dated

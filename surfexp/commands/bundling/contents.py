@@ -66,7 +66,7 @@ def write_contents(plan: Plan, results: Path, folder: Path) -> dict[str, Any]:
     written.rename(folder / PLAN)
     written.parent.rmdir()
     _copy_results(plan, results, folder / PUBLISHED)
-    origin = read_origin(results / plan.settings.experiment)
+    origin = read_origin(results, plan)
     facts = {
         "experiment": plan.settings.experiment,
         "origin": origin,
