@@ -6,10 +6,12 @@ MLflow's client takes several transactions for each run, and each of them asks w
 
 from __future__ import annotations
 
+import json
 import time
 import uuid
 from collections.abc import Iterable, Sequence
 from itertools import islice
+from pathlib import Path
 from typing import Any
 
 from mlflow.entities import LifecycleStage, SourceType
@@ -23,6 +25,7 @@ from mlflow.store.tracking.dbmodels.models import (
     SqlRun,
     SqlTag,
 )
+from mlflow.utils.file_utils import local_file_uri_to_path
 from mlflow.utils.mlflow_tags import MLFLOW_RUN_NAME
 from mlflow.utils.uri import append_to_uri_path
 from sqlalchemy import bindparam, delete, func, insert, select, update
@@ -83,11 +86,16 @@ def write_runs(store: Any, experiment: Any, contents: Iterable[tuple[str | None,
 
 
 def relocate(store: Any, experiment: Any, location: str) -> None:
-    """Tell the runs of an experiment that their artifacts lie elsewhere: the results folder was moved."""
+    """Tell the runs of an experiment that their artifacts and data lie elsewhere: the results folder was moved."""
     before, number = experiment.artifact_location, int(experiment.experiment_id)
-    moved = func.replace(SqlRun.artifact_uri, before, location)
+    folders = [json.dumps(f"{Path(local_file_uri_to_path(uri)).parent}/")[1:-1] for uri in (before, location)]
+    changes: dict[Any, dict[str, Any]] = {
+        SqlExperiment: {"artifact_location": location},
+        SqlRun: {"artifact_uri": func.replace(SqlRun.artifact_uri, before, location)},
+        SqlDataset: {"dataset_source": func.replace(SqlDataset.dataset_source, *folders)},
+    }
     with store.ManagedSessionMaker(read_only=False) as session:
-        for table, value in ((SqlExperiment, {"artifact_location": location}), (SqlRun, {"artifact_uri": moved})):
+        for table, value in changes.items():
             session.execute(update(table).where(table.experiment_id == number).values(value))
 
 

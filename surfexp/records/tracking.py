@@ -61,14 +61,18 @@ class Recording:
         for tag, value in {**self.own_tags, "verdicts": verdicts, "state": state}.items():
             self.client.set_tag(self.parent, tag, value)
         self._keep_artifacts(views)
-        self.client.log_artifacts(self.parent, str(views))
         self.client.set_terminated(self.parent, "FAILED" if self.failed else "FINISHED")
 
     def _keep_artifacts(self, views: Path) -> None:
+        from mlflow.store.artifact.local_artifact_repo import LocalArtifactRepository
         from mlflow.utils.file_utils import local_file_uri_to_path
 
         from surfexp.records.run_artifacts import keep_artifacts
 
+        # the client remembers where artifacts of a run were before the folder was moved
+        LocalArtifactRepository(f"{self.experiment.artifact_location}/{self.parent}/artifacts").log_artifacts(
+            str(views)
+        )
         results, places = views.parent, dict[str, Any]()
         for leaf in self.plan.leaves:
             folder = Path(local_file_uri_to_path(self.experiment.artifact_location)) / self.runs[leaf.key] / "artifacts"
@@ -124,7 +128,7 @@ def record(plan: Plan, results: Path) -> Recording:
     for value, wrong in wrongly_tagged(plan, by_leaf, others).items():
         written.set_tag(database, wrong, "current", value)
     failed = any(outcomes[leaf.key].failure for leaf in plan.leaves)
-    state = (sorted(leaf.key for leaf in plan.leaves), failed)
+    state = (sorted(leaf.key for leaf in plan.leaves), failed, str(results.resolve()))
     own_tags = {"plan": plan.identity, **versions}
     known, told = parent.tags if parent else {}, tuple(line for line in said if line)
     return Recording(client, experiment, plan, by_leaf, parent_id, known, own_tags, state, failed, told)

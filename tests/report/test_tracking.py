@@ -375,8 +375,12 @@ def test_artifacts_of_a_folder_that_was_moved_are_found_again(tmp_path: Path, em
     after = recorded(plan, second)
     key = plan.leaves[0].key
     assert after[key].info.run_id == before[key].info.run_id
-    assert mlflow.artifacts.load_dict(f"{after[key].info.artifact_uri}/result.json")["result"]["key"] == key
+    where = mlflow.artifacts.load_dict(f"{after[key].info.artifact_uri}/result.json")
+    assert where["result"]["key"] == key and where["results"] == str(second)
+    assert where["export"] == f"surfexp export {key} --results {second}"
     assert str(second) in after[key].info.artifact_uri and not first.exists()
+    sources = [json.loads(item.dataset.source)["uri"] for item in after[key].inputs.dataset_inputs]
+    assert len(sources) == 2 and all(Path(source).is_relative_to(second) for source in sources)
 
 
 def test_the_client_alone_writes_the_same_datasets(results: Path) -> None:
