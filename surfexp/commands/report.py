@@ -53,7 +53,9 @@ def report(
         else:
             write_pages(pages_of(document), pages)
         return
+    from surfexp.commands.execution import hold_results
     from surfexp.report.page import write_report
 
+    hold_results(results.resolve())
     for plan in plans.values():
         echo(write_report(plan, results.resolve()) / "report.html")

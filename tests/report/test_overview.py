@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import html
 import json
 import shlex
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
+from surfexp.commands import execution
 from surfexp.commands.command_line import main
 from surfexp.records.origin import note_origin, read_origin
 from surfexp.report.overview import FILE, is_ours, write_overview
@@ -114,3 +116,18 @@ def test_a_command_belongs_to_the_plan_that_it_asks_for(tmp_path: Path, capsys: 
         page = html.unescape((write_report(one, tmp_path) / "report.html").read_text())
         assert f"<code>surfexp run experiment=synthetic{shown}</code>" in page
         assert ("Last computed" in page) == dated
+
+
+@pytest.mark.parametrize("words", [["report", "synthetic"], ["clean", "--yes"]])
+def test_what_writes_into_a_folder_waits_for_no_run_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], words: list[str]
+) -> None:
+    plan = plan_of(sweep(1), tmp_path)
+    fill(plan, tmp_path)
+    plan.write(tmp_path)
+    monkeypatch.setattr(execution, "_locks", [])
+    with (tmp_path / ".lock").open("w") as run:
+        fcntl.flock(run, fcntl.LOCK_EX)
+        assert main([*words, "--results", str(tmp_path)]) == 2
+    assert "in use by another run" in capsys.readouterr().err and not (tmp_path / "synthetic").exists()
+    assert main([*words, "--results", str(tmp_path)]) == 0
