@@ -12,6 +12,7 @@ from surfexp.commands.console import Console
 from surfexp.commands.verdict_lines import STYLES, statement
 from surfexp.commands.views import wrapped
 from surfexp.records.table import Comparison, Row, format_number, short_name
+from surfexp.report.not_numbers import not_numbers
 from surfexp.report.verdict import Verdict
 from surfexp.report.words import word
 
@@ -63,7 +64,9 @@ def print_last_screen(
     console : Console
     """
     width = console.width
-    head = [*_verdict_lines(verdicts, width), *_warning_lines(warnings, width)]
+    unknown = [line for group in groups for line in not_numbers(group)]
+    head = [*_verdict_lines(verdicts, width), *_warning_lines(warnings, "rows", width)]
+    head += _warning_lines(unknown, "metrics", width)
     end = [Text(line) for text in tail for line in wrapped(text, width, 11)]
     # one line for the command before it, one for the prompt behind it
     left = max(console.height, LINES) - 2 - len(head) - len(end)
@@ -84,9 +87,9 @@ def _verdict_lines(verdicts: Sequence[Verdict], width: int) -> list[Text]:
     return lines + ([Text(f"and {len(bad) - NAMED} claims more")] if len(bad) > NAMED else [])
 
 
-def _warning_lines(warnings: Sequence[str], width: int) -> list[Text]:
+def _warning_lines(warnings: Sequence[str], what: str, width: int) -> list[Text]:
     lines = [Text(line, "red") for text in warnings[:NAMED] for line in wrapped(text, width, 2)]
-    return lines + ([Text(f"and {len(warnings) - NAMED} rows more", "red")] if len(warnings) > NAMED else [])
+    return lines + ([Text(f"and {len(warnings) - NAMED} {what} more", "red")] if len(warnings) > NAMED else [])
 
 
 def _tables(groups: Sequence[Comparison], width: int, left: int) -> tuple[list[Text], int]:

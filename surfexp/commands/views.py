@@ -10,6 +10,7 @@ from rich.table import Table
 
 from surfexp.commands.console import Console
 from surfexp.records.table import Comparison, Row, format_number, number_notes, short_name
+from surfexp.report.not_numbers import not_numbers
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word
 
@@ -48,9 +49,9 @@ def print_tables(groups: Sequence[Comparison], console: Console, limit: int | No
         rows = group.rows if limit is None else group.excerpt(limit)
         notes = number_notes(rows)
         _print(_table(group, rows, notes), console)
-        for note, number in notes.items():
-            for line in lines_for(f"[{number}] {note}", console, 4):
-                console.print(escape(line), soft_wrap=True)
+        texts = [*not_numbers(group), *(f"[{number}] {note}" for note, number in notes.items())]
+        for line in (line for text in texts for line in lines_for(text, console, 4)):
+            console.print(escape(line), soft_wrap=True)
         if len(rows) < len(group.rows):
             said = "the first ones and the best; metrics.csv beside the report and surfexp table have all"
             console.print(f"{len(rows)} of {len(group.rows)} rows: {said}", soft_wrap=True)

@@ -10,6 +10,7 @@ from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
 from surfexp.records.table import format_number, short_name
+from surfexp.report.not_numbers import not_numbers
 from surfexp.report.words import duration, word
 from surfexp.viewer.page import asset, policy_of
 
@@ -28,7 +29,13 @@ def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
     loader = PackageLoader("surfexp.report", "templates")
     environment = Environment(loader=loader, autoescape=True)
     environment.filters.update(
-        number=format_number, exact=exact, duration=duration, word=word, heading=short_name, prose=prose
+        number=format_number,
+        exact=exact,
+        duration=duration,
+        word=word,
+        heading=short_name,
+        prose=prose,
+        not_numbers=not_numbers,
     )
     style, tables = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js"))
     style += asset("viewer.css")

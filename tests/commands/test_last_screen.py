@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
@@ -118,3 +119,14 @@ def test_a_dashboard_is_named_where_there_is_one(tmp_path: Path) -> None:
     assert dashboard_line(tmp_path, "") == "dashboard  not written"
     (tmp_path / "mlflow.db").touch()
     assert dashboard_line(tmp_path, " --results here") == "dashboard  surfexp ui --results here"
+
+
+def test_a_metric_that_is_no_number_is_named_with_its_rows() -> None:
+    group = table(3, 2)
+    assert not any("NaN" in line for line in printed([group], 100, 40))
+    group.rows[1].metrics["some metric 0"] = math.nan
+    said = "some metric 0 is NaN in 1 of 3 rows: its method gave no number there"
+    assert printed([group], 100, 40).count(said) == 1
+    sink = io.StringIO()
+    print_tables([group], Console(file=sink, width=200))
+    assert sink.getvalue().splitlines().count(said) == 1

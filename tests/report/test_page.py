@@ -181,6 +181,17 @@ def test_odd_numbers_are_shown_and_break_nothing(tmp_path: Path) -> None:
     assert [format_number(value) for value in (float("inf"), -float("inf"), float("nan"))] == ["∞", "−∞", "–"]
 
 
+def test_a_metric_that_is_no_number_is_named_below_its_table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    fill(plan, tmp_path)
+    assert "is NaN in" not in (write_report(plan, tmp_path) / "report.html").read_text()
+    rows = rows_of(plan, tmp_path)
+    rows[0].metrics["rmse"] = float("nan")
+    monkeypatch.setattr(page, "rows_of", lambda *given: rows)
+    text = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert text.count('<p class="note">rmse is NaN in 1 of 3 rows: its method gave no number there.</p>') == 1
+
+
 def test_a_metric_means_what_its_own_table_declares(tmp_path: Path) -> None:
     """The gap of a solver is better when it is low, that of an eigenvalue to the next when it is high."""
     feature = {"target": "feature", "feature": "eigenmap", "comparison": "modes"}
