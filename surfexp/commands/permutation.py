@@ -34,7 +34,19 @@ EXAMPLES = (
 @click.option("--groups", metavar="COLUMN", help="the group of the first map less the other; without it the mean")
 @click.option("--pairs", metavar="COLUMN", help="with --groups: which two maps belong together")
 @click.option("--covariates", metavar="COLUMN,...", help="numbers that are regressed out")
-@click.option("--blocks", metavar="COLUMN", help="maps are rearranged within their block only")
+@click.option("--blocks", metavar="COLUMN", help="maps that depend on one another, as those of a family")
+@click.option(
+    "--exchange",
+    type=click.Choice(["within", "whole"]),
+    default="within",
+    help="maps are permuted within their block, or blocks are permuted, and flip, as wholes",
+)
+@click.option(
+    "--rearrange",
+    type=click.Choice(["auto", "flip", "permute"]),
+    default="auto",
+    help="flip signs, or permute maps; auto flips where a mean is tested",
+)
 @click.option("--design", type=click.Path(), metavar="FILE", help="a linear model instead: .csv, a row for each map")
 @click.option("--contrast", metavar="NUMBER,...", help="of the columns of the design")
 @click.option("--count", default=5000, help="rearrangements")
@@ -55,6 +67,8 @@ def test(
     pairs: str | None,
     covariates: str | None,
     blocks: str | None,
+    exchange: str,
+    rearrange: str,
     design: str | None,
     contrast: str | None,
     count: int,
@@ -86,7 +100,7 @@ def test(
     read = {name: given_maps(surface, name, files, given["hemisphere"]) for name in map_names}
     values = np.column_stack([side_by_side(maps, name) for name, maps in read.items()])
     options: dict[str, Any] = {"count": count, "forming_p": forming_p, "two_sided": not one_sided, "level": level}
-    options |= {"seed": seed}
+    options |= {"seed": seed, "exchange": exchange, "rearrange": rearrange}
     columns = {"groups": groups, "pairs": pairs, "covariates": covariates, "blocks": blocks}
     asked, said = _of_subjects(subjects, files, columns, _names(read))
     asked |= _of_design(design, contrast, files)

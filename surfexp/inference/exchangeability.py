@@ -34,7 +34,7 @@ def allowed_rearrangements(
     blocks : (s,) array_like, optional
         Labels of observations that depend on one another.
     exchange : {"within", "whole"}
-        Observations move within their block; or blocks of equal size move as wholes, and flip as wholes.
+        Observations move within their block; or blocks of equal size change places. Of any size they flip as wholes.
     rearrange : {"auto", "flip", "permute"}
         "auto" permutes where the nuisance holds the constant, and flips elsewhere.
     count : int
@@ -49,7 +49,7 @@ def allowed_rearrangements(
     Raises
     ------
     ValueError
-        If a word is unknown, blocks are missing, or permutations cannot test the contrast.
+        If a word is unknown, blocks are missing, permutations cannot test the contrast, or flips would not heed the blocks.
     """
     size = len(model.direction)
     kind = one_of(rearrange, "rearrange", ("auto", "flip", "permute"))
@@ -59,6 +59,11 @@ def allowed_rearrangements(
     inside = np.zeros(size, dtype=np.int64) if blocks is None else codes_of(blocks, size, "blocks")[0]
     units = inside if whole else np.arange(size)
     if kind == "flip" or (kind == "auto" and not model.has_mean):
+        if blocks is not None and not whole:
+            raise ValueError(
+                "blocks are given, but signs flip one by one, whatever the blocks: choose exchange = 'whole', which flips each "
+                "block as a whole"
+            )
         chosen = sign_flips(units, count, random)
         return chosen, _counted(chosen, f"{2 ** (int(units.max()) + 1):,}", "sign flips")
     if not model.has_mean:

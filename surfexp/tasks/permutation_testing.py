@@ -76,9 +76,10 @@ def permutation_test(
     covariates : (s,) or (s, q) array_like, optional
         Beside the mean or groups: what is regressed out. They are centred.
     blocks : (s,) array_like, optional
-        Labels of observations that depend on one another, such as those of a family.
+        Labels of observations that depend on one another, such as those of a family. Signs of a family flip together: a
+        mean with blocks needs exchange="whole".
     exchange : {"within", "whole"}
-        Observations move within their block, or blocks of equal size move, and flip, as wholes.
+        Observations are permuted within their block; or blocks of equal size change places. Of any size they flip as wholes.
     rearrange : {"auto", "flip", "permute"}
         "auto" permutes where the model has a constant beside the contrast, and flips signs elsewhere.
     count : int

@@ -116,6 +116,16 @@ def test_pairs_of_a_table(folder: Path) -> None:
     assert certificate["options"]["groups"] == "sex" and certificate["options"]["pairs"] == "pair"
 
 
+def test_blocks_flip_as_wholes_where_they_are_asked_to(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    call = ["test", "ball.surf.gii", "all.npz", "--subjects", "subjects.tsv", "--blocks", "pair"]
+    assert main([*call, "--to", "found.npz"]) == 2
+    assert "choose exchange = 'whole'" in capsys.readouterr().err
+    assert main([*call, "--exchange", "whole", "--rearrange", "flip", "--to", "found.npz"]) == 0
+    certificate = json.loads(Path("found.npz.json").read_text())
+    assert certificate["rearrangements"] == "all 16 sign flips that differ"
+    assert certificate["options"]["exchange"] == "whole" and certificate["options"]["rearrange"] == "flip"
+
+
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [

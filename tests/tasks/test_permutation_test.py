@@ -161,6 +161,8 @@ def test_blocks_bound_what_is_exchanged() -> None:
     assert found.facts["rearrangements"] == "all 100 permutations that differ"
     whole = sx.permutation_test(BALL, NOISE, blocks=PAIRS, exchange="whole")
     assert whole.facts["rearrangements"] == "all 32 sign flips that differ"
+    unequal = sx.permutation_test(BALL, NOISE, blocks=[*"aaabbccdef"], exchange="whole")
+    assert unequal.facts["rearrangements"] == "all 64 sign flips that differ"
 
 
 def test_the_mask_is_where_all_maps_are_known_and_nothing_outside_takes_part() -> None:
@@ -263,6 +265,8 @@ def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
         ({"contrast": [1]}, "without a design"),
         ({"covariates": np.full(10, np.nan)}, "leave these maps out"),
         ({"exchange": "whole"}, "give blocks"),
+        ({"blocks": PAIRS}, "signs flip one by one, whatever the blocks: choose exchange = 'whole'"),
+        ({"groups": GROUPS, "blocks": PAIRS, "rearrange": "flip"}, "choose exchange = 'whole'"),
         ({"exchange": "none"}, "exchange = 'none', choose one of within, whole"),
         ({"rearrange": "permute"}, "permuting cannot test a mean"),
         ({"count": 1}, "count = 1, 2 to"),
