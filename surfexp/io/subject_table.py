@@ -5,11 +5,15 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Mapping, Sequence
-from itertools import combinations
+from functools import cache
+from itertools import combinations, takewhile
 from pathlib import Path
 
 from surfexp.io.csv_cells import separator_of, uncell
 from surfexp.io.entrance import reading
+
+# what BIDS writes where nothing is known, and no path
+UNKNOWN = "n/a"
 
 
 def read_subjects(path: Path | str) -> dict[str, list[str]]:
@@ -52,7 +56,8 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     """Return the row of a table for each map, by the column, or the two columns, whose words stand in the names of the maps.
 
     A word stands in a name where no letter or digit is beside it: "sub-1" in "sub-1.thickness.mgh", not in "sub-12.mgh".
-    Folders count where the name of the file has no word of the column, the nearest one first.
+    Folders count where the name of the file has no word of the column, the nearest one first. A word may be a path: its last
+    part stands in the name of the file, and of several such rows those count that have the most folders in common with it.
 
     Parameters
     ----------
@@ -70,7 +75,7 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     Raises
     ------
     ValueError
-        If a column names half of the maps but not all, or several alike, or two columns say different rows.
+        If a column names half of the maps but not all, or several alike, or two columns, or pairs of them, say different rows.
 
     Examples
     --------
@@ -83,18 +88,15 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     alone = {column: rows for column, found in fits.items() if (rows := _one_each(found)) is not None}
     if alone:
         said = {column: sum(len(columns[column][row]) for row in rows) for column, rows in alone.items()}
-        longest = [column for column in alone if said[column] == max(said.values())]
-        other = next((column for column in longest if alone[column] != alone[longest[0]]), None)
-        if other is not None:
-            raise ValueError(
-                f"columns {longest[0]!r} and {other!r} both name the maps, in different orders: leave one out"
-            )
-        return longest[0], alone[longest[0]]
+        return _agreed({column: rows for column, rows in alone.items() if said[column] == max(said.values())})
     whole = {column: found for column, found in fits.items() if all(found)}
+    together = {}
     for first, second in combinations(whole, 2):
         common = [sorted({*a} & {*b}) for a, b in zip(whole[first], whole[second], strict=True)]
         if (rows := _one_each(common)) is not None:
-            return f"{first} and {second}", rows
+            together[f"{first} and {second}"] = rows
+    if together:
+        return _agreed(together)
     for column, found in fits.items():
         named = {columns[column][row].lower() for fitting in found for row in fitting}
         if 2 * len(named) >= len(maps) > 1 and 2 * sum(map(bool, found)) >= len(maps):
@@ -102,17 +104,40 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     return None
 
 
+def _agreed(named: Mapping[str, list[int]]) -> tuple[str, list[int]]:
+    """The first of several names for rows, if all say the same rows."""
+    first = next(iter(named))
+    other = next((name for name in named if named[name] != named[first]), None)
+    if other is not None:
+        raise ValueError(f"columns {first!r} and {other!r} both name the maps, in different orders: leave one out")
+    return first, named[first]
+
+
 def _fitting(words: Sequence[str], maps: Sequence[str]) -> list[list[int]]:
-    """The rows whose word stands in the name of each map."""
-    patterns = [
-        re.compile(rf"(?<![^\W_]){re.escape(word)}(?![^\W_])", re.IGNORECASE) if word else None for word in words
-    ]
+    """The rows whose word stands in the name of each map; of paths those that have the most folders in common with it."""
+    paths = [[_standing(part) for part in _parts("" if word == UNKNOWN else word)] for word in words]
+    named = cache(lambda part: [row for row, path in enumerate(paths) if path and path[0].search(part)])
     found = []
-    for name in maps:
-        parts = reversed(name.replace("\\", "/").split("/"))
-        rows = ([row for row, one in enumerate(patterns) if one and one.search(part)] for part in parts)
-        found.append(next(filter(None, rows), []))
+    for parts in map(_parts, maps):
+        rows, rest = next(((rows, parts[k:]) for k, part in enumerate(parts) if (rows := named(part))), ([], []))
+        tails = [_common(paths[row], rest) for row in rows]
+        found.append([row for row, tail in zip(rows, tails, strict=True) if tail == max(tails)])
     return found
+
+
+def _parts(path: str) -> list[str]:
+    """The name of a file, then its folders, the nearest one first."""
+    return [part for part in reversed(path.replace("\\", "/").split("/")) if part]
+
+
+def _standing(word: str) -> re.Pattern[str]:
+    return re.compile(rf"(?<![^\W_]){re.escape(word)}(?![^\W_])", re.IGNORECASE)
+
+
+def _common(path: Sequence[re.Pattern[str]], parts: Sequence[str]) -> int:
+    """How many parts of a path, from its end, stand in those of another one."""
+    pairs = zip(path, parts, strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0].search(pair[1]), pairs))
 
 
 def _one_each(found: Sequence[Sequence[int]]) -> list[int] | None:

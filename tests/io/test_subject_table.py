@@ -38,6 +38,32 @@ def test_two_columns_tell_visits_apart() -> None:
         rows_of_maps({"participant_id": table["participant_id"]}, files)
 
 
+def test_two_pairs_of_columns_that_say_different_rows_are_refused() -> None:
+    """The visit was tested under the name of the treatment."""
+    files = ["a_1.mgh", "a_2.mgh", "b_1.mgh", "b_2.mgh"]
+    table = {"id": [*"aabb"], "treatment": [*"2112"], "visit": [*"1212"]}
+    wanted = r"columns 'id and treatment' and 'id and visit' both name the maps, in different orders: leave one out"
+    with pytest.raises(ValueError, match=wanted):
+        rows_of_maps(table, files)
+    words = table | {"treatment": ["placebo" if one == "2" else "drug" for one in table["treatment"]]}
+    with pytest.raises(ValueError, match=wanted):
+        rows_of_maps(words, [f"{file[:3]}_{arm}.mgh" for file, arm in zip(files, ["drug", "placebo"] * 2, strict=True)])
+    assert rows_of_maps(words, files) == ("id and visit", [0, 1, 2, 3])
+
+
+@pytest.mark.parametrize("folder", ["", "maps/", "/data/study/maps/", "other/"])
+@pytest.mark.parametrize("form", ["maps/s{}.mgh", "/data/study/maps/s{}.mgh", "maps\\s{}", "s{}.mgh"])
+def test_paths_of_a_table_name_files_wherever_they_are_given_from(form: str, folder: str) -> None:
+    assert rows_of_maps({"file": shuffled(form)}, [f"{folder}s{k}.mgh" for k in range(20)]) == ("file", ROWS)
+
+
+def test_paths_whose_files_have_one_name_are_told_apart_by_their_folders() -> None:
+    files = [f"subjects/sub-{k}/surf/lh.thickness" for k in range(20)]
+    for form in ("sub-{}/surf/lh.thickness", "/data/subjects/sub-{}/surf/lh.thickness"):
+        assert rows_of_maps({"map": shuffled(form)}, files) == ("map", ROWS)
+    assert rows_of_maps({"known": ["n/a"] * 4}, ["a.mgh", "n.mgh", "b.mgh", "c.mgh"]) is None
+
+
 def test_the_name_of_the_file_counts_before_its_folders() -> None:
     files = [f"visit-1/lh.{k}.mgh" for k in range(20)]
     assert rows_of_maps({"id": shuffled("{}")}, files) == ("id", ROWS)
