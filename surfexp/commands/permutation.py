@@ -13,6 +13,7 @@ from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, shown_labels
 from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
 from surfexp.commands.table_file import ready_table
+from surfexp.commands.table_of_subjects import names_of_maps, number, of_subjects
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ EXAMPLES = (
 @click.option(
     "--subjects", type=click.Path(), metavar="FILE", help="table of the maps, .csv or .tsv: a column names files"
 )
+@click.option("--in-order", is_flag=True, help="the rows of the table are in the order of the maps, whatever it names")
 @click.option("--groups", metavar="COLUMN", help="the group of the first map less the other; without it the mean")
 @click.option("--pairs", metavar="COLUMN", help="with --groups: which two maps belong together")
 @click.option("--covariates", metavar="COLUMN,...", help="numbers that are regressed out")
@@ -63,6 +65,7 @@ def test(
     path: str,
     map_names: tuple[str, ...],
     subjects: str | None,
+    in_order: bool,
     groups: str | None,
     pairs: str | None,
     covariates: str | None,
@@ -102,7 +105,7 @@ def test(
     options: dict[str, Any] = {"count": count, "forming_p": forming_p, "two_sided": not one_sided, "level": level}
     options |= {"seed": seed, "exchange": exchange, "rearrange": rearrange}
     columns = {"groups": groups, "pairs": pairs, "covariates": covariates, "blocks": blocks}
-    asked, said = _of_subjects(subjects, files, columns, _names(read))
+    asked, said = of_subjects(subjects, files, columns, names_of_maps(read), in_order, len(read) == 1)
     asked |= _of_design(design, contrast, files)
     parcels = shown_labels(surface, labels, files, given["hemisphere"]) if labels else None
     if labels and parcels is None:
@@ -124,62 +127,6 @@ def test(
     return finish(target, found.maps, surface, "permutation test", model | options, files, facts, (*said, *found.notes))
 
 
-def _names(read: dict[str, dict[str, Floats]]) -> list[str]:
-    """What a row of the table can be told by: the file of each map, with the map's name where a file has several."""
-    names: list[str] = []
-    for file, maps in read.items():
-        for name, values in maps.items():
-            count = 1 if values.ndim == 1 else values.shape[1]
-            names += [file if len(maps) == 1 else f"{file} {name}"] * count
-    return names
-
-
-def _of_subjects(
-    subjects: str | None, files: Inputs, columns: dict[str, str | None], maps: list[str]
-) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """What the columns of the table say of each map, and how its rows were found."""
-    asked = {name: column for name, column in columns.items() if column}
-    if not asked:
-        if subjects is not None:
-            raise ValueError(
-                f"--subjects {subjects} says nothing of the test: name a column (--groups, --covariates, --blocks)"
-            )
-        return {}, ()
-    if subjects is None:
-        raise ValueError(f"--{next(iter(asked))} names a column: give --subjects FILE")
-    from surfexp.io.subject_table import read_subjects, rows_of_maps
-    from surfexp.mesh.given_numbers import one_of
-
-    files.add(subjects)
-    table = read_subjects(subjects)
-    for name, column in asked.items():
-        for part in column.split(",") if name == "covariates" else [column]:
-            one_of(part.strip(), f"--{name}", table)
-    count = len(next(iter(table.values())))
-    try:
-        found = rows_of_maps(table, maps)
-    except ValueError as error:
-        raise ValueError(f"{subjects}: {error}") from None
-    if found is None and count != len(maps):
-        raise ValueError(
-            f"{subjects} has {count} rows for {len(maps)} maps, and no column names their files: add one, or give a row "
-            "for each map in their order"
-        )
-    rows = list(range(count)) if found is None else found[1]
-    said = f"in the order of the maps: no column names their {'files' if len(set(maps)) > 1 else 'subjects'}."
-    if found is not None:
-        left = count - len(rows)
-        said = f"by column {found[0]!r}" + (f" ({left} without a map)." if left else ".")
-    answer: dict[str, Any] = {}
-    for name, column in asked.items():
-        if name == "covariates":
-            parts = [part.strip() for part in column.split(",")]
-            answer[name] = [[_number(table[part][row], part) for part in parts] for row in rows]
-        else:
-            answer[name] = [table[column][row] for row in rows]
-    return answer, (f"The rows of {Path(subjects).name} are taken {said}",)
-
-
 def _of_design(design: str | None, contrast: str | None, files: Inputs) -> dict[str, Any]:
     """The matrix of a file and the numbers of the contrast."""
     asked: dict[str, Any] = {}
@@ -189,15 +136,8 @@ def _of_design(design: str | None, contrast: str | None, files: Inputs) -> dict[
         files.add(design)
         asked["design"] = side_by_side(read_maps(design), design)
     if contrast is not None:
-        asked["contrast"] = [_number(word, "--contrast") for word in contrast.split(",")]
+        asked["contrast"] = [number(word, "--contrast") for word in contrast.split(",")]
     return asked
-
-
-def _number(word: str, where: str) -> float:
-    try:
-        return float(word)
-    except ValueError:
-        raise ValueError(f"{where} has {word!r}, a number is needed") from None
 
 
 def _say(found: PermutationTest, both: bool) -> None:

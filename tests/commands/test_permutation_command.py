@@ -35,8 +35,8 @@ def folder(working_folder: Path) -> Path:
 
 
 def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    options = ["--subjects", "subjects.tsv", "--groups", "sex", "--covariates", "age", "--count", "200", "--seed", "3"]
-    more = ["--labels", "halves.label.gii", "--table", "clusters.csv", "--to", "found.npz"]
+    options = ["--subjects", "subjects.tsv", "--groups", " sex", "--covariates", "age", "--count", "200", "--seed", "3"]
+    more = ["--in-order", "--labels", "halves.label.gii", "--table", "clusters.csv", "--to", "found.npz"]
     assert main(["test", "ball.surf.gii", *(f"s{k}.npy" for k in range(8)), *options, *more]) == 0
     surface = sx.read("ball.surf.gii")
     wanted = sx.permutation_test(surface, DATA, groups=SEX, covariates=AGE, count=200, seed=3)
@@ -75,8 +75,31 @@ def test_a_map_without_a_row_is_named(folder: Path, capsys: pytest.CaptureFixtur
     assert main([*call, "--to", "found.npz"]) == 2
     assert "subjects.tsv: s3.npy has 0 rows by column 'id', one of its own is needed" in capsys.readouterr().err
     Path("subjects.tsv").write_text(text.replace("id\t", "").replace("\ns", "\n").partition("\n")[0] + "\nf\t1\tA\n")
-    assert main([*call, "--to", "found.npz"]) == 2
-    assert "subjects.tsv has 1 rows for 8 maps, and no column names their files" in capsys.readouterr().err
+    assert main([*call, "--in-order", "--to", "found.npz"]) == 2
+    assert "subjects.tsv has 1 rows for 8 maps: give a row for each map in their order" in capsys.readouterr().err
+
+
+def test_rows_are_in_the_order_of_several_files_only_where_that_is_said(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """s10.npy stands before s2.npy, and a table of 1, 2, ... was taken in that order."""
+    names = [f"sub{k + 1}.npy" for k in range(12)]
+    for k, name in enumerate(names):
+        sx.write(name, DATA[:, k % 8] + k)
+    rows = [f"{k + 1}\t{'fm'[k % 2]}\t{20 + k}" for k in range(12)]
+    Path("subjects.tsv").write_text("\n".join(["id\tsex\tage", *rows]) + "\n")
+    options = ["--subjects", "subjects.tsv", "--groups", "sex", "--count", "20", "--to", "found.npz"]
+    assert main(["test", "ball.surf.gii", *sorted(names), *options]) == 2
+    said = capsys.readouterr().err
+    assert "subjects.tsv: no column names the 12 maps" in said and "--in-order" in said
+    Path("named.tsv").write_text("\n".join(["id\tsex", "sub3\tf", "sub1\tm", *["x\tf"] * 5, *["y\tm"] * 5]) + "\n")
+    assert main(["test", "ball.surf.gii", *sorted(names), *options, "--subjects", "named.tsv"]) == 2
+    assert "named.tsv: no column names the 12 maps" in capsys.readouterr().err
+    assert main(["test", "ball.surf.gii", *names, *options, "--in-order"]) == 0
+    assert "The rows of subjects.tsv are taken in the order of the maps." in capsys.readouterr().err
+    values = np.column_stack([DATA[:, k % 8] + k for k in range(12)])
+    with np.load("found.npz") as found:
+        np.testing.assert_array_equal(found["t"], sx.permutation_test(BALL, values, groups=[*"fm"] * 6, count=20).t)
 
 
 @pytest.mark.parametrize(
@@ -133,6 +156,7 @@ def test_blocks_flip_as_wholes_where_they_are_asked_to(folder: Path, capsys: pyt
         (["--subjects", "subjects.tsv", "--groups", "sexe"], "--groups = 'sexe', choose one of id, sex, age, pair"),
         (["--subjects", "subjects.tsv", "--covariates", "sex"], "sex has 'f', a number is needed"),
         (["--subjects", "none.tsv", "--groups", "sex"], "none.tsv: no such file"),
+        (["--in-order"], "--in-order is of the rows of a table: give --subjects FILE"),
         (["--subjects", "none.tsv"], "--subjects none.tsv says nothing of the test: name a column"),
         (["all.npz"], "map all.npz is given more than once, each subject counts once"),
         (["./all.npz"], "map all.npz is given more than once"),
