@@ -15,7 +15,8 @@ from surfexp.mesh.surface_part import finite_mask
 from surfexp.nulls.rejection import correlations, effective_interval, p_values
 from surfexp.tasks.given_map import MapLike, as_single_map
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
-from surfexp.tasks.null_maps import MOST_LOST, NullMaps, TooFewVerticesError, null_maps
+from surfexp.tasks.null_maps import NullMaps, null_maps
+from surfexp.tasks.nulls_of_components import MOST_LOST, TooFewVerticesError
 from surfexp.tasks.part_of_task import part_for
 from surfexp.variational.own_unit import own_unit
 

@@ -113,6 +113,21 @@ def test_two_hemispheres_are_taken_at_once(method: str) -> None:
     assert np.mean(np.abs(same)) < 0.6
 
 
+def test_variograms_of_two_hemispheres_are_drawn_apart() -> None:
+    """Values went across and only the mean of both was kept: two maps that share nothing but an offset of the sides had p = .01."""
+    values = np.concatenate([X * Y + Z, 2.0 * Z * Z + 5.0])
+    nulls = sx.null_maps(TWO, values, 40, method="variogram").values
+    alone = sx.null_maps(BALL, values[: len(Z)], 40, method="variogram").values
+    # numbers of another scale, by own_unit
+    np.testing.assert_allclose(nulls[: len(Z)], alone, rtol=1e-9, atol=1e-9)
+    right = nulls[len(Z) :]
+    np.testing.assert_allclose(right.mean(axis=0), values[len(Z) :].mean(), rtol=1e-12)
+    assert np.mean([abs(np.corrcoef(alone[:, k], right[:, k])[0, 1]) for k in range(40)]) < 0.6
+    offset = np.repeat([0.0, 9.0], len(Z))
+    found = sx.compare_maps(TWO, np.tile(X, 2) + offset, np.tile(Y, 2) + offset, method="variogram", count=99)
+    assert found.r > 0.9 and found.p > 0.2
+
+
 @pytest.mark.parametrize("method", ["eigenstrapping", "variogram"])
 def test_islands_are_named_and_left_out(method: str) -> None:
     vertices = np.concatenate([BALL.mesh.vertices, [[5.0, 0, 0], [6.0, 0, 0], [5.0, 1.0, 0]]])
@@ -150,8 +165,11 @@ def test_a_component_on_which_the_map_is_constant_stays_so() -> None:
     assert found.values[:162].std(axis=0) == pytest.approx(alone.values.std(axis=0), rel=1e-6)
     assert found.certificate["share_in_modes"] == pytest.approx(alone.certificate["share_in_modes"])
     assert "The map is constant on a component of 162 vertices, and so are its null maps there." in found.notes
-    with pytest.raises(ValueError, match="constant on each component"):
-        sx.null_maps(both, np.repeat([0.0, 1.0], 162), 5, modes=9)
+    for method in ("eigenstrapping", "variogram"):
+        with pytest.raises(ValueError, match="constant on each component"):
+            sx.null_maps(both, np.repeat([0.0, 1.0], 162), 5, modes=9, method=method)  # type: ignore[arg-type]
+    found = sx.null_maps(TWO, np.r_[Z, np.full(642, 0.7)], 5, method="variogram")
+    assert found.values[642:] == pytest.approx(0.7) and "642 vertices, and so are" in found.notes[0]
 
 
 def test_a_small_surface_has_fewer_modes_than_the_default_asks_for() -> None:
