@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ from surfexp.contract.arrays import Floats
 from surfexp.io.csv_cells import cell, separator_of, uncell
 from surfexp.io.numbers import real_array
 
+# one number as much of the world writes it, or two whole ones
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
 
 
@@ -23,15 +26,21 @@ def read_table(path: Path) -> dict[str, Floats]:
     Raises
     ------
     ValueError
-        If a row has another length than the first, or a cell is no number, or has a decimal comma.
+        If a row has another length than the first, or a cell is no number, or has a decimal comma; or if columns have no names
+        and all rows may be one number with a decimal comma.
     """
-    lines = [line for line in path.read_text("utf-8-sig").splitlines() if not line.lstrip().startswith("#")]
+    lines = [line.strip(" ") for line in path.read_text("utf-8-sig").splitlines() if not line.lstrip().startswith("#")]
     if path.suffix.lower() == ".csv":
         rows = list(filter(None, csv.reader(lines, delimiter=separator_of(lines))))
     else:
         rows = list(filter(None, map(str.split, lines)))
     if not rows:
         raise ValueError("it holds no row")
+    if all(map(DECIMAL_COMMA.fullmatch, filter(None, lines))):
+        raise ValueError(
+            f"its rows, as {next(filter(None, lines))!r}, are one number with a decimal comma or two: name the columns in a "
+            "first row, or write decimal points"
+        )
     header = [] if all(map(_is_number, rows[0])) else [uncell(word.strip()) for word in rows.pop(0)]
     width = len(header) or len(rows[0])
     for number, row in enumerate(rows, 1 + bool(header)):

@@ -374,6 +374,8 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
         "# only\n": "no row",
         "1\ninf\n": "infinite",
         "a;b\n2,5;1\n": "the cell '2,5', a number is needed, with a decimal point",
+        "2,53\n-3,1\n": "its rows, as '2,53', are one number with a decimal comma or two: name the columns",
+        "+2,5e-3\n0,1\n": "write decimal points",
         "2,5;1,5\n2,5;1,5\n": "the cell '5;1', a number is needed$",
     }
     for text, words in cases.items():
@@ -382,6 +384,9 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
             read_maps(tmp_path / "a.csv")
     (tmp_path / "a.csv").write_bytes("\ufeffx,y\r\n1,NA\r\n2,3\r\n".encode())
     assert np.array_equal(read_maps(tmp_path / "a.csv")["y"], [np.nan, 3.0], equal_nan=True)
+    for text in ("a,b\n1,0\n0,1\n", "1,0.0\n0,1\n", "1,-1\n1,1\n", "1, 0\n0, 1\n", "1;0\n0;1\n", "1\t0\n"):
+        (tmp_path / "a.csv").write_text(text)
+        assert len(read_maps(tmp_path / "a.csv")) == 2
 
 
 @pytest.mark.parametrize("between", [",", ";", "\t"])
