@@ -7,12 +7,14 @@ from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.inference.designs import codes_of
-from surfexp.inference.linear_model import ContrastModel
+from surfexp.inference.linear_model import INDEPENDENT, ContrastModel
 from surfexp.inference.rearrangements import Rearrangements, permutations, sign_flips
 from surfexp.mesh.given_numbers import one_of
 
 # rounding of two rearrangements whose statistic is the same
 SAME = 1e-9
+# a million is 2^20
+WRITTEN_OUT = 20
 
 
 def allowed_rearrangements(
@@ -36,7 +38,7 @@ def allowed_rearrangements(
     exchange : {"within", "whole"}
         Observations move within their block; or blocks of equal size change places. Of any size they flip as wholes.
     rearrange : {"auto", "flip", "permute"}
-        "auto" permutes where the nuisance holds the constant, and flips elsewhere.
+        "auto" permutes where the nuisance holds the constant, and flips where the design does.
     count : int
         The most.
     random : numpy.random.Generator
@@ -49,7 +51,8 @@ def allowed_rearrangements(
     Raises
     ------
     ValueError
-        If a word is unknown, blocks are missing, permutations cannot test the contrast, or flips would not heed the blocks.
+        If a word is unknown, blocks are missing, permutations cannot test the contrast, flips would not heed the blocks, or
+        "auto" finds no constant in the design.
     """
     size = len(model.direction)
     kind = one_of(rearrange, "rearrange", ("auto", "flip", "permute"))
@@ -64,8 +67,14 @@ def allowed_rearrangements(
                 "blocks are given, but signs flip one by one, whatever the blocks: choose exchange = 'whole', which flips each "
                 "block as a whole"
             )
+        if kind == "auto" and not _holds_constant(model):
+            raise ValueError(
+                "the design has no constant: a slope is tested through 0, add a column of ones, whose contrast is 0, or choose "
+                "rearrange = 'flip' if 0 is meant"
+            )
         chosen = sign_flips(units, count, random)
-        return chosen, _counted(chosen, f"{2 ** (int(units.max()) + 1):,}", "sign flips")
+        flipped = int(units.max()) + 1
+        return chosen, _counted(chosen, f"{2**flipped:,}" if flipped < WRITTEN_OUT else f"2^{flipped}", "sign flips")
     if not model.has_mean:
         raise ValueError(
             "permuting cannot test a mean: choose rearrange = 'flip', or give the design a constant column"
@@ -73,6 +82,11 @@ def allowed_rearrangements(
     strata: Integers = np.bincount(inside) if whole else inside
     chosen = permutations(units, strata, rows, count, random)
     return chosen, _counted(chosen, "", "permutations")
+
+
+def _holds_constant(model: ContrastModel) -> bool:
+    mean = np.full(len(model.direction), len(model.direction) ** -0.5)
+    return bool(np.linalg.norm([model.direction @ mean, *(model.nuisance.T @ mean)]) > 1.0 - INDEPENDENT)
 
 
 def _counted(chosen: Rearrangements, possible: str, kind: str) -> str:
@@ -96,3 +110,22 @@ def least_p(model: ContrastModel, chosen: Rearrangements, two_sided: bool) -> fl
     """
     cosine = chosen.carried(model.direction) @ model.direction
     return float(((np.abs(cosine) if two_sided else cosine) > 1.0 - SAME).mean())
+
+
+def keeps_nuisance(model: ContrastModel, chosen: Rearrangements) -> bool:
+    """Return whether every rearrangement leaves the span of the nuisance as it is: p-values of all that differ are then exact.
+
+    Residuals are rearranged in the place of data. Where the span stays, both have the same t; elsewhere p-values hold in the
+    limit of many observations.
+
+    Parameters
+    ----------
+    model : ContrastModel
+    chosen : Rearrangements
+
+    Returns
+    -------
+    bool
+    """
+    inside = ((chosen.carried(column) @ model.nuisance) ** 2 for column in model.nuisance.T)
+    return all(bool((squares.sum(axis=1) > 1.0 - SAME).all()) for squares in inside)

@@ -11,7 +11,7 @@ from scipy.stats import t as student
 
 from surfexp.contract.arrays import Floats
 from surfexp.inference.designs import tested
-from surfexp.inference.exchangeability import allowed_rearrangements, least_p
+from surfexp.inference.exchangeability import allowed_rearrangements, keeps_nuisance, least_p
 from surfexp.inference.linear_model import contrast_model
 from surfexp.inference.permutation_inference import Progress, Statistics, null_distributions
 from surfexp.inference.vertex_graph import graph_of_edges
@@ -56,8 +56,9 @@ def permutation_test(
     The statistic is t of a contrast in a linear model. Beside it stand the area and the mass of clusters, and the exact
     threshold-free cluster enhancement (TFCE): the integral over all thresholds, without a step. Signs are flipped where a mean
     is tested, which assumes errors that are symmetric about 0; else maps are permuted, which assumes that they can be
-    exchanged (Freedman and Lane). All rearrangements that differ are taken where they are no more than `count`: p-values are
-    then exact. Both hemispheres are tested at once where they are one surface, as `read` gives it with left and right.
+    exchanged (Freedman and Lane). All rearrangements that differ are taken where they are no more than `count`. p-values are
+    then exact, unless the model has a covariate that they change beside the contrast. Both hemispheres are tested at once
+    where they are one surface, as `read` gives it with left and right.
 
     Parameters
     ----------
@@ -66,7 +67,8 @@ def permutation_test(
     maps : (n, s) float64, or list of str or (n,) float64
         The maps of s subjects on one surface.
     design : (s, p) array_like, optional
-        Of a linear model; constants and covariates are columns. Without one the mean is tested.
+        Of a linear model; constants and covariates are columns. Without one the mean is tested. A slope needs a column of ones:
+        np.column_stack([np.ones(s), age]) with the contrast [0, 1].
     contrast : (p,) array_like, optional
         Of the coefficients of the design; a design of one column needs none.
     groups : (s,) array_like, optional
@@ -81,7 +83,7 @@ def permutation_test(
     exchange : {"within", "whole"}
         Observations are permuted within their block; or blocks of equal size change places. Of any size they flip as wholes.
     rearrange : {"auto", "flip", "permute"}
-        "auto" permutes where the model has a constant beside the contrast, and flips signs elsewhere.
+        "auto" permutes where the model has a constant beside the contrast, and flips signs where a mean is tested.
     count : int
         Rearrangements, the unchanged one among them.
     forming_p : float
@@ -150,7 +152,8 @@ def permutation_test(
         "maps": len(data),
         "degrees of freedom": model.freedom,
         "rearrangements": words,
-        "exact": chosen.complete,
+        "all rearrangements": chosen.complete,
+        "exact": chosen.complete and keeps_nuisance(model, chosen),
         "least p": least_p(model, chosen, bool(two_sided)),
         "threshold": statistics.threshold,
     }

@@ -138,7 +138,11 @@ def test_covariates_are_regressed_out() -> None:
     )
     np.testing.assert_allclose(moved.t, found.t, rtol=1e-6)
     np.testing.assert_allclose(moved.p_tfce, found.p_tfce)
-    assert found.facts["degrees of freedom"] == 7
+    assert found.facts["degrees of freedom"] == 7 and not found.facts["exact"]
+    every = sx.permutation_test(BALL, NOISE[:, :5], covariates=age[:5])
+    assert every.facts["all rearrangements"] and not every.facts["exact"]
+    slope = sx.permutation_test(BALL, NOISE[:, :5] + 9.0, np.column_stack([np.ones(5), age[:5]]), [0, 1])
+    assert slope.facts["exact"] and slope.facts["rearrangements"] == "all 120 permutations that differ"
     mean = sx.permutation_test(BALL, NOISE, covariates=age, count=100)
     centred = np.column_stack([np.ones(10), age - age.mean()])
     same(mean, sx.permutation_test(BALL, NOISE, centred, [1, 0], count=100))
@@ -260,6 +264,7 @@ def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
         ({"groups": GROUPS, "pairs": np.arange(10)}, "pair 0 has the maps old: one old and one young are needed"),
         ({"design": np.ones((10, 2))}, "give a contrast of 2 numbers"),
         ({"design": np.ones((10, 2)), "contrast": [1, 0]}, "cannot be estimated"),
+        ({"design": np.arange(10.0)}, "the design has no constant: a slope is tested through 0, add a column of ones"),
         ({"design": np.ones(9)}, "one row for each of 10 maps"),
         ({"design": np.ones(10), "groups": GROUPS}, "a design and groups are given"),
         ({"contrast": [1]}, "without a design"),
