@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Floats, Integers
+from surfexp.contract.arrays import Floats
+from surfexp.inference.labels_of_maps import blocks_of_pairs, differences_of_pairs, two_groups
 from surfexp.inference.rearrangements import CONSTANT
 from surfexp.mesh.given_arrays import real_array
-
-# how tables write that nothing is known: of one subject it would be a group, and of several a family
-UNKNOWN = frozenset(["", "n/a", "na", "nan", "<na>", "nat"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +23,14 @@ class Design:
     contrast : (p,) float64
     words : str
         What is tested.
+    blocks : (s,) array_like, optional
+        Labels of rows that depend on one another.
     """
 
     matrix: Floats
     contrast: Floats
     words: str
+    blocks: ArrayLike | None = None
 
 
 def tested(
@@ -39,6 +40,7 @@ def tested(
     groups: ArrayLike | None,
     pairs: ArrayLike | None,
     covariates: ArrayLike | None,
+    blocks: ArrayLike | None = None,
 ) -> tuple[Floats, Design]:
     """Return what is fitted, the data or the differences of pairs, and the design.
 
@@ -49,6 +51,7 @@ def tested(
     contrast : (p,) array_like, optional
     groups, pairs : (s,) array_like, optional
     covariates : (s,) or (s, q) array_like, optional
+    blocks : (s,) array_like, optional
 
     Returns
     -------
@@ -64,12 +67,12 @@ def tested(
         if contrast is not None:
             raise ValueError("a contrast is given without a design: give both, or groups")
         if pairs is None:
-            return data, mean_or_groups(len(data), groups, covariates)
+            return data, replace(mean_or_groups(len(data), groups, covariates), blocks=blocks)
         if groups is None or covariates is not None:
             raise ValueError("pairs need groups and take no covariates: give groups, or a design with a column a pair")
         differences, words = differences_of_pairs(data, groups, pairs)
-        mean = mean_or_groups(len(differences), None, None)
-        return differences, Design(mean.matrix, mean.contrast, words)
+        of_pairs = None if blocks is None else blocks_of_pairs(blocks, pairs, len(data))
+        return differences, replace(mean_or_groups(len(differences), None, None), words=words, blocks=of_pairs)
     beside = {"groups": groups, "pairs": pairs, "covariates": covariates}
     if twice := [name for name, value in beside.items() if value is not None]:
         raise ValueError(f"a design and {twice[0]} are given: give one of them")
@@ -77,7 +80,7 @@ def tested(
     if contrast is None and matrix.shape[1] > 1:
         raise ValueError(f"the design has {matrix.shape[1]} columns: give a contrast of {matrix.shape[1]} numbers")
     weights = np.ones(1) if contrast is None else _one_row(contrast, matrix.shape[1])
-    return data, Design(matrix, weights, f"contrast {' '.join(f'{weight:g}' for weight in weights)}")
+    return data, Design(matrix, weights, f"contrast {' '.join(f'{weight:g}' for weight in weights)}", blocks)
 
 
 def mean_or_groups(count: int, groups: ArrayLike | None, covariates: ArrayLike | None) -> Design:
@@ -139,95 +142,6 @@ def finite_rows(given: ArrayLike, count: int, what: str) -> Floats:
     if bad := int((~np.isfinite(values)).sum()):
         raise ValueError(f"{what} have {bad} values that are NaN: leave these maps out, a number is needed for each")
     return values
-
-
-def codes_of(given: ArrayLike, count: int, what: str) -> tuple[Integers, list[str]]:
-    """Return labels as numbers from 0, in the order in which they are named first, with the names.
-
-    Parameters
-    ----------
-    given : (s,) array_like
-        Text or numbers.
-    count : int
-    what : str
-        Name of the argument.
-
-    Returns
-    -------
-    (s,) int64
-    list of str
-
-    Raises
-    ------
-    ValueError
-        If there is not one for each map, or one is missing.
-    """
-    array: np.ndarray = np.ma.asanyarray(given)
-    if array.shape != (count,):
-        raise ValueError(f"{what} have shape {array.shape}, one label for each of {count} maps is needed")
-    # what a masked array hides is None
-    labels = [one.decode("utf-8", "replace") if isinstance(one, bytes) else one for one in array.tolist()]
-    missing = [k for k, one in enumerate(labels) if one is None or str(one).strip().lower() in UNKNOWN]
-    if missing:
-        raise ValueError(
-            f"{what} have no label for {len(missing)} of {count} maps (the first is number {missing[0]}, "
-            f"{labels[missing[0]]!r}): leave these maps out, or name what they belong to"
-        )
-    known: dict[str, int] = {}
-    return np.array([known.setdefault(str(one), len(known)) for one in labels], dtype=np.int64), list(known)
-
-
-def two_groups(given: ArrayLike, count: int) -> tuple[Integers, list[str]]:
-    """Return to which of two groups each map belongs, 0 for the one that is named first, and their names.
-
-    Parameters
-    ----------
-    given : (s,) array_like
-    count : int
-
-    Returns
-    -------
-    (s,) int64
-    list of str
-
-    Raises
-    ------
-    ValueError
-        If there are not two.
-    """
-    codes, names = codes_of(given, count, "groups")
-    if len(names) != 2:
-        raise ValueError(f"groups name {len(names)} ({', '.join(names[:5])}), exactly 2 are needed")
-    return codes, names
-
-
-def differences_of_pairs(data: Floats, groups: ArrayLike, pairs: ArrayLike) -> tuple[Floats, str]:
-    """Return of each pair the map of the group that is named first less that of the other.
-
-    Parameters
-    ----------
-    data : (s, n) float64
-    groups, pairs : (s,) array_like
-
-    Returns
-    -------
-    (s / 2, n) float64
-    str
-        What is tested.
-
-    Raises
-    ------
-    ValueError
-        If a pair has not one map of each group.
-    """
-    side, names = two_groups(groups, len(data))
-    owner, owners = codes_of(pairs, len(data), "pairs")
-    for pair, name in enumerate(owners):
-        if sorted(side[owner == pair].tolist()) != [0, 1]:
-            found = ", ".join(names[k] for k in side[owner == pair])
-            raise ValueError(f"pair {name} has the maps {found}: one {names[0]} and one {names[1]} are needed")
-    first, second = (np.flatnonzero(side == k)[np.argsort(owner[side == k])] for k in (0, 1))
-    return data[first] - data[second], f"{names[0]} less {names[1]} in pairs"
 
 
 def _one_row(contrast: ArrayLike, count: int) -> Floats:

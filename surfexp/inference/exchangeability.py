@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from surfexp.contract.arrays import Floats, Integers
-from surfexp.inference.designs import codes_of
+from surfexp.inference.labels_of_maps import codes_of
 from surfexp.inference.linear_model import INDEPENDENT, ContrastModel
 from surfexp.inference.rearrangements import Rearrangements, permutations, sign_flips
 from surfexp.mesh.given_numbers import one_of
@@ -129,3 +129,23 @@ def keeps_nuisance(model: ContrastModel, chosen: Rearrangements) -> bool:
     """
     inside = ((chosen.carried(column) @ model.nuisance) ** 2 for column in model.nuisance.T)
     return all(bool((squares.sum(axis=1) > 1.0 - SAME).all()) for squares in inside)
+
+
+def way_to_smaller_p(chosen: Rearrangements, blocks: ArrayLike | None, exchange: str) -> str:
+    """Return what gives more rearrangements that differ, in words.
+
+    Parameters
+    ----------
+    chosen : Rearrangements
+    blocks : (s,) array_like, optional
+    exchange : {"within", "whole"}
+
+    Returns
+    -------
+    str
+    """
+    if not chosen.complete:
+        return "raise count"
+    if blocks is not None and exchange == "within":
+        return "choose exchange = 'whole' if blocks can change places, else measure more subjects"
+    return "measure more subjects"

@@ -11,7 +11,7 @@ from scipy.stats import t as student
 
 from surfexp.contract.arrays import Floats
 from surfexp.inference.designs import tested
-from surfexp.inference.exchangeability import allowed_rearrangements, keeps_nuisance, least_p
+from surfexp.inference.exchangeability import allowed_rearrangements, keeps_nuisance, least_p, way_to_smaller_p
 from surfexp.inference.linear_model import contrast_model
 from surfexp.inference.permutation_inference import Progress, Statistics, null_distributions
 from surfexp.inference.vertex_graph import graph_of_edges
@@ -79,7 +79,7 @@ def permutation_test(
         Beside the mean or groups: what is regressed out. They are centred.
     blocks : (s,) array_like, optional
         Labels of observations that depend on one another, such as those of a family. Signs of a family flip together: a
-        mean with blocks needs exchange="whole".
+        mean with blocks needs exchange="whole". Both maps of a pair are in one block.
     exchange : {"within", "whole"}
         Observations are permuted within their block; or blocks of equal size change places. Of any size they flip as wholes.
     rearrange : {"auto", "flip", "permute"}
@@ -131,11 +131,12 @@ def permutation_test(
     columns = _columns(owner, maps)
     part = part_for(owner, columns)
     data = np.ascontiguousarray(np.asarray(part.restrict(columns), dtype=np.float64).T)
-    data, asked = tested(data, design, contrast, groups, pairs, covariates)
+    given = len(data)
+    data, asked = tested(data, design, contrast, groups, pairs, covariates, blocks)
     model = contrast_model(data, asked.matrix, asked.contrast)
     count = whole_number(count, "count", 2, LARGEST_COUNT)
     random = np.random.default_rng(whole_number(seed, "seed", 0, LARGEST_SEED))
-    chosen, words = allowed_rearrangements(model, asked.matrix, blocks, exchange, rearrange, count, random)
+    chosen, words = allowed_rearrangements(model, asked.matrix, asked.blocks, exchange, rearrange, count, random)
     forming = real_number(forming_p, "forming_p", above=0.0, below=0.5)
     statistics = Statistics(
         graph_of_edges(part.mesh.edges, part.mesh.vertex_areas * part.length**2),
@@ -147,9 +148,11 @@ def permutation_test(
     level = real_number(level, "level", above=0.0, below=1.0)
     parcels = _parcels(owner, labels)
     found = null_distributions(model, chosen, statistics, threads=given_threads(threads), progress=progress)
+    advice = way_to_smaller_p(chosen, asked.blocks, exchange)
     facts = {
         "tested": asked.words,
-        "maps": len(data),
+        "maps": given,
+        **({"differences": len(data)} if pairs is not None else {}),
         "degrees of freedom": model.freedom,
         "rearrangements": words,
         "all rearrangements": chosen.complete,
@@ -157,7 +160,7 @@ def permutation_test(
         "least p": least_p(model, chosen, bool(two_sided)),
         "threshold": statistics.threshold,
     }
-    return tested_maps(owner, part, statistics, found, level, parcels, facts)
+    return tested_maps(owner, part, statistics, found, level, parcels, facts, advice)
 
 
 def _columns(owner: Surface, maps: MapLike | Sequence[MapLike]) -> Floats:

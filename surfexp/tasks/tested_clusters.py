@@ -23,6 +23,7 @@ def tested_maps(
     level: float,
     parcels: LabelMap | None,
     facts: dict[str, object],
+    advice: str,
 ) -> PermutationTest:
     """Return the result of a permutation test on the whole surface.
 
@@ -38,6 +39,8 @@ def tested_maps(
     parcels : LabelMap or None
     facts : dict
         With "least p" and "rearrangements".
+    advice : str
+        What makes the least p smaller.
 
     Returns
     -------
@@ -78,7 +81,7 @@ def tested_maps(
 
     notes = part.notes
     if float(str(facts["least p"])) > level:
-        notes += (f"No p can be under {facts['least p']:.3g} with {facts['rearrangements']}: measure more subjects.",)
+        notes += (f"No p can be under {facts['least p']:.3g} with {facts['rearrangements']}: {advice}.",)
     maps = {
         "t": found.t,
         "tfce": found.tfce,

@@ -130,6 +130,20 @@ def test_pairs_are_the_mean_of_their_differences() -> None:
     np.testing.assert_allclose(permuted.p_tfce, found.p_tfce, rtol=1e-9)
 
 
+def test_pairs_flip_by_the_blocks_of_their_maps() -> None:
+    """Blocks have a label for each map, and the differences of pairs are half as many."""
+    families = np.array([*"xyyxxxzzyy"])
+    found = sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS, blocks=families, exchange="whole")
+    differences = NOISE[:, [0, 1, 3, 6, 8]] - NOISE[:, [4, 2, 5, 7, 9]]
+    same(found, sx.permutation_test(BALL, differences, blocks=[*"xyxzy"], exchange="whole"))
+    assert found.facts["rearrangements"] == "all 8 sign flips that differ"
+    assert found.facts["maps"] == 10 and found.facts["differences"] == 5
+    with pytest.raises(ValueError, match="pair 4 has maps of the blocks a, b: a pair in one block is needed"):
+        sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS, blocks=[*"aaaaaaaaab"], exchange="whole")
+    with pytest.raises(ValueError, match=r"blocks have shape \(5,\), one label for each of 10 maps"):
+        sx.permutation_test(BALL, NOISE, groups=GROUPS, pairs=PAIRS, blocks=[*"xyxzy"], exchange="whole")
+
+
 def test_covariates_are_regressed_out() -> None:
     age = np.random.default_rng(1).uniform(20, 80, 10)
     found = sx.permutation_test(BALL, NOISE, groups=GROUPS, covariates=age, count=100)
@@ -239,7 +253,18 @@ def test_maps_by_name_are_columns() -> None:
 
 def test_few_subjects_are_told_that_no_p_can_be_small() -> None:
     found = sx.permutation_test(BALL, NOISE[:, :4])
-    assert found.facts["least p"] == 0.125 and found.notes[0].startswith("No p can be under 0.125")
+    assert found.facts["least p"] == 0.125
+    assert found.notes[0] == "No p can be under 0.125 with all 16 sign flips that differ: measure more subjects."
+    few = sx.permutation_test(BALL, NOISE, count=10)
+    assert few.notes[0] == "No p can be under 0.2 with 10 of 1,024 sign flips: raise count."
+    design = np.column_stack([np.ones(10), PAIRS])
+    within = sx.permutation_test(BALL, NOISE, design, [0, 1], blocks=PAIRS)
+    assert within.notes[0] == (
+        "No p can be under 1 with all 1 permutations that differ: choose exchange = 'whole' if blocks can change places, "
+        "else measure more subjects."
+    )
+    whole = sx.permutation_test(BALL, NOISE, design, [0, 1], blocks=PAIRS, exchange="whole")
+    assert whole.facts["rearrangements"] == "all 120 permutations that differ" and not whole.notes
 
 
 @pytest.mark.parametrize(
