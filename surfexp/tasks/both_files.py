@@ -96,6 +96,8 @@ def maps_of_both(surface: Surface, given: Pair) -> dict[str, Floats]:
     counts = {side: len(part.mesh.vertices) for side, part in surface.hemispheres().items()}
     left, right = (read_maps(of_side(given, side, "map"), side, counts[side]) for side in HEMISPHERES)
     pairs = _same_maps(list(left), list(right), given)
+    for name, a, b in pairs:
+        require_same_columns(left[a], right[b], f"map {name!r}")
     both = {name: of_both(surface, left[a], right[b], f"map {a!r}") for name, a, b in pairs}
     return {name: values.astype(np.float64, copy=False) for name, values in both.items()}
 
@@ -119,6 +121,20 @@ def _same_maps(left: list[str], right: list[str], given: Pair) -> list[tuple[str
         f"{files[0]} has {len(left)} maps, {files[1]} has {len(right)}, and {', '.join(map(repr, alone[:3]))} "
         "in one of them alone: give the maps of both sides the same names"
     )
+
+
+def require_same_columns(left: Floats, right: Floats, what: str) -> None:
+    """Refuse a map of two hemispheres of which one has more columns: one column would stand for all.
+
+    Raises
+    ------
+    ValueError
+        Naming both shapes.
+    """
+    if left.shape[1:] != right.shape[1:]:
+        raise ValueError(
+            f"{what} has shape {left.shape} left and {right.shape} right: give both sides the same columns"
+        )
 
 
 def labels_of_both(surface: Surface, given: Pair) -> LabelMap:

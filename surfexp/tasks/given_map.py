@@ -16,7 +16,7 @@ from surfexp.mesh.both_hemispheres import of_both
 from surfexp.mesh.given_arrays import real_array
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.vertex_colours import colour_of
-from surfexp.tasks.both_files import maps_of_both
+from surfexp.tasks.both_files import maps_of_both, require_same_columns
 from surfexp.tasks.given_surface import sides_of
 from surfexp.tasks.maps_of_file import vertices_of_file
 
@@ -93,6 +93,7 @@ def _map_of_sides(surface: Surface, given: Any) -> Floats:
     if missing:
         raise ValueError(f"map has no {missing[0]} hemisphere, the surface is both: give both")
     left, right = (real_array(parts[side], f"map, {side}") for side in HEMISPHERES)
+    require_same_columns(left, right, "map")
     return np.asarray(of_both(surface, left, right), dtype=np.float64)
 
 

@@ -126,6 +126,17 @@ def test_hemispheres_that_do_not_fit_are_refused() -> None:
         sx.smooth(BRAIN, {"left": HEIGHTS["left"]}, 0.2)
 
 
+def test_one_column_of_a_side_does_not_stand_for_all_subjects(folder: Path) -> None:
+    left, right = (np.tile(HEIGHTS[side][:, None], 4) for side in ("left", "right"))
+    told = r"has shape \(642, 4\) left and \(2562, 1\) right: give both sides the same columns"
+    with pytest.raises(ValueError, match=f"map {told}"):
+        sx.permutation_test(BRAIN, {"left": left, "right": right[:, :1]})
+    sx.write("lh.all.npy", left)
+    np.save("rh.all.npy", right[:, :1])
+    with pytest.raises(ValueError, match=f"map 'all' {told}"):
+        sx.permutation_test(BRAIN, {"left": "lh.all.npy", "right": "rh.all.npy"})
+
+
 def test_eigenvalues_are_the_sorted_union_of_those_of_each_side() -> None:
     found = sx.eigenpairs(BRAIN, 24)
     union = np.sort(np.concatenate([sx.eigenpairs(one, 24).values for one in SIDES.values()]))[:24]
