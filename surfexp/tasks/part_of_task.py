@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import Surface
-from surfexp.mesh.surface_part import SurfacePart, finite_mask, surface_part
+from surfexp.mesh.surface_part import Mask, SurfacePart, finite_mask, surface_part
 from surfexp.tasks.soundness import usable_vertices
 
 
@@ -29,27 +28,55 @@ def part_for(surface: Surface, *maps: Floats) -> SurfacePart:
     count = len(surface.mesh.vertices)
     finite, usable = finite_mask(maps, count), usable_vertices(surface.mesh)
     if finite is not None and not finite.any():
-        raise ValueError(f"map is NaN at all of {count} vertices: give numbers where it is known")
+        raise ValueError(f"{_known_nowhere(maps, np.ones_like(finite), 'vertices')}: give numbers where it is known")
     inside = usable if surface.mask is None else usable & surface.mask
     if finite is not None and inside.any() and not (finite & inside).any():
-        raise ValueError(f"map is NaN at all {inside.sum()} vertices inside the mask: give another mask")
+        raise ValueError(f"{_known_nowhere(maps, inside, 'vertices inside the mask')}: give another mask")
     part = surface_part(surface.mesh, inside if finite is None else inside & finite)
     mesh, length = scaled(part.mesh)
-    return replace(part, mesh=mesh, length=length, notes=(*_taken(surface, part, finite, usable), *part.notes))
+    notes = _taken(surface, part, maps, finite, usable)
+    return replace(part, mesh=mesh, length=length, notes=(*notes, *part.notes))
 
 
 def _taken(
-    surface: Surface, part: SurfacePart, finite: NDArray[np.bool_] | None, usable: NDArray[np.bool_]
+    surface: Surface, part: SurfacePart, maps: Sequence[Floats], finite: Mask | None, usable: Mask
 ) -> Iterator[str]:
     """Say which part is taken where nobody asked for one."""
     if lost := int((~usable).sum()):
         yield f"{lost} of {part.whole_count} vertices belong to no face or have no finite position: they are outside."
-    if surface.mask is None and finite is not None:
-        yield f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
-    if surface.mask is not None and finite is not None:
+    if finite is None:
+        return
+    if surface.mask is None:
+        said = f"The map is finite at {len(part.vertices)} of {part.whole_count} vertices: these are the mask."
+        yield said + _worst(maps, np.ones_like(usable))
+    else:
         inside = usable & surface.mask
         if unknown := int((inside & ~finite).sum()):
-            yield f"The map is NaN at {unknown} of the {inside.sum()} vertices inside the mask: they are outside."
+            said = f"The map is NaN at {unknown} of the {inside.sum()} vertices inside the mask: they are outside."
+            yield said + _worst(maps, inside)
+
+
+def _unknown(maps: Sequence[Floats], inside: Mask) -> list[int]:
+    """At how many vertices each column of the maps is NaN."""
+    columns = (column for one in maps for column in one.reshape(len(one), -1).T)
+    return [int(np.isnan(column[inside]).sum()) for column in columns]
+
+
+def _worst(maps: Sequence[Floats], inside: Mask) -> str:
+    """Which of several maps knows least, unless all know as much."""
+    unknown = _unknown(maps, inside)
+    if min(unknown) == max(unknown):
+        return ""
+    return f" Map {np.argmax(unknown) + 1} of {len(unknown)} alone is NaN at {max(unknown)}."
+
+
+def _known_nowhere(maps: Sequence[Floats], inside: Mask, where: str) -> str:
+    """Which map is NaN at all vertices inside, or knows least where no vertex is known in all of them."""
+    unknown, count = _unknown(maps, inside), int(inside.sum())
+    worst = f"map {np.argmax(unknown) + 1} of {len(unknown)}" if len(unknown) > 1 else "map"
+    if max(unknown) < count:
+        return f"none of {count} {where} is known in all maps, {worst} is NaN at {max(unknown)}"
+    return f"{worst} is NaN at all {count} {where}"
 
 
 def require_connected(part: SurfacePart, what: str, both: bool = False) -> None:

@@ -198,7 +198,28 @@ def test_the_mask_is_where_all_maps_are_known_and_nothing_outside_takes_part() -
     said = (
         f"The map is NaN at {outside.sum()} of the {(HEIGHT < 0.9).sum()} vertices inside the mask: they are outside."
     )
-    assert said in both.notes
+    assert f"{said} Map 4 of 10 alone is NaN at {outside.sum()}." in both.notes
+    assert any(note.endswith(f"Map 4 of 10 alone is NaN at {outside.sum()}.") for note in found.notes)
+    everywhere = np.where(outside[:, None], np.nan, NOISE)
+    assert not any("alone" in note for note in sx.permutation_test(BALL, everywhere, count=20).notes)
+
+
+def test_the_map_that_is_known_nowhere_is_named() -> None:
+    """Nine of ten were complete, and the line said that the map is NaN at all vertices."""
+    lost = NOISE.copy()
+    lost[:, 6] = np.nan
+    with pytest.raises(ValueError, match=r"map 7 of 10 is NaN at all 162 vertices: give numbers where it is known$"):
+        sx.permutation_test(BALL, lost)
+    inside = HEIGHT > 0.3
+    lost[~inside, 6] = 1.0
+    with pytest.raises(ValueError, match=rf"map 7 of 10 is NaN at all {inside.sum()} vertices inside the mask: give"):
+        sx.permutation_test(replace(BALL, mask=inside), lost)
+    top = HEIGHT > 0.9
+    lost[:, 6], lost[:, 2] = np.where(top, np.nan, 1.0), np.where(top, 1.0, np.nan)
+    with pytest.raises(
+        ValueError, match=rf"none of 162 vertices is known in all maps, map 3 of 10 is NaN at {(~top).sum()}: give"
+    ):
+        sx.permutation_test(BALL, lost)
 
 
 def test_two_hemispheres_are_one_surface_of_two_components() -> None:
