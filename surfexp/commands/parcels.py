@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_maps import map_of, shown_labels
+from surfexp.commands.given_maps import given_maps, shown_labels
 from surfexp.commands.surface_arguments import opened, ready_map, surface_options
 from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
@@ -33,11 +34,15 @@ def parcels(path: str, map_name: str, labels: str, means: Path | None, target: P
     parcel, how many vertices it has, and the share of its area where the map is NaN.
     """
     from surfexp.commands.certificate import write_certificate
+    from surfexp.io.map_files import side_by_side
+    from surfexp.io.map_shapes import scalar_channels
+    from surfexp.io.written_maps import holds_names
     from surfexp.tasks.parcellation import parcels as task
     from surfexp.tasks.written_files import written
 
     surface, files = opened(path, **given)
-    values = map_of(surface, map_name, files, given["hemisphere"])
+    read = given_maps(surface, map_name, files, given["hemisphere"])
+    values = side_by_side(read, map_name)
     table = shown_labels(surface, labels, files, given["hemisphere"])
     if table is None:
         raise ValueError(f"{labels} is no file of labels, give .annot, .label.gii or .dlabel.nii")
@@ -45,13 +50,13 @@ def parcels(path: str, map_name: str, labels: str, means: Path | None, target: P
     channels = 1 if values.ndim == 1 else values.shape[1]
     if means is not None:
         ready_map(means, files, surface, channels=channels)
-    found = task(surface, values, table)
+    found = replace(task(surface, values, table), channels=tuple(scalar_channels(read)) if len(read) > 1 else ())
     from surfexp.io.csv_cells import write_columns
 
     write_columns(target, found.table())
     notes = found.notes
     if means is not None:
-        notes += written(means, {"mean": found.values}, surface)
+        notes += written(means, found.named("mean") if holds_names(means) else {"mean": found.values}, surface)
     facts = {"parcels": len(found.names), "area": float(found.areas.sum())}
     write_certificate(target, "means by area", {"labels": labels}, files, facts, notes)
     for note in notes:

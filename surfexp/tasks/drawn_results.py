@@ -59,7 +59,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
     if isinstance(result, PermutationTest):
         return _tested(result)
     if isinstance(result, Parcels) and result.means.ndim > 1:
-        return [MapRow(f"map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
+        titles = result.channels or [f"map {k}" for k in range(1, NULLS + 1)]
+        return [MapRow(title, [one]) for title, one in zip(titles, result.values.T[:NULLS], strict=False)]
     if isinstance(result, DenoisingPath):
         return _along(result)
     if isinstance(result, DenoisedMap):

@@ -34,6 +34,8 @@ class Parcels(Drawable):
     rows : (n,) int64
         The row of each vertex, -1 where there is none.
     notes : tuple of str
+    channels : tuple of str
+        Names of the c maps; numbers from 0 where there are none.
     """
 
     names: tuple[str, ...]
@@ -45,6 +47,7 @@ class Parcels(Drawable):
     unknown: Floats
     rows: Integers
     notes: tuple[str, ...] = ()
+    channels: tuple[str, ...] = ()
 
     @property
     def values(self) -> Floats:
@@ -94,9 +97,28 @@ class Parcels(Drawable):
         columns: dict[str, list[Any]] = {"hemisphere": list(self.hemispheres)} if any(self.hemispheres) else {}
         columns |= {"parcel": list(self.names), "vertices": self.vertices.tolist(), "area": self.areas.tolist()}
         for name, numbers in (("mean", self.means), ("median", self.medians), ("unknown", self.unknown)):
-            channels = {name: numbers} if numbers.ndim == 1 else {f"{name} {k}": one for k, one in enumerate(numbers.T)}
-            columns |= {key: one.tolist() for key, one in channels.items()}
+            columns |= {key: one.tolist() for key, one in self._of_channels(name, numbers).items()}
         return columns
+
+    def named(self, name: str) -> dict[str, Floats]:
+        """Return the means on the surface, each map by a name and its own.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        dict of str to (n,) or (n, c) float64
+            One of c columns where maps have no names.
+        """
+        return self._of_channels(name, self.values) if self.channels else {name: self.values}
+
+    def _of_channels(self, name: str, numbers: Floats) -> dict[str, Floats]:
+        if numbers.ndim == 1:
+            return {name: numbers}
+        channels = self.channels or range(numbers.shape[1])
+        return {f"{name} {one}": numbers[:, k] for k, one in enumerate(channels)}
 
     def _summary(self) -> Summary:
         facts = {"parcels": len(self.names), "area": float(self.areas.sum()), "vertices": int(self.vertices.sum())}

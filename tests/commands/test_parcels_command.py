@@ -53,6 +53,18 @@ def test_both_hemispheres_stand_in_one_table(folder: Path) -> None:
     assert len(read_maps("means.dscalar.nii", "right")["mean"]) == len(HEIGHT)
 
 
+def test_maps_of_one_file_keep_their_names(folder: Path) -> None:
+    np.savez("both.npz", thickness=HEIGHT, sulc=2.0 * HEIGHT)
+    call = ["parcels", "lh.white.ply", "both.npz", "lh.parts.annot", "--to", "z.csv"]
+    assert main([*call, "--means", "means.npz"]) == 0
+    (south, north) = rows("z.csv")
+    assert float(north["mean sulc"]) == 2.0 * float(north["mean thickness"]) > 0.0 and "median thickness" in south
+    assert [*read_maps("means.npz")] == ["mean thickness", "mean sulc"]
+    # a format without names holds them in their order
+    assert main([*call, "--means", "means.npy"]) == 0
+    np.testing.assert_array_equal(np.load("means.npy")[:, 1], read_maps("means.npz")["mean sulc"])
+
+
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
