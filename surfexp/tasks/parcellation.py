@@ -130,7 +130,8 @@ def weighted_median(values: Floats, weights: Floats) -> float:
     order = np.argsort(values, kind="stable")
     reached = np.cumsum(weights[order])
     half = 0.5 * reached[-1]
-    lower, upper = (
-        values[order[min(np.searchsorted(reached, half, side), len(order) - 1)]] for side in ("left", "right")
-    )
+    # of a sum of n weights
+    rounding = len(order) * np.finfo(np.float64).eps * half
+    near = np.searchsorted(reached, half - rounding, "left"), np.searchsorted(reached, half + rounding, "right")
+    lower, upper = (values[order[min(place, len(order) - 1)]] for place in near)
     return float(0.5 * (lower + upper))

@@ -130,6 +130,14 @@ def test_the_median_is_that_of_copies(pairs: list[tuple[int, float]]) -> None:
     assert weighted_median(values, weights) == np.median(copies)
 
 
+@pytest.mark.parametrize("size", [10, 38, 40000])
+@pytest.mark.parametrize("weight", [0.1, 1.0 / 3.0, 1e-7])
+def test_equal_weights_are_the_plain_median_whatever_they_round_to(size: int, weight: float) -> None:
+    """Ten times .1 was less than 1, so that half of it was met one place early."""
+    values = np.random.default_rng(size).permutation(np.arange(float(size)))
+    assert weighted_median(values, np.full(size, weight)) == np.median(values) == 0.5 * (size - 1)
+
+
 def test_a_picture_shows_the_means() -> None:
     pytest.importorskip("matplotlib")
     picture = sx.parcels(BALL, HEIGHT, BANDS).plot(BALL, width=300)
