@@ -54,11 +54,16 @@ EXAMPLES = (
 @click.option("--count", default=5000, help="rearrangements")
 @click.option("--forming-p", default=0.001, help="uncorrected p from which on vertices form clusters")
 @click.option("--one-sided", is_flag=True, help="test for positive contrasts only")
-@click.option("--level", default=0.05, help="of the regions that are listed")
+@click.option("--level", default=0.05, help="of the regions of TFCE, which are listed")
 @click.option("--labels", metavar="FILE", help="parcels of the table: .annot, .label.gii, .dlabel.nii")
 @click.option("--seed", default=0, help="of the random rearrangements")
 @click.option("--threads", type=int, help="all cores if not given")
-@click.option("--table", type=click.Path(path_type=Path), metavar="FILE", help="write the clusters as .csv")
+@click.option(
+    "--table", type=click.Path(path_type=Path), metavar="FILE", help="write clusters beyond --forming-p, .csv"
+)
+@click.option(
+    "--regions", type=click.Path(path_type=Path), metavar="FILE", help="write regions of TFCE up to --level, .csv"
+)
 @surface_options
 @result_option()
 def test(
@@ -82,6 +87,7 @@ def test(
     seed: int,
     threads: int | None,
     table: Path | None,
+    regions: Path | None,
     target: Path,
     **given: Any,
 ) -> int:
@@ -92,6 +98,7 @@ def test(
     """
     import numpy as np
 
+    from surfexp.io.csv_cells import write_columns
     from surfexp.io.map_files import side_by_side
     from surfexp.tasks.permutation_testing import permutation_test
 
@@ -112,6 +119,9 @@ def test(
         raise ValueError(f"--labels {labels} is no file of labels, give .annot, .label.gii or .dlabel.nii")
     ready_map(target, files, surface, values, count=8)
     ready_table(table, files, "--table")
+    ready_table(regions, files, "--regions")
+    if table is not None and table == regions:
+        raise ValueError(f"--table and --regions are both {table}: give two files")
     started = time.perf_counter()
     with progress_line("test") as progress:
         found = permutation_test(
@@ -119,10 +129,9 @@ def test(
         )
     facts = found.facts | {"seconds": time.perf_counter() - started}
     _say(found, surface.right is not None)
-    if table is not None:
-        from surfexp.io.csv_cells import write_columns
-
-        write_columns(table, found.table("clusters"))
+    for place, which in ((table, "clusters"), (regions, "regions")):
+        if place is not None:
+            write_columns(place, found.table(which))
     model = {name: said for name, said in (columns | {"design": design, "contrast": contrast}).items() if said}
     return finish(target, found.maps, surface, "permutation test", model | options, files, facts, (*said, *found.notes))
 

@@ -36,7 +36,17 @@ def folder(working_folder: Path) -> Path:
 
 def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = ["--subjects", "subjects.tsv", "--groups", " sex", "--covariates", "age", "--count", "200", "--seed", "3"]
-    more = ["--in-order", "--labels", "halves.label.gii", "--table", "clusters.csv", "--to", "found.npz"]
+    more = [
+        "--in-order",
+        "--labels",
+        "halves.label.gii",
+        "--table",
+        "clusters.csv",
+        "--regions",
+        "regions.csv",
+        "--to",
+        "found.npz",
+    ]
     assert main(["test", "ball.surf.gii", *(f"s{k}.npy" for k in range(8)), *options, *more]) == 0
     surface = sx.read("ball.surf.gii")
     wanted = sx.permutation_test(surface, DATA, groups=SEX, covariates=AGE, count=200, seed=3)
@@ -50,6 +60,9 @@ def test_groups_and_covariates_of_a_table(folder: Path, capsys: pytest.CaptureFi
         rows = list(csv.DictReader(stream))
     assert len(rows) == len(wanted.clusters) > 0 and rows[0]["parcels"].startswith("north")
     assert [float(row["p_mass"]) for row in rows] == [one.p_mass for one in wanted.clusters]
+    with Path("regions.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert [float(row["p_tfce"]) for row in rows] == [one.p_tfce for one in wanted.regions] and "p_mass" not in rows[0]
     said = capsys.readouterr().out
     assert said.count("region of") == len(wanted.regions) and ", north, p of TFCE " in said
 
@@ -164,6 +177,8 @@ def test_blocks_flip_as_wholes_where_they_are_asked_to(folder: Path, capsys: pyt
         (["--labels", "all.npz"], "is no file of labels"),
         (["--table", "clusters.xls"], "choose .csv"),
         (["--table", "subjects.csv/a.csv"], "subjects.csv"),
+        (["--table", "a.csv", "--regions", "a.csv"], "--table and --regions are both a.csv: give two files"),
+        (["--regions", "regions.xls"], "--regions regions.xls has an unknown format, choose .csv"),
     ],
 )
 def test_mistakes_are_told_in_one_line(
