@@ -72,6 +72,8 @@ def parcels(surface: SurfaceLike, values: MapLike, labels: str | LabelMap | Arra
     notes = part.notes
     if left_out:
         notes += (f"Left out: the labels {', '.join(map(repr, left_out))}.",)
+    if nameless := int((~np.isin(table.keys, [*table.names]) & (areas > 0.0)).sum()):
+        notes += (f"Left out: {nameless} vertices whose label has no name.",)
     empty = [table.names[key] for k, key in enumerate(keys) if k not in set((used % len(keys)).tolist())]
     if empty:
         notes += (f"{len(empty)} parcels have no vertex: {', '.join(empty[:5])}{', ...' if len(empty) > 5 else ''}.",)

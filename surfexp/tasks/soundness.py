@@ -22,7 +22,7 @@ _SOUND: WeakSet[Surface] = WeakSet()
 def sound_part(surface: Surface, name: str, repair: str = REPAIR_ARRAYS) -> Surface:
     """Return a surface whose part inside the mask every method can work with.
 
-    Vertices that no face names, and those without a finite position, do not matter: `inputs.part_for` leaves them outside.
+    Vertices that no face names, and those without a finite position, do not matter: `part_of_task.part_for` leaves them outside.
     Where a mask leaves faces that touch in a vertex alone, they may.
 
     Parameters

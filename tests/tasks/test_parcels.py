@@ -130,6 +130,13 @@ def test_the_median_is_that_of_copies(pairs: list[tuple[int, float]]) -> None:
     assert weighted_median(values, weights) == np.median(copies)
 
 
+def test_vertices_whose_label_has_no_name_are_told() -> None:
+    nameless = LabelMap(np.where(HEIGHT > 0.5, 9, BANDS.keys), BANDS.names)
+    found = sx.parcels(BALL, HEIGHT, nameless)
+    assert f"Left out: {(HEIGHT > 0.5).sum()} vertices whose label has no name." in found.notes
+    assert not any("no name" in note for note in sx.parcels(BALL, HEIGHT, BANDS).notes)
+
+
 @pytest.mark.parametrize("size", [10, 38, 40000])
 @pytest.mark.parametrize("weight", [0.1, 1.0 / 3.0, 1e-7])
 def test_equal_weights_are_the_plain_median_whatever_they_round_to(size: int, weight: float) -> None:
