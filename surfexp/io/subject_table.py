@@ -69,8 +69,8 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     Returns
     -------
     tuple of str and list of int, optional
-        The column, and a row for each map. Of several the one with the longest words: an id says more than the number of
-        a row. None where no column names any map.
+        The column, and a row for each map. Whole numbers count where no other column names the maps: an id says more than
+        the number of a row. None where no column names any map.
 
     Raises
     ------
@@ -87,8 +87,8 @@ def rows_of_maps(columns: Mapping[str, Sequence[str]], maps: Sequence[str]) -> t
     fits = {column: _fitting(words, maps) for column, words in columns.items()}
     alone = {column: rows for column, found in fits.items() if (rows := _one_each(found)) is not None}
     if alone:
-        said = {column: sum(len(columns[column][row]) for row in rows) for column, rows in alone.items()}
-        return _agreed({column: rows for column, rows in alone.items() if said[column] == max(said.values())})
+        numbers = {column for column, rows in alone.items() if all(columns[column][row].isdigit() for row in rows)}
+        return _agreed({column: rows for column, rows in alone.items() if column not in numbers} or alone)
     whole = {column: found for column, found in fits.items() if all(found)}
     together = {}
     for first, second in combinations(whole, 2):

@@ -26,6 +26,15 @@ def test_an_id_says_more_than_a_number_of_the_row() -> None:
         rows_of_maps({"row": index, "id": shuffled("{}")}, FILES)
 
 
+def test_columns_that_contradict_one_another_are_refused_however_long_their_words() -> None:
+    """A column of paths won over ids that said other rows."""
+    table = {"participant_id": [f"sub-{k}" for k in range(20)], "file": shuffled("maps/lh.sub-{}.thickness.mgh")}
+    with pytest.raises(ValueError, match=r"columns 'participant_id' and 'file' both name the maps"):
+        rows_of_maps(table, FILES)
+    table["file"] = [f"maps/lh.sub-{k}.thickness.mgh" for k in range(20)]
+    assert rows_of_maps(table, FILES) == ("participant_id", list(range(20)))
+
+
 def test_two_columns_tell_visits_apart() -> None:
     files = [f"lh.sub-{k:02}_ses-{visit}.mgh" for k in range(10) for visit in (1, 2)]
     table = {
