@@ -49,7 +49,9 @@ EXAMPLES = (
     default="auto",
     help="flip signs, or permute maps; auto flips where a mean is tested",
 )
-@click.option("--design", type=click.Path(), metavar="FILE", help="a linear model instead: .csv, a row for each map")
+@click.option(
+    "--design", type=click.Path(), metavar="FILE", help="a linear model instead: .csv, rows in the order of maps"
+)
 @click.option("--contrast", metavar="NUMBER,...", help="of the columns of the design")
 @click.option("--count", default=5000, help="rearrangements")
 @click.option("--forming-p", default=0.001, help="uncorrected p from which on vertices form clusters")

@@ -186,7 +186,7 @@ def chosen_null_maps(
         return null_maps(
             surface, values, count, method="variogram", seed=seed
         ), f"Variograms: {said}, over {MOST_LOST:g}."
-    except TooFewVerticesError:
+    except TooFewVerticesError as error:
         # made.notes say that these are too rough
-        few = f"{int(np.isfinite(made.values[:, 0]).sum())} vertices are too few for variograms"
+        few = str(error).partition(",")[0]
         return made, f"Eigenstrapping: {said}, over {MOST_LOST:g}, but {few}."

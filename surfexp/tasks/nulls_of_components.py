@@ -128,8 +128,9 @@ def by_variogram(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int,
             nearest = nearest_along_surface(one.mesh, min(NEIGHBOURS, len(values)))
             kernels = VariogramMatching(*nearest, pairs, FRACTIONS)
         except ValueError as error:
+            component = "" if mesh.component_count == 1 else " of a component"
             raise TooFewVerticesError(
-                f"{len(values)} vertices are too few for variograms, take method='eigenstrapping' ({error})"
+                f"{len(values)} vertices{component} are too few for variograms, take method='eigenstrapping' ({error})"
             ) from None
         # what makes random numbers takes one or several
         nulls = kernels.nulls(values, count, seed=cast(int, seed))

@@ -123,6 +123,12 @@ def test_variograms_of_two_hemispheres_are_drawn_apart() -> None:
     right = nulls[len(Z) :]
     np.testing.assert_allclose(right.mean(axis=0), values[len(Z) :].mean(), rtol=1e-12)
     assert np.mean([abs(np.corrcoef(alone[:, k], right[:, k])[0, 1]) for k in range(40)]) < 0.6
+    small = sx.shape("icosphere", levels=2).mesh
+    unequal = TriangleMesh(
+        np.concatenate([BALL.mesh.vertices, small.vertices + 3.0]), np.concatenate([BALL.mesh.faces, small.faces + 642])
+    )
+    with pytest.raises(ValueError, match="162 vertices of a component are too few for variograms, take method="):
+        sx.null_maps(unequal, unequal.vertices[:, 2], 5, method="variogram")
     offset = np.repeat([0.0, 9.0], len(Z))
     found = sx.compare_maps(TWO, np.tile(X, 2) + offset, np.tile(Y, 2) + offset, method="variogram", count=99)
     assert found.r > 0.9 and found.p > 0.2
