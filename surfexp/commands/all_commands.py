@@ -33,7 +33,7 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "test": Entry("permutation", "Test maps of subjects at every vertex, corrected for all of them."),
         "parcels": Entry("parcels", "Write the mean and median of a map in each parcel, weighted by area."),
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
-        "skeleton": Entry("surface_commands", "Find the Reeb graph of a map on a surface."),
+        "skeleton": Entry("skeleton", "Find the Reeb graph of a map on a surface."),
         "distance": Entry(
             "surface_commands", "Measure the spectral distance of two surfaces, with a proved lower bound."
         ),

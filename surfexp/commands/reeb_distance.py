@@ -4,14 +4,23 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
-from surfexp.commands.surface_arguments import NOT_CERTIFIED, finish, ready, repair_option, result_option, surface_of
+from surfexp.commands.skeleton import level_options
+from surfexp.commands.surface_arguments import (
+    NOT_CERTIFIED,
+    finish,
+    notes_of,
+    ready,
+    repair_option,
+    result_option,
+    surface_of,
+)
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:
@@ -27,8 +36,7 @@ EXAMPLES = ("a.ply b.ply --map x", "scan.ply scan.ply --map first.csv --second-m
 @click.argument("second", type=click.Path())
 @click.option("--map", "map_name", metavar="MAP", default="z", help="a file, a map of the surfaces, or x, y, z")
 @click.option("--second-map", metavar="MAP", help="of SECOND, where it is another")
-@click.option("--count", default=50, help="number of level sets")
-@click.option("--persistence", default=0.0, help="branches shorter than this share of the range are removed")
+@level_options
 @click.option("--effort", default=10_000, help="steps of each search")
 @repair_option
 @result_option(required=False)
@@ -38,6 +46,7 @@ def reeb_distance(
     map_name: str,
     second_map: str | None,
     count: int,
+    levels: Any,
     persistence: float,
     effort: int,
     repair: bool,
@@ -60,22 +69,25 @@ def reeb_distance(
         ready(target, files, check_common_space_target)
     started = time.perf_counter()
     graphs = [
-        reeb_graph(surface, values, count=count, persistence=persistence)
+        reeb_graph(surface, values, count=count, levels=levels, persistence=persistence)
         for surface, values in zip(surfaces, maps, strict=True)
     ]
     found = task(*graphs, effort=effort)
     between = f"{found.upper:.6g} (proved)" if found.proved else f"{found.lower:.6g} to {found.upper:.6g} (not proved)"
     echo(f"distance {between}")
+    notes = (*notes_of(first, second, *(graph.notes for graph in graphs)), *found.notes)
     if target is None:
-        for note in found.notes:
+        for note in notes:
             echo(note, err=True)
         return 0 if found.complete else NOT_CERTIFIED
     defects = check_reeb_distance(found, *graphs)
     facts = {name: getattr(found, name) for name in ("lower", "upper", "by_persistence", "proved", "complete")}
     facts |= {"checked": not defects, "seconds": time.perf_counter() - started}
-    options = {"map": names[0], "second_map": names[1], "levels": count, "persistence": persistence, "effort": effort}
-    notes = (*found.notes, *defects)
-    code = finish(target, found.space, None, "distance of Reeb graphs", options, files, facts, notes)
+    options = {"map": names[0], "second_map": names[1], "count": count, "levels": levels, "persistence": persistence}
+    options |= {"effort": effort}
+    read = notes_of(first, second, *(surface.notes for surface in surfaces))
+    method = "distance of Reeb graphs"
+    code = finish(target, found.space, None, method, options, files, facts, (*notes, *defects), read)
     return NOT_CERTIFIED if defects else code
 
 

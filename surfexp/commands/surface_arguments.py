@@ -151,6 +151,12 @@ def surface_of(path: str, repair: bool, **given: Any) -> Surface:
     return surface
 
 
+def notes_of(first: str, second: str, *notes: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the notes of two surfaces, each with its file."""
+    pairs = zip((first, second), notes, strict=True)
+    return tuple(dict.fromkeys(f"{path}: {note}" for path, said in pairs for note in said))
+
+
 def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str, Floats]:
     """Give the columns of a result the names of the maps that it was made of, where its format has room.
 
@@ -234,8 +240,23 @@ def finish(
     files: Inputs,
     facts: dict[str, Any],
     notes: tuple[str, ...] = (),
+    read: tuple[str, ...] = (),
 ) -> int:
     """Write a result with its certificate, and say both in one line.
+
+    Parameters
+    ----------
+    target : Path
+    result : object
+    surface : Surface, optional
+        That on whose vertices the result is.
+    method : str
+    options, files, facts
+        Of the certificate.
+    notes : tuple of str
+        Of the result: they are said, and in the certificate.
+    read : tuple of str
+        Of other surfaces that it is made of: they were said when those were read, and are in the certificate.
 
     Returns
     -------
@@ -246,7 +267,7 @@ def finish(
     from surfexp.tasks.written_files import written
 
     notes = (*notes, *written(target, result, surface))
-    said = tuple(dict.fromkeys((*(surface.notes if surface is not None else ()), *notes)))
+    said = tuple(dict.fromkeys((*read, *(surface.notes if surface is not None else ()), *notes)))
     certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:
         echo(note, err=True)

@@ -10,7 +10,7 @@ import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_maps import map_of, shown_borders, shown_map
+from surfexp.commands.given_maps import shown_borders, shown_map
 from surfexp.commands.surface_arguments import (
     finish,
     label_of_bar,
@@ -27,14 +27,12 @@ from surfexp.commands.surface_arguments import (
     surface_of,
     surface_options,
 )
-from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
     "geodesic": ("lh.white 0 --to distance.shape.gii", "bunny.ply 12 40 --to distance.csv"),
     "curvature": ("lh.white --to curvature.shape.gii", "bunny.ply --to bunny.vtp"),
-    "skeleton": ("vessel.ply --to skeleton.swc", "patch.ply height.csv --branches table.csv --to skeleton.graphml"),
     "distance": ("a.ply b.ply -n 20", "a.ply b.ply --to map.npz"),
     "align": ("a.ply b.ply -k 50 --to aligned.npz", "lh.white other/lh.white -k 20 --to aligned.npz"),
     "convert": ("lh.white white.gii", "scan.obj scan.ply"),
@@ -116,41 +114,6 @@ def curvature(path: str, target: Path, **given: Any) -> None:
     values = mean_curvature(surface)
     facts = {"seconds": time.perf_counter() - started}
     finish(target, {"mean curvature": values}, surface, "mean curvature", {}, files, facts)
-
-
-@click.command(**shown("skeleton", *EXAMPLES["skeleton"]))
-@click.argument("path", metavar="SURFACE", type=click.Path())
-@click.argument("map_name", metavar="[MAP]", required=False, type=click.Path())
-@click.option("--count", default=50, help="number of level sets")
-@click.option("--branches", type=click.Path(path_type=Path), metavar="FILE", help="lengths and radii of branches, .csv")
-@surface_options
-@result_option()
-def skeleton(path: str, map_name: str | None, count: int, branches: Path | None, target: Path, **given: Any) -> None:
-    """Find the Reeb graph of a map on a surface.
-
-    Without MAP it is that of the first eigenfunction. The result is .graphml, .swc where it is a tree, .vtk or .ply.
-    """
-    from surfexp.commands.certificate import write_certificate
-    from surfexp.skeleton.export import check_skeleton_target, write_skeleton
-    from surfexp.tasks.skeletons import first_eigenfunction, reeb_graph
-    from surfexp.tasks.spectra import eigenpairs
-
-    surface, files = opened(path, **given)
-    given_map = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None
-    ready(target, files, check_skeleton_target)
-    ready_table(branches, files, "--branches")
-    values = first_eigenfunction(eigenpairs(surface, 3)) if given_map is None else given_map
-    graph = reeb_graph(surface, values, count=count)
-    write_skeleton(target, graph)
-    if branches is not None:
-        from surfexp.io.csv_cells import write_columns
-
-        write_columns(branches, graph.branches())
-    facts = {"loops": graph.metrics["b1"], "nodes": len(graph.positions), "arcs": len(graph.arcs)}
-    write_certificate(
-        target, "reeb graph", {"levels": count, "map": map_name or "first eigenfunction"}, files, facts, graph.notes
-    )
-    echo(f"{target}: {len(graph.positions)} nodes, {len(graph.arcs)} arcs, {graph.metrics['b1']:.0f} loops")
 
 
 @click.command(**shown("distance", *EXAMPLES["distance"]))

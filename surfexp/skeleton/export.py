@@ -23,13 +23,14 @@ def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
     """Write nodes and arcs in the format of the file's ending.
 
     GraphML keeps position, kind, value, contour length, radius and level of every node. SWC keeps positions and radii of trees,
-    each with its lowest node as root; the type of all is 0, undefined. Legacy VTK keeps positions, lines, and values, contour
-    lengths and radii as point data; PLY positions and edges.
+    each with its lowest node as root; the type of all is 0, undefined, and an end has radius 0, that of an open tube too. Legacy
+    VTK keeps positions, lines, and values, contour lengths and radii as point data; PLY positions and edges.
 
     Raises
     ------
     ValueError
-        If the ending is none of these, or a skeleton with loops, or without radii, is to be an SWC file.
+        If the ending is none of these, or a skeleton with loops, seen or hidden between its levels, or without radii, is to be
+        an SWC file.
     """
     path = Path(path)
     check_skeleton_target(path)
@@ -106,8 +107,10 @@ def _ply(skeleton: Skeleton) -> str:
 
 def _swc(skeleton: Skeleton) -> str:
     """Rows of number, type, position, radius and parent; parents stand before their children."""
-    if loops := int(skeleton.metrics["b1"]):
-        raise ValueError(f"the skeleton has {loops} loops, an SWC file holds trees only: choose .graphml")
+    hidden = int(skeleton.metrics.get("hidden_handles", 0))
+    if loops := int(skeleton.metrics["b1"]) + hidden:
+        unseen = f", {hidden} of them between two levels" if hidden else ""
+        raise ValueError(f"the skeleton has {loops} loops{unseen}, an SWC file holds trees only: choose .graphml")
     if not np.isfinite(skeleton.radii).all():
         raise ValueError("the skeleton has nodes without a radius, which an SWC file needs: choose .graphml")
     around: list[list[int]] = [[] for _ in skeleton.positions]

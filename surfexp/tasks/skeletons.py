@@ -12,19 +12,21 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, mask_array
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.length_scale import scaled
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
+from surfexp.skeleton.eigenmap import NEARLY_DOUBLE
 from surfexp.skeleton.geodesic_distance import Progress, geodesic_bounds, geodesic_distance
+from surfexp.skeleton.hidden_handles import hidden_handles
 from surfexp.skeleton.level_selection import Choice, choose_levels
 from surfexp.skeleton.pruning import pruned
 from surfexp.skeleton.reeb_graph import reeb_graph as sampled_reeb_graph
 from surfexp.skeleton.skeleton import Skeleton
-from surfexp.spectrum.eigensystem import EigenSystem
-from surfexp.spectrum.nodal_signature import zero_modes
 from surfexp.tasks.given_map import MapLike, as_single_map
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
-from surfexp.tasks.part_of_task import part_for
+from surfexp.tasks.part_of_task import part_for, require_connected
 from surfexp.tasks.soundness import usable_vertices
+from surfexp.tasks.spectra import eigenpairs
 
 # a minute and more
 MOST_LEVELS = 10_000
@@ -56,7 +58,8 @@ def reeb_graph(
     Returns
     -------
     Skeleton
-        `positions`, `arcs`, contours, and `metrics` with the number of loops `b1`.
+        `positions`, `arcs`, contours, and `metrics`: `b1` counts the loops, `hidden_handles` those of the exact graph that lie
+        between two levels, which a note names.
 
     Raises
     ------
@@ -78,8 +81,21 @@ def reeb_graph(
     part = part_for(owner, heights)
     inside = np.asarray(part.restrict(heights), dtype=np.float64)
     chosen = choose_levels(part.mesh, inside, count, levels)
-    skeleton = pruned(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), persistence)
+    sampled = _with_hidden_loops(sampled_reeb_graph(part.mesh, inside, chosen, owner.name), part, inside)
+    skeleton = pruned(sampled, persistence)
     return replace(skeleton.in_length(part.length), notes=part.notes + skeleton.notes)
+
+
+def _with_hidden_loops(graph: Skeleton, part: SurfacePart, values: Floats) -> Skeleton:
+    """Return the graph of an open surface with its hidden loops counted, as that of a closed one has them."""
+    if "hidden_handles" in graph.metrics:
+        return graph
+    hidden = hidden_handles(part.mesh, values, graph.levels)
+    count = sum(item.handles for item in hidden)
+    loops, named = int(graph.metrics["b1"]) + count, ", ".join(map(str, hidden))
+    said = (f"{count} of {loops} loops have no level between their saddles ({named}): take critical levels.",)
+    metrics = {**graph.metrics, "hidden_handles": float(count)}
+    return replace(graph, metrics=metrics, notes=graph.notes + (said if hidden else ()))
 
 
 @overload
@@ -209,17 +225,18 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     return part.extend(mesh_mean_curvature(part.mesh) / part.length)
 
 
-def first_eigenfunction(system: EigenSystem) -> Floats:
-    """Return the first eigenfunction that is not constant.
+def first_eigenfunction(surface: SurfaceLike) -> tuple[Floats, tuple[str, ...]]:
+    """Return the first eigenfunction that is not constant, and what there is to say of it.
 
     Raises
     ------
     ValueError
-        If the surface has several pieces, so that the second function is constant on each as well.
+        If the surface has several pieces, which share no eigenfunction.
     """
-    pieces = zero_modes(system)
-    if pieces > 1:
-        raise ValueError(
-            f"the surface has {pieces} pieces or more, which share no eigenfunction: give a map or a mask of one"
-        )
-    return np.asarray(system.vectors[:, pieces])
+    owner = as_surface(surface)
+    require_connected(part_for(owner), "eigenfunctions as a map", both=owner.right is not None)
+    system = eigenpairs(owner, 3)
+    _, first, second = system.values
+    gap = (second - first) / first
+    nearly = (f"Eigenvalue 1 is nearly double (gap {gap:.1e}): the mesh may decide which function comes out.",)
+    return np.asarray(system.vectors[:, 1]), system.notes + (nearly if gap < NEARLY_DOUBLE else ())
