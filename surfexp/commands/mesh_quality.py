@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -23,8 +22,8 @@ def check(files: tuple[str, ...]) -> int:
 
     An experiment is a file .yaml. The exit code is 2 where something is wrong.
     """
-    from surfexp.io.reading import read_mesh_file
-    from surfexp.mesh.validate import validate
+    from surfexp.tasks.repairing import check as task
+    from surfexp.tasks.stored_surface import stored_surface
 
     sound = True
     for file in files:
@@ -38,12 +37,12 @@ def check(files: tuple[str, ...]) -> int:
             echo(f"{file} is a folder: name its files, as {file.rstrip('/')}/*")
             continue
         try:
-            found = read_mesh_file(file)
+            found = stored_surface(file)
         except ValueError as error:
             sound = False
             echo(str(error))
             continue
-        report = validate(found.vertices, found.faces)
+        report = task(found)
         sound &= report.ok
         echo(
             "\n  ".join(
@@ -67,15 +66,16 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
     """
     import numpy as np
 
-    from surfexp.io.hemisphere import hemisphere_of_file
+    from surfexp.io.hemisphere import written_files
     from surfexp.tasks.repairing import repair as task
+    from surfexp.tasks.stored_surface import stored_surface
     from surfexp.tasks.written_files import written
     from surfexp.tasks.written_targets import check_surface_target
 
     files = Inputs(file)
-    side = hemisphere or hemisphere_of_file(file)
-    ready(target, files, check_surface_target, hemisphere=side)
-    surface = replace(task(file, largest_component=largest_component, renumber=renumber), hemisphere=side)
+    found = stored_surface(file, hemisphere or "")
+    ready(target, files, check_surface_target, hemisphere=found.hemisphere)
+    surface = task(found, largest_component=largest_component, renumber=renumber)
     mesh, changes = surface.mesh, surface.notes
     lost = written(target, surface)
     facts = {"vertices": len(mesh.vertices), "faces": len(mesh.faces), "changes": len(changes)}
@@ -83,7 +83,8 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
         target, "repair", {"largest_component": largest_component, "renumber": renumber}, files, facts, changes
     )
     echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
-    echo(f"{target}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    places = " and ".join(map(str, written_files(target, surface.hemisphere)))
+    echo(f"{places}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
     loose = len(mesh.vertices) - len(np.unique(mesh.faces))
     if loose:
         echo(f"{loose} vertices have no face and keep their numbers: --renumber drops them.")

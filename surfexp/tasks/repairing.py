@@ -6,14 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from surfexp.io.hemisphere import hemisphere_of_file
-from surfexp.io.map_shapes import scalar_channels
-from surfexp.io.reading import read_mesh, read_mesh_file
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.validate import Report, validate
 from surfexp.tasks.given_surface import SurfaceLike, arrays_of
 from surfexp.tasks.repaired_surface import repaired
+from surfexp.tasks.stored_surface import stored_surface
 
 
 def check(surface: SurfaceLike) -> Report:
@@ -41,7 +39,8 @@ def check(surface: SurfaceLike) -> Report:
     >>> sx.check((ball.vertices, ball.faces[:, ::-1])).lines()
     ['repairable: 320 faces of inside-out closed components (face 0, face 1, face 2, ...)']
     """
-    vertices, faces = read_mesh(surface)[:2] if isinstance(surface, str | Path) else arrays_of(surface)
+    surface = stored_surface(surface) if isinstance(surface, str | Path) else surface
+    vertices, faces = arrays_of(surface)
     if isinstance(surface, Surface) and surface.right is not None:
         # hemispheres may overlap in space, as inflated ones do: they are judged beside one another
         beside = 4.0 * np.abs(vertices[np.isfinite(vertices)]).max(initial=0.0)
@@ -55,6 +54,7 @@ def repair(surface: SurfaceLike, *, largest_component: bool = False, renumber: b
     Parameters
     ----------
     surface : Surface, TriangleMesh, (vertices, faces), or a path
+        Of a file all that `read` finds in it: maps, labels, mask, unit, both hemispheres.
     largest_component : bool
         Keep only the component of largest area, of both hemispheres that of each.
     renumber : bool
@@ -78,11 +78,6 @@ def repair(surface: SurfaceLike, *, largest_component: bool = False, renumber: b
     >>> sx.check(outward).ok, len(outward.notes)
     (True, 1)
     """
-    if isinstance(surface, str | Path):
-        file = read_mesh_file(surface)
-        mesh, scalars = TriangleMesh(file.vertices, file.faces), scalar_channels(file.scalars)
-        side = hemisphere_of_file(surface)
-        owner = Surface(mesh, Path(surface).stem, scalars=scalars, notes=file.notes, hemisphere=side, frame=file.frame)
-    else:
-        owner = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
+    surface = stored_surface(surface) if isinstance(surface, str | Path) else surface
+    owner = surface if isinstance(surface, Surface) else Surface(TriangleMesh(*arrays_of(surface)))
     return repaired(owner, largest_component, renumber)
