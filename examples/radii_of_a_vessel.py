@@ -28,7 +28,7 @@ for k, length in enumerate(table["length"]):
 print(f"made with {', '.join(f'{radius:.2f}' for radius in tubes)} mm; loops: {skeleton.metrics['b1']:.0f}")
 
 # %%
-# A tree leaves as SWC, which programs for neurons and vessels read.
-sx.write("vessel.swc", skeleton)
-print("\n".join(Path("vessel.swc").read_text().splitlines()[:3]))
+# A tree leaves as SWC, which programs for neurons and vessels read; the unit of the vessel stands in its head.
+sx.write("vessel.swc", skeleton, vessel)
+print("\n".join(Path("vessel.swc").read_text().splitlines()[:4]))
 sx.plot(vessel, skeleton=skeleton, views="front", width=500).save("vessel.png")

@@ -66,10 +66,9 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
     """
     import numpy as np
 
-    from surfexp.io.hemisphere import written_files
     from surfexp.tasks.repairing import repair as task
     from surfexp.tasks.stored_surface import stored_surface
-    from surfexp.tasks.written_files import written
+    from surfexp.tasks.written_files import places, written
     from surfexp.tasks.written_targets import check_surface_target
 
     files = Inputs(file)
@@ -83,8 +82,8 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
         target, "repair", {"largest_component": largest_component, "renumber": renumber}, files, facts, changes
     )
     echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
-    places = " and ".join(map(str, written_files(target, surface.hemisphere)))
-    echo(f"{places}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    made = " and ".join(map(str, places(target, surface)))
+    echo(f"{made}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
     loose = len(mesh.vertices) - len(np.unique(mesh.faces))
     if loose:
         echo(f"{loose} vertices have no face and keep their numbers: --renumber drops them.")

@@ -80,7 +80,7 @@ def skeleton(
         "map": map_name or "first eigenfunction",
     }
     notes = tuple(dict.fromkeys((*said, *graph.notes)))
-    code = finish(target, graph, None, "reeb graph", options, files, facts, notes, read=surface.notes)
+    code = finish(target, graph, surface, "reeb graph", options, files, facts, notes)
     if branches is not None:
         from surfexp.io.csv_cells import write_columns
 

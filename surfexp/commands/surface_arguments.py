@@ -263,8 +263,7 @@ def finish(
     int
         3 where the certificate says that something did not converge or is not proved complete, else 0.
     """
-    from surfexp.io.hemisphere import written_files
-    from surfexp.tasks.written_files import written
+    from surfexp.tasks.written_files import places, written
 
     notes = (*notes, *written(target, result, surface))
     said = tuple(dict.fromkeys((*read, *(surface.notes if surface is not None else ()), *notes)))
@@ -272,8 +271,8 @@ def finish(
     for note in notes:
         echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
-    places = written_files(target, surface.hemisphere if surface is not None else "")
-    echo(f"{' and '.join(map(str, places))}: {shown} (certificate: {certificate.name})")
+    made = places(target, result, surface)
+    echo(f"{' and '.join(map(str, made))}: {shown} (certificate: {certificate.name})")
     return NOT_CERTIFIED if facts.get("converged") is False or facts.get("complete") is False else 0
 
 

@@ -19,12 +19,19 @@ from surfexp.skeleton.skeleton import Skeleton
 FORMATS = (".graphml", ".swc", ".vtk", ".ply")
 
 
-def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
+def write_skeleton(path: Path | str, skeleton: Skeleton, unit: str = "") -> None:
     """Write nodes and arcs in the format of the file's ending.
 
     GraphML keeps position, kind, value, contour length, radius and level of every node. SWC keeps positions and radii of trees,
     each with its lowest node as root; the type of all is 0, undefined, and an end has radius 0, that of an open tube too. Legacy
     VTK keeps positions, lines, and values, contour lengths and radii as point data; PLY positions and edges.
+
+    Parameters
+    ----------
+    path : path
+    skeleton : Skeleton
+    unit : str
+        Of its lengths: SWC, which is read in micrometres, names it in its head.
 
     Raises
     ------
@@ -40,9 +47,9 @@ def write_skeleton(path: Path | str, skeleton: Skeleton) -> None:
         with replacing(path) as temporary:
             networkx.write_graphml(skeleton.graph(), temporary)
         return
-    text = WRITERS[path.suffix](skeleton)
+    text = _swc(skeleton, unit) if path.suffix == ".swc" else WRITERS[path.suffix](skeleton)
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="ascii")
+        temporary.write_text(text, encoding="utf-8")
 
 
 def check_skeleton_target(path: Path) -> None:
@@ -105,7 +112,7 @@ def _ply(skeleton: Skeleton) -> str:
     return "\n".join([*head, *_points(skeleton), *(f"{a} {b}" for a, b in skeleton.arcs.tolist())]) + "\n"
 
 
-def _swc(skeleton: Skeleton) -> str:
+def _swc(skeleton: Skeleton, unit: str) -> str:
     """Rows of number, type, position, radius and parent; parents stand before their children."""
     hidden = int(skeleton.metrics.get("hidden_handles", 0))
     if loops := int(skeleton.metrics["b1"]) + hidden:
@@ -119,6 +126,7 @@ def _swc(skeleton: Skeleton) -> str:
         around[b].append(a)
     number: dict[int, int] = {}
     lines = ["# Reeb graph by surfexp: number, type (0, undefined), x, y, z, radius, parent"]
+    lines += [f"# unit of length: {unit}"] if unit else []
     for root in np.argsort(skeleton.values, kind="stable").tolist():
         waiting = [] if root in number else [(root, -1)]
         while waiting:
@@ -130,4 +138,4 @@ def _swc(skeleton: Skeleton) -> str:
     return "\n".join(lines) + "\n"
 
 
-WRITERS: dict[str, Callable[[Skeleton], str]] = {".vtk": _vtk, ".ply": _ply, ".swc": _swc}
+WRITERS: dict[str, Callable[[Skeleton], str]] = {".vtk": _vtk, ".ply": _ply}

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from surfexp.io.csv_cells import write_columns
-from surfexp.io.hemisphere import check_named_side, files_of_sides, holds_both
+from surfexp.io.hemisphere import check_named_side, files_of_sides, holds_both, written_files
 from surfexp.io.label_colours import write_coloured_labels
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import replacing
@@ -35,14 +35,16 @@ from surfexp.tasks.written_targets import LABEL_SUFFIXES, left_out, side_left_ou
 
 # formats that hold a surface beside its maps; an archive holds either
 SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
+IN_MICROMETRES = "{} is read in micrometres, the unit of the surface is not known: its lengths are as they are there."
 
 
 def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> None:
     """Write a surface, a map, labels, or a result; the suffix decides the format.
 
     A surface as .npz comes back from `read` with its maps, mask, labels, unit, hemispheres and the space of its vertices; what
-    another format cannot hold of them is named in a warning. Both hemispheres are one file as .npz, their maps also as
-    .dscalar.nii; everything else becomes two, lh.NAME and rh.NAME.
+    another format cannot hold of them is named in a warning, as is a unit that is read back as another, and rounding that moves
+    an edge by over a thousandth. Maps that are written beside a surface are without its mask, labels and unit. Both hemispheres
+    are one file as .npz, their maps also as .dscalar.nii; everything else becomes two, lh.NAME and rh.NAME.
 
     Parameters
     ----------
@@ -54,7 +56,7 @@ def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> No
         map of their means elsewhere. The common space of two Reeb graphs is .npz.
     surface : Surface or mesh, optional
         Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
-        repaired, maps alone are written on the vertices of its file.
+        repaired, maps alone are written on the vertices of its file. Of a skeleton: an .swc file names its unit.
 
     Raises
     ------
@@ -82,8 +84,9 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     """
     target = Path(path)
     if isinstance(what, Skeleton):
-        write_skeleton(target, what)
-        return ()
+        unit = surface.unit if isinstance(surface, Surface) else ""
+        write_skeleton(target, what, unit)
+        return () if unit or target.suffix != ".swc" else (IN_MICROMETRES.format(target.name),)
     if isinstance(what, CommonSpace):
         write_common_space(target, what)
         return ()
@@ -135,7 +138,16 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         )
     beside = {name: as_map(surface, values) for name, values in maps.items()}
     write_mesh(target, surface.mesh, beside, surface.frame, side)
-    return left_out(target, replace(surface, scalars={}, mask=None, labels={}))
+    return left_out(target, replace(surface, unit="", scalars={}, mask=None, labels={}))
+
+
+def places(path: Path, what: Any, surface: Surface | None = None) -> tuple[Path, ...]:
+    """Return the files that `write` makes: one for each hemisphere where there are both and the format holds one."""
+    table = isinstance(what, Parcels) and path.suffix.lower() == ".csv"
+    both = what if isinstance(what, Surface) else surface
+    if both is None or table or isinstance(what, Skeleton | CommonSpace):
+        return (path,)
+    return written_files(path, both.hemisphere)
 
 
 def _labels_for(target: Path, what: Any) -> LabelMap | None:

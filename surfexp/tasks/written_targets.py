@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from surfexp.io.hemisphere import check_named_side, hemisphere_of_name, holds_hemisphere
 from surfexp.io.replacing import check_writable
 from surfexp.io.writing import ARCHIVE, WITH_MAPS, check_mesh_target, format_of
 from surfexp.io.written_maps import check_map_target
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.triangle_mesh import TriangleMesh
 
 LABEL_SUFFIXES = (".label.gii", ".annot")
+# of an edge, by rounding
+LARGEST_CHANGE = 1e-3
 
 
 def check_target(
@@ -66,12 +71,47 @@ def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
     if target.suffix.lower() == ARCHIVE:
         return ()
     maps = {} if target.suffix.lower() in WITH_MAPS else surface.scalars
+    unit = _unit_read_back(target, surface)
     lost = [f"maps ({', '.join(maps)})"] if maps else []
     lost += [f"labels ({', '.join(surface.labels)})"] if surface.labels else []
     lost += ["mask"] if surface.mask is not None else []
+    lost += [f"unit ({surface.unit})"] if surface.unit and not unit else []
     said = [f"{target.name} does not hold {' and '.join(lost)} of the surface: they are left out."] if lost else []
+    if unit and surface.unit not in ("", unit):
+        said.append(
+            f"{target.name} is read in {unit}, the surface is in {surface.unit}: give unit={surface.unit!r} where it is read."
+        )
+    if target.suffix.lower() == ".stl":
+        said.append(f"{target.name} holds no numbers of vertices: maps of the surface do not fit what is read from it.")
     moved = surface.frame.lost_in(format_of(target))
-    return (*said, *side_left_out(target, surface.hemisphere), *([moved] if moved else []))
+    rounded = _rounded(target, surface.mesh)
+    return (*said, *rounded, *side_left_out(target, surface.hemisphere), *([moved] if moved else []))
+
+
+def _unit_read_back(target: Path, surface: Surface) -> str:
+    """The unit that `surfexp.read` finds in a file: that of a scanner's space in FreeSurfer's, of a hemisphere in GIFTI."""
+    known = {
+        "FreeSurfer": bool(surface.frame.volume),
+        "GIFTI": bool(surface.hemisphere or surface.frame.metadata.get("AnatomicalStructurePrimary")),
+    }
+    return "mm" if known.get(format_of(target)) else ""
+
+
+def _rounded(target: Path, mesh: TriangleMesh) -> tuple[str, ...]:
+    """Say by how much a format of single precision changes edges, where it is more than a thousandth of one."""
+    if format_of(target) not in ("FreeSurfer", "GIFTI", ".stl"):
+        return ()
+    starts, ends = (mesh.vertices[mesh.edges[:, k]] for k in (0, 1))
+    moved = (ends.astype(np.float32) - ends) - (starts.astype(np.float32) - starts)
+    lengths = np.linalg.norm(ends - starts, axis=1)
+    shares = np.linalg.norm(moved, axis=1)[lengths > 0] / lengths[lengths > 0]
+    largest = float(shares.max(initial=0.0))
+    if largest <= LARGEST_CHANGE:
+        return ()
+    return (
+        f"{target.name} is in single precision: edges change by up to {largest:.1%} of their length; move the surface to the "
+        "origin, or write .ply, .vtp or .npz.",
+    )
 
 
 def side_left_out(target: Path, side: str) -> tuple[str, ...]:

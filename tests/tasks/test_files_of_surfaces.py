@@ -91,7 +91,7 @@ def test_a_map_beside_a_surface_says_that_its_space_is_lost(working_folder: Path
         (".vtp", ("hemisphere",)),
         (".off", ("hemisphere", "maps (height)")),
         (".obj", ("hemisphere", "maps (height)")),
-        (".stl", ("hemisphere", "maps (height)")),
+        (".stl", ("hemisphere", "maps (height)", "numbers of vertices")),
         (".surf.gii", ("maps (height)",)),
         (".ply", ()),
         (".npz", ()),
@@ -201,7 +201,7 @@ def test_a_format_that_is_too_narrow_is_refused_before_anything_is_computed(
     def never(*_: object, **__: object) -> None:
         raise AssertionError("something was computed")
 
-    for function in ("spectra.eigenpairs", "denoising.denoise", "denoising.smooth", "distances.align"):
+    for function in ("spectra.eigenpairs", "denoising.denoise", "denoising.smooth", "mode_alignment.align"):
         monkeypatch.setattr(f"surfexp.tasks.{function}", never)
     assert main(arguments) == 2
     said = capsys.readouterr().err
