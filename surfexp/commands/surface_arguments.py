@@ -240,7 +240,7 @@ def finish(
     files: Inputs,
     facts: dict[str, Any],
     notes: tuple[str, ...] = (),
-    read: tuple[str, ...] = (),
+    read: tuple[str, ...] | None = None,
 ) -> int:
     """Write a result with its certificate, and say both in one line.
 
@@ -255,8 +255,8 @@ def finish(
         Of the certificate.
     notes : tuple of str
         Of the result: they are said, and in the certificate.
-    read : tuple of str
-        Of other surfaces that it is made of: they were said when those were read, and are in the certificate.
+    read : tuple of str, optional
+        Of the surfaces that it is made of, default that one: they were said when those were read, and are in the certificate.
 
     Returns
     -------
@@ -266,7 +266,9 @@ def finish(
     from surfexp.tasks.written_files import places, written
 
     notes = (*notes, *written(target, result, surface))
-    said = tuple(dict.fromkeys((*read, *(surface.notes if surface is not None else ()), *notes)))
+    if read is None:
+        read = surface.notes if surface is not None else ()
+    said = tuple(dict.fromkeys((*read, *notes)))
     certificate = write_certificate(target, method, options, files, facts, said)
     for note in notes:
         echo(note, err=True)

@@ -14,6 +14,7 @@ from surfexp.commands.given_maps import shown_borders, shown_map
 from surfexp.commands.surface_arguments import (
     finish,
     label_of_bar,
+    notes_of,
     opened,
     picture_options,
     progress_line,
@@ -137,10 +138,10 @@ def distance(
     from surfexp.tasks.distances import distance as task
 
     files = Inputs(first, second)
-    if target is not None:
-        ready(target, files, check_map_target)
     ready_proof(proof, files)
     one, other = surface_of(first, repair), surface_of(second, repair)
+    if target is not None:
+        ready(target, files, check_map_target, hemisphere=other.hemisphere)
     started = time.perf_counter()
     with progress_line("distance") as progress:
         found = task(one, other, count, limit=limit, progress=progress)
@@ -156,8 +157,12 @@ def distance(
             "signs": signs,
             "seconds": time.perf_counter() - started,
         }
-        maps = {"correspondence": found.correspondence.astype(float)}
-        finish(target, maps, None, found.method, {"n": count}, files, facts, found.notes)
+        partner = found.correspondence
+        if one.file is not None:
+            partner = np.where(partner < 0, partner, one.file.origin[partner])
+        read = notes_of(first, second, one.notes, other.notes)
+        maps = {"correspondence": partner.astype(float)}
+        finish(target, maps, other, found.method, {"n": count, "repair": repair}, files, facts, found.notes, read)
 
 
 @click.command(**shown("align", *EXAMPLES["align"]))
@@ -171,14 +176,14 @@ def align(first: str, second: str, count: int, repair: bool, target: Path) -> No
 
     Signs, order and rotations of the modes of SECOND become those of FIRST.
     """
-    from surfexp.io.replacing import check_writable
+    from surfexp.io.written_maps import check_map_target
     from surfexp.tasks.mode_alignment import align as task
 
     files = Inputs(first, second)
     if target.suffix.lower() != ".npz":
         raise ValueError(f"{target} cannot hold the aligned modes and their basis, two arrays: choose .npz")
-    ready(target, files, check_writable)
     one, other = surface_of(first, repair), surface_of(second, repair)
+    ready(target, files, check_map_target, hemisphere=other.hemisphere)
     started = time.perf_counter()
     with progress_line("align") as progress:
         found = task(one, other, count, progress=progress)
@@ -189,8 +194,8 @@ def align(first: str, second: str, count: int, repair: bool, target: Path) -> No
         "blocks": len(found.blocks),
         "seconds": time.perf_counter() - started,
     }
-    maps = {"vectors": found.vectors, "basis": found.basis}
-    finish(target, maps, None, "mode alignment", {"k": count}, files, facts, found.notes)
+    read = notes_of(first, second, one.notes, other.notes)
+    finish(target, found, other, "mode alignment", {"k": count, "repair": repair}, files, facts, found.notes, read)
 
 
 @click.command(**shown("convert", *EXAMPLES["convert"]))

@@ -35,6 +35,8 @@ from surfexp.tasks.written_targets import LABEL_SUFFIXES, left_out, side_left_ou
 
 # formats that hold a surface beside its maps; an archive holds either
 SURFACES_WITH_MAPS = (".ply", ".vtk", ".vtp")
+# of eigenpairs, and of aligned modes
+OF_MODES = ("values", "vectors", "residuals", "basis")
 IN_MICROMETRES = "{} is read in micrometres, the unit of the surface is not known: its lengths are as they are there."
 
 
@@ -51,7 +53,7 @@ def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> No
     path : path
     what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, Skeleton, or a result
         A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
-        ... and in .npz `values`, `vectors`, `residuals`. A skeleton is .graphml, .swc where it is a tree, .vtk or .ply. A
+        ... and in .npz `values`, `vectors`, `residuals`; aligned modes likewise, and in .npz `vectors`, `basis`. A skeleton is .graphml, .swc where it is a tree, .vtk or .ply. A
         result is a denoised map, a segmentation, ... A test is all its maps by name. Parcels are their table in .csv, and the
         map of their means elsewhere. The common space of two Reeb graphs is .npz.
     surface : Surface or mesh, optional
@@ -121,7 +123,7 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
         return unsaid
     if hasattr(what, "vectors") and target.suffix.lower() == ".npz":
         check_named_side(target, side)
-        arrays = {name: getattr(what, name) for name in ("values", "vectors", "residuals") if hasattr(what, name)}
+        arrays = {name: getattr(what, name) for name in OF_MODES if hasattr(what, name)}
         arrays["vectors"] = _on_file(arrays["vectors"], surface)
         with replacing(target) as temporary:
             write_arrays(temporary, arrays, _side_of_rows(surface))
