@@ -27,7 +27,9 @@ from surfexp.commands.surface_arguments import (
 if TYPE_CHECKING:
     from surfexp.mesh.surface import Surface
 
-METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+METRES = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+# both characters for it
+MICRO = str.maketrans("µμ", "uu")
 EXAMPLES = {
     "denoise": ("lh.white lh.thickness --to clean.shape.gii", "scan.ply quality --to clean.ply"),
     "smooth": ("lh.white lh.thickness --width 6 --to smooth.mgh", "a.surf.gii a.func.gii --width 4mm --to b.func.gii"),
@@ -102,27 +104,35 @@ def denoise(
 
 
 def width_and_unit(text: str) -> tuple[float, str]:
-    """The number and the unit of a width such as 6, 6mm or 0.6cm."""
-    number = text.strip().rstrip(ascii_lowercase)
-    unit = text.strip()[len(number) :]
+    """The number and the unit of a width such as 6, 6mm, 0.6cm or 40µm."""
+    given = text.strip().translate(MICRO)
+    number = given.rstrip(ascii_lowercase)
+    unit = given[len(number) :]
     try:
         if unit in ("", *METRES):
             return float(number), unit
     except ValueError:
         pass
-    raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm (um, mm, cm, m)")
+    raise click.BadParameter(f"{text!r} is no width: write 6 or 6mm ({', '.join(METRES)})")
 
 
 def in_unit_of(surface: Surface, width: float, unit: str) -> float:
-    """Return a width in the unit of a surface; one without a unit is taken to be in millimetres where the width is."""
-    if unit in ("", surface.unit) or (unit == "mm" and not surface.unit):
+    """Return a width in the unit of a surface.
+
+    Raises
+    ------
+    ValueError
+        If the width has a unit, and that of the surface is not known or no length.
+    """
+    own = surface.unit.translate(MICRO)
+    if unit in ("", own):
         return width
-    if surface.unit not in METRES:
+    if own not in METRES:
         known = f"the surface in {surface.unit!r}" if surface.unit else "the unit of the surface is not known"
         raise ValueError(
             f"--width {width:g}{unit} is in {unit}, {known}: give --unit {', '.join(METRES)}, or a number alone"
         )
-    return width * METRES[unit] / METRES[surface.unit]
+    return width * METRES[unit] / METRES[own]
 
 
 @click.command(**shown("smooth", *EXAMPLES["smooth"]))
