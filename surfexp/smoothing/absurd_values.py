@@ -9,13 +9,16 @@ from surfexp.contract.arrays import Floats
 
 # how many times the range of all other values the empty interval before them is as long
 FARNESS = 100.0
+# of all values, how many different ones may be absurd: a code for no data is one value, however many vertices have it
+DIFFERENT = 0.01
 
 
 def absurd_values(values: Floats) -> NDArray[np.bool_]:
     """Return where a map has values that an empty interval of 100 times the range of the others separates from them.
 
-    The others are more than half of the vertices and not all equal. What is left is looked at again: of -9999 and 3.4e38
-    in one map both are found.
+    The others are more than half of the vertices and not all equal. Where the far ones take more different values than 1 + 1 %
+    of the vertices, they are the second level of a map with little noise, and no code for what is unknown. What is left is
+    looked at again: of -9999 and 3.4e38 in one map both are found.
 
     Parameters
     ----------
@@ -27,6 +30,7 @@ def absurd_values(values: Floats) -> NDArray[np.bool_]:
     (n,) bool
     """
     absurd = np.zeros(len(values), dtype=bool)
+    most = 1 + int(DIFFERENT * len(values))
     while True:
         kept = np.flatnonzero(~absurd)
         order = kept[np.argsort(values[kept], kind="stable")]
@@ -35,8 +39,11 @@ def absurd_values(values: Floats) -> NDArray[np.bool_]:
         ascending = 0.5 * values[order]
         gaps, last = np.diff(ascending) / FARNESS, len(order) - half
         lower, upper = ascending[half - 1 : -1] - ascending[0], ascending[-1] - ascending[1 : last + 1]
-        above = np.flatnonzero((gaps[half - 1 :] > lower) & (lower > 0)) + half - 1
-        below = np.flatnonzero((gaps[:last] > upper) & (upper > 0))
+        steps = np.diff(values[order]) > 0
+        under = 1 + np.cumsum(steps) - steps
+        over = 1 + steps.sum() - np.cumsum(steps)
+        above = np.flatnonzero((gaps[half - 1 :] > lower) & (lower > 0) & (over[half - 1 :] <= most)) + half - 1
+        below = np.flatnonzero((gaps[:last] > upper) & (upper > 0) & (under[:last] <= most))
         if len(above):
             absurd[order[above[0] + 1 :]] = True
         elif len(below):

@@ -105,6 +105,26 @@ def test_several_codes_are_found_together() -> None:
     assert np.flatnonzero(absurd_values(values)).tolist() == [642, 643, 644]
 
 
+@pytest.mark.parametrize("share", [0.05, 0.1, 0.4])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_second_level_is_none_and_a_code_of_the_same_extent_is_one(share: float, sign: float) -> None:
+    rng = np.random.default_rng(0)
+    second = rng.uniform(size=642) < share
+    levels = sign * second + 1e-3 * rng.standard_normal(642)
+    assert not absurd_values(levels).any()
+    assert np.array_equal(absurd_values(np.where(second, sign * 9999.0, levels)), second)
+    # beside two levels a code is found, on either side of them
+    for code in (-9999.0, 9999.0):
+        levels[7] = code
+        assert np.flatnonzero(absurd_values(levels)).tolist() == [7]
+
+
+def test_a_map_of_two_clean_levels_is_segmented() -> None:
+    height = BALL.vertices[:, 2]
+    found = sx.segment(BALL, (height > 0.2) + 1e-3 * np.random.default_rng(0).standard_normal(len(height)))
+    assert np.array_equal(found.labels == 1, height > 0.2)
+
+
 @given(
     st.integers(0, 2**31), st.sampled_from(["normal", "t3", "ties", "constant", "lognormal", "two"]), st.floats(-9, 9)
 )
