@@ -30,7 +30,7 @@ from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
 from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart
 from surfexp.tasks.given_map import as_map, name_of
-from surfexp.tasks.given_surface import as_surface
+from surfexp.tasks.given_surface import as_surface, is_mesh, sides_of
 from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
@@ -140,7 +140,8 @@ def is_several(given: Any) -> bool:
     """Whether a list of surfaces is given, and not a pair (vertices, faces)."""
     if not isinstance(given, list | tuple) or not given:
         return False
-    return len(given) != 2 or isinstance(given[0], str | Surface) or hasattr(given[0], "faces")
+    first = given[0]
+    return len(given) != 2 or isinstance(first, str | Path) or is_mesh(first) or sides_of(first, "mesh") is not None
 
 
 def _coloured(owner: Surface, given: Any) -> SurfaceView:

@@ -81,3 +81,23 @@ def test_both_hemispheres_share_the_colours_of_a_map_that_is_nearly_constant(bra
     assert {view.scale.limits for view in row} == {(0.01, 1.0)}
     (row,) = shown_surfaces(brain, np.ones(324))
     assert {view.scale.limits for view in row} == {None}
+
+
+@pytest.mark.parametrize("form", ["paths", "texts", "pairs", "lists", "surfaces", "meshes"])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_several_surfaces_are_told_from_vertices_and_faces(
+    ball: Surface, working_folder: Path, form: str, count: int
+) -> None:
+    sx.write("ball.ply", ball)
+    one = {
+        "paths": Path("ball.ply"),
+        "texts": "ball.ply",
+        "pairs": (ball.vertices, ball.faces),
+        "lists": [ball.vertices.tolist(), ball.faces.tolist()],
+        "surfaces": ball,
+        "meshes": ball.mesh,
+    }[form]
+    rows = shown_surfaces([one] * count)
+    assert [len(row) for row in rows] == [count]
+    assert all(len(view.mesh.faces) == len(ball.faces) for view in rows[0])
+    assert len(shown_surfaces(one)[0]) == 1
