@@ -11,17 +11,16 @@ from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import given_threads, real_number
 from surfexp.mesh.label_map import LabelMap
-from surfexp.mesh.length_scale import scaled
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.fem import fem
-from surfexp.operators.mean_curvature import mean_curvature
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.smoothing.absurd_values import refuse_absurd_values
 from surfexp.smoothing.noisy_phases import NoisyPhases, noisy_phases
 from surfexp.tasks.given_map import MapLike, as_single_map
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.part_of_task import part_for
+from surfexp.tasks.skeletons import mean_curvature
 from surfexp.variational.fidelity import Fidelity, Progress
 from surfexp.variational.image import Image
 from surfexp.variational.models.convex_chan_vese import ConvexChanVese
@@ -194,9 +193,8 @@ def segment(
 
 
 def _curvature(surface: Surface, part: SurfacePart) -> Floats:
-    """The mean curvature on a part, also of a surface in a very small or large unit."""
-    mesh, length = scaled(surface.mesh)
-    return np.asarray(part.restrict(mean_curvature(mesh) / length), dtype=np.float64)
+    """The mean curvature on a part."""
+    return np.asarray(part.restrict(mean_curvature(surface)), dtype=np.float64)
 
 
 def _is_multiple_of_curvature(values: Floats, surface: Surface, part: SurfacePart, unit: float) -> bool:

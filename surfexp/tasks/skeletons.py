@@ -133,7 +133,8 @@ def geodesic(
     Returns
     -------
     (n,) float64
-        In the unit of the surface; infinite where no path leads, NaN outside the mask. None is below the distance.
+        In the unit of the surface; infinite where no path leads, NaN outside the mask. None is below the distance. Infinite
+        values are no map, that is for `reeb_graph` or `write`: `np.where(np.isinf(d), np.nan, d)` is one.
     (n,) float64
         With `bounds`: the lower bounds.
 
@@ -199,7 +200,8 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     Returns
     -------
     (n,) float64
-        In 1 / unit; NaN outside the mask. FreeSurfer's `curv` has the opposite sign.
+        In 1 / unit; NaN outside the mask. FreeSurfer's `curv` has the opposite sign. At a boundary the mean of the neighbours
+        inside, and exactly 0 at a vertex that has none, as a corner of a strip one face wide: there nothing is known.
 
     Raises
     ------

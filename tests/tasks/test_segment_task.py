@@ -182,3 +182,16 @@ def test_the_summary_counts_the_vertices_of_each_region() -> None:
     for name, label in (("darker", 0), ("brighter", 1)):
         count = int((found.labels == label).sum())
         assert 0 < count < 642 and f"vertices {name} {count}" in text
+
+
+@pytest.mark.parametrize("outside", ["loose", "flat"])
+def test_a_part_is_segmented_by_its_curvature_whatever_lies_outside_the_mask(outside: str) -> None:
+    body = sx.shape("ellipsoid", levels=3)
+    count = len(body.vertices)
+    vertices, faces = np.r_[body.vertices, np.full((3, 3), 9.0)], body.faces
+    if outside == "flat":
+        vertices[count + 1 :, 0] += [1.0, 2.0]
+        faces = np.r_[faces, [[count, count + 1, count + 2]]]
+    surface = sx.Surface((vertices, faces), mask=np.arange(count + 3) < count)
+    found, alone = sx.segment(surface), sx.segment(body)
+    assert np.array_equal(found.labels[:count], alone.labels) and (found.labels[count:] == -1).all()
