@@ -29,7 +29,7 @@ def opposite_sides(mesh: TriangleMesh) -> Integers:
         a, b = table.edges[crowded[0]]
         raise ValueError(
             f"the edge between vertices {a} and {b} has {table.counts[crowded[0]]} faces, at most 2 are allowed: "
-            "surfexp repair divides the surface there"
+            "surfexp repair keeps two of them"
         )
     first = table.starts[:-1][table.counts == 2]
     one, other = table.half_edges[first], table.half_edges[first + 1]

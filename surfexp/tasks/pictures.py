@@ -98,7 +98,7 @@ def plot(
     ----------
     surface : Surface, path, or (vertices, faces); or a list of them
         Several stand side by side, six in a row at most, at one scale. So do the hemispheres of a surface that is both, in
-        four pictures.
+        four pictures. Two arrays are vertices and faces, anything else in a list is a surface.
     values : str, (n,) array, `LabelMap`, or a result, optional
         A map, or labels: integers and truth values are labels, in flat colours with a legend; labels of a file have those
         of its table (.annot, .label.gii, .dlabel.nii). A list has one for each of

@@ -41,14 +41,15 @@ def eigenpairs(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Only the part inside its mask counts; the condition at the mask's boundary is natural (Neumann's). Where slivers
-        leave the pairs in doubt, the intrinsic Delaunay triangles of the same surface are taken, with a note.
+        Only the part inside its mask counts. Where slivers leave the pairs in doubt, the intrinsic Delaunay triangles of the
+        same surface are taken, with a note.
     count : int
         How many, the zero mode of a closed surface among them.
     tolerance : float
         Largest relative residual.
     mass : "consistent" or "lumped"
     boundary : "neumann" or "dirichlet"
+        At the boundary of the surface and that of its mask alike: natural, or 0 there.
     progress : callable, optional
         Receives the number of pairs found and the share that is missing.
     threads : int, optional

@@ -108,10 +108,12 @@ def view(
 ) -> TurningView:
     """Show a surface that turns, coloured by a map or by labels; the pointer tells the value at a vertex.
 
+    The page rounds a map to a 65,534th of its range, and the pointer tells the rounded value.
+
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces); or a list of them
-        Each is a panel, and all panels turn together.
+        Each is a panel, and all panels turn together. Two arrays are vertices and faces, anything else in a list a surface.
     values : str, (n,) array, `LabelMap`, or a result with `values`, optional
         A map, or labels: integers and truth values are labels. A list has one for each of several surfaces, or of one
         surface a panel for each; so has a dict, with their names. A map of several columns, as a time series, has a
