@@ -6,23 +6,16 @@ vertices: with numbers that lie it is busy for hours, or asks for more memory th
 
 from __future__ import annotations
 
-import gzip
 import re
 import struct
-import zlib
-from collections.abc import Mapping
 from pathlib import Path
-from xml.parsers import expat
 
 from surfexp.io.cifti import is_cifti
 from surfexp.io.freesurfer_sizes import VOLUMES, check_annotation, check_volume
-from surfexp.io.gifti import POINTS, TRIANGLES, is_gifti
-from surfexp.io.unpacked_sizes import NUMBER_BYTES, check_nifti, check_unpacked
+from surfexp.io.gifti import is_gifti
+from surfexp.io.gifti_sizes import check_gifti
+from surfexp.io.unpacked_sizes import NUMBER_BYTES, check_nifti
 
-# of the GIFTI standard
-MOST_DIMENSIONS = 6
-LARGEST_COUNT = 1 << 28
-PIECE = 1 << 20
 # NIfTI-2: bytes of the header, and of the flag of extensions behind it
 HEADER, FLAG = 540, 4
 # NaN is written for every vertex that a hemisphere is said to have
@@ -39,7 +32,7 @@ def check_declared_sizes(path: Path) -> None:
         With the declared number and its bound.
     """
     if is_gifti(path):
-        _check_gifti(path)
+        check_gifti(path)
     elif is_cifti(path):
         _check_cifti(path)
     elif path.name.lower().endswith((".nii", ".nii.gz")):
@@ -48,45 +41,6 @@ def check_declared_sizes(path: Path) -> None:
         check_volume(path)
     elif path.suffix == ".annot":
         check_annotation(path)
-
-
-def _check_gifti(path: Path) -> None:
-    refused: list[str] = []
-    single: set[str] = set()
-
-    def begin(name: str, attributes: Mapping[str, str]) -> None:
-        if name == "DataArray" and not refused:
-            refused.extend(_unfit(attributes))
-            intent = attributes.get("Intent", "")
-            if intent in single:
-                refused.append(f"it has two arrays of {intent}, one is read: write each surface to a file of its own")
-            single.update({intent} & {POINTS, TRIANGLES})
-
-    parser = expat.ParserCreate()
-    parser.StartElementHandler = begin
-    opened = gzip.open if path.name.lower().endswith(".gz") else open
-    read = 0
-    try:
-        with opened(path, "rb") as stream:
-            while not refused and (piece := stream.read(PIECE)):
-                parser.Parse(piece)
-                check_unpacked(read := read + len(piece), path.stat().st_size)
-    except (expat.ExpatError, OSError, EOFError, LookupError, zlib.error):
-        pass  # not XML, or cut off: the reader of the format says so
-    if refused:
-        raise ValueError(refused[0])
-
-
-def _unfit(attributes: Mapping[str, str]) -> list[str]:
-    """What is wrong with the dimensions of a data array."""
-    said = attributes.get("Dimensionality", "1")
-    if not said.isdecimal() or not 1 <= int(said) <= MOST_DIMENSIONS:
-        return [f"a data array has Dimensionality {said[:20]!r}, 1 to {MOST_DIMENSIONS} are possible"]
-    for name in (f"Dim{k}" for k in range(int(said))):
-        count = attributes.get(name, "1")
-        if not count.isdecimal() or int(count) > LARGEST_COUNT:
-            return [f"a data array has {name} {count[:20]!r}, at most {LARGEST_COUNT} are read"]
-    return []
 
 
 def _check_cifti(path: Path) -> None:

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.io.foreign import parsing
+from surfexp.io.gifti_sizes import POINTS, TRIANGLES, check_gifti
 from surfexp.io.numbers import index_array, real_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import CoordinateTransform, SpatialFrame
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
-POINTS, TRIANGLES, LABELS = "NIFTI_INTENT_POINTSET", "NIFTI_INTENT_TRIANGLE", "NIFTI_INTENT_LABEL"
+LABELS = "NIFTI_INTENT_LABEL"
 NODES = "NIFTI_INTENT_NODE_INDEX"
 LARGEST_COUNT = 1 << 26
 STRUCTURE = "AnatomicalStructurePrimary"
@@ -28,9 +29,17 @@ def is_gifti(path: Path) -> bool:
     return path.name.lower().endswith((".gii", ".gii.gz"))
 
 
-def _load(path: Path) -> Any:
+def load_gifti(path: Path) -> Any:
+    """Return nibabel's image of a file, whose sizes and external files were checked before.
+
+    Raises
+    ------
+    ValueError
+        As `check_gifti`, or if the file is not GIFTI or holds no array.
+    """
     import nibabel
 
+    check_gifti(path)
     with parsing("GIFTI file"):
         image = nibabel.load(path)
         arrays = [np.asarray(array.data) for array in image.darrays]
@@ -47,7 +56,7 @@ def read_gifti_arrays(path: Path) -> list[NDArray[Any]]:
     ValueError
         If the file is not GIFTI, is cut off or holds no array.
     """
-    return [np.asarray(array.data) for array in _load(path).darrays]
+    return [np.asarray(array.data) for array in load_gifti(path).darrays]
 
 
 def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -58,7 +67,7 @@ def read_gifti_surface(path: Path) -> tuple[NDArray[Any], NDArray[Any]]:
     ValueError
         If the file holds no surface.
     """
-    image = _load(path)
+    image = load_gifti(path)
     points, triangles = (image.get_arrays_from_intent(intent) for intent in (POINTS, TRIANGLES))
     if not points or not triangles:
         raise ValueError("GIFTI file holds no surface; if it is a map, give it as an image")
@@ -73,7 +82,7 @@ def read_gifti_rest(path: Path) -> tuple[dict[str, Floats], SpatialFrame]:
     ValueError
         If an array is no map, or the file holds no surface.
     """
-    image = _load(path)
+    image = load_gifti(path)
     surface = {image_code(POINTS), image_code(TRIANGLES)}
     beside = [array for array in image.darrays if array.intent not in surface and array.intent != image_code(LABELS)]
     points = next(array for array in image.darrays if array.intent == image_code(POINTS))
@@ -100,7 +109,7 @@ def hemisphere_of_gifti(path: Path) -> str:
     ValueError
         If the file is not GIFTI.
     """
-    image = _load(path)
+    image = load_gifti(path)
     said = {str(part.get(STRUCTURE, "")) for part in (image.meta, *(array.metadata for array in image.darrays))}
     sides = {side for side, word in CORTEX.items() if word in said}
     return sides.pop() if len(sides) == 1 else ""
@@ -114,7 +123,7 @@ def read_gifti_maps(path: Path) -> dict[str, Floats]:
     ValueError
         If the file is not GIFTI or holds a surface.
     """
-    image = _load(path)
+    image = load_gifti(path)
     return _maps(image.darrays)
 
 
@@ -170,7 +179,7 @@ def read_gifti_labels(path: Path) -> LabelMap:
     ValueError
         If the file is not GIFTI.
     """
-    image = _load(path)
+    image = load_gifti(path)
     # an empty name is no attribute of nibabel's entry
     names = {int(entry.key): str(getattr(entry, "label", "")) for entry in image.labeltable.labels}
     arrays, nodes = _nodes(image.darrays)

@@ -8,7 +8,7 @@ import numpy as np
 
 from surfexp.io.cifti import is_cifti
 from surfexp.io.foreign import parsing
-from surfexp.io.gifti import LABELS, image_code, is_gifti
+from surfexp.io.gifti import LABELS, image_code, is_gifti, load_gifti
 from surfexp.io.label_files import label_colors, write_label_map
 from surfexp.io.map_files import read_named_labels
 from surfexp.io.map_names import told_apart
@@ -57,7 +57,7 @@ def passed_over(path: Path | str) -> tuple[str, ...]:
     if is_cifti(file):
         names = told_apart(nibabel.load(file).header.get_axis(0).name)
     elif is_gifti(file):
-        arrays = [array for array in nibabel.load(file).darrays if array.intent == image_code(LABELS)]
+        arrays = [array for array in load_gifti(file).darrays if array.intent == image_code(LABELS)]
         names = told_apart(array.metadata.get("Name", "") for array in arrays)
     if len(names) < 2:
         return ()
@@ -97,7 +97,7 @@ def _table(path: Path) -> dict[int, Colour]:
         if is_cifti(path):
             rows = {int(key): rgba for key, (_, rgba) in nibabel.load(path).header.get_axis(0).label[0].items()}
         else:
-            table = nibabel.load(path).labeltable.labels
+            table = load_gifti(path).labeltable.labels
             rows = {int(entry.key): (entry.red, entry.green, entry.blue, entry.alpha) for entry in table}
     known = {key: rgba for key, rgba in rows.items() if None not in rgba and np.isfinite(rgba).all() and rgba[3] > 0}
     # some programs write bytes where the formats ask for shares

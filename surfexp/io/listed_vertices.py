@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from surfexp.io.gifti import NODES, image_code
+from surfexp.io.gifti import NODES, image_code, load_gifti
 
 
 def with_last_vertices(
@@ -29,9 +29,8 @@ def with_last_vertices(
     """
     if all(len(values) >= count for values in maps.values()):
         return dict(maps)
-    import nibabel
 
-    if not any(array.intent == image_code(NODES) for array in nibabel.load(path).darrays):
+    if not any(array.intent == image_code(NODES) for array in load_gifti(path).darrays):
         return dict(maps)
     return {name: _longer(values, count, missing) for name, values in maps.items()}
 

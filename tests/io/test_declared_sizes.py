@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import gzip
 import re
 import struct
 import time
+import tracemalloc
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -92,6 +95,51 @@ def test_a_gifti_array_of_too_many_numbers_is_refused(tmp_path: Path) -> None:
     path.write_bytes(re.sub(rb'Dim0="\d+"', b'Dim0="99999999999"', path.read_bytes()))
     with pytest.raises(ValueError, match="Dim0 '99999999999', at most 268435456 are read"):
         read_maps(path)
+
+
+def external(path: Path, name: str, count: int = len(VALUES), encoding: str = "ExternalFileBinary") -> Path:
+    """A GIFTI map whose bytes lie in another file."""
+    path.write_text(
+        '<?xml version="1.0"?><GIFTI Version="1.0" NumberOfDataArrays="1"><DataArray Intent="NIFTI_INTENT_NONE" '
+        'DataType="NIFTI_TYPE_FLOAT32" ArrayIndexingOrder="RowMajorOrder" Dimensionality="1" '
+        f'Dim0="{count}" Encoding="{encoding}" Endian="LittleEndian" ExternalFileName="{name}" ExternalFileOffset="0">'
+        "<Data/></DataArray></GIFTI>"
+    )
+    return path
+
+
+@pytest.mark.parametrize("encoding", ["ExternalFileBinary", "External", "GIFTI_ENCODING_EXTBIN"])
+def test_an_array_in_another_file_is_read_from_the_same_folder_alone(tmp_path: Path, encoding: str) -> None:
+    own = tmp_path / "own"
+    own.mkdir()
+    for folder in (tmp_path, own):
+        VALUES.astype("<f4").tofile(folder / "map.dat")
+    (own / "link.dat").symlink_to(tmp_path / "map.dat")
+    np.testing.assert_array_equal(
+        next(iter(read_maps(external(own / "a.shape.gii", "map.dat", encoding=encoding)).values())), VALUES.astype("f4")
+    )
+    for name in (str(tmp_path / "map.dat"), "../map.dat", "link.dat", "", ".", "missing.dat", "own/../map.dat"):
+        path = external(own / "a.shape.gii", name, encoding=encoding)
+        for read in (read_maps, hemisphere_of_file):
+            with pytest.raises(ValueError, match="external file"):
+                read(path)
+
+
+@pytest.mark.parametrize("encoding", ["GZipBase64Binary", "B64GZ", None])
+def test_an_array_that_unpacks_to_a_thousand_times_its_file_is_refused(
+    tmp_path: Path, encoding: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("surfexp.io.unpacked_sizes.ALWAYS_READ", 1 << 20)
+    path = external(tmp_path / "a.shape.gii", "", encoding="GZipBase64Binary")
+    packed = base64.b64encode(zlib.compress(bytes(1 << 26))).decode()
+    text = path.read_text().replace("<Data/>", f"<Data>{packed}</Data>")
+    said = f'Encoding="{encoding}" ' if encoding else ""
+    path.write_text(text.replace('Encoding="GZipBase64Binary" ', said))
+    tracemalloc.start()
+    with pytest.raises(ValueError, match="unpacked it has over"):
+        read_maps(path)
+    assert tracemalloc.get_traced_memory()[1] < 1 << 24
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize("order", "<>")
