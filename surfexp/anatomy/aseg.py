@@ -9,6 +9,7 @@ import numpy as np
 
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.anatomy.subcortical import surface_of_label
+from surfexp.io.declared_sizes import check_declared_sizes
 from surfexp.mesh.surface import Surface
 
 # numbers of FreeSurfer's colour table; several numbers are one structure, as in BrainPrint
@@ -74,6 +75,7 @@ def read_label_volume(file: Path) -> LabelVolume:
     import nibabel
 
     try:
+        check_declared_sizes(file)
         image = nibabel.load(file)
         data = np.asarray(image.dataobj)
     except Exception as error:

@@ -11,7 +11,7 @@ import struct
 from pathlib import Path
 
 from surfexp.io.cifti import is_cifti
-from surfexp.io.freesurfer_sizes import VOLUMES, check_annotation, check_volume
+from surfexp.io.freesurfer_sizes import VOLUMES, check_volume, entries_of_annotation
 from surfexp.io.gifti import is_gifti
 from surfexp.io.gifti_sizes import check_gifti
 from surfexp.io.unpacked_sizes import NUMBER_BYTES, check_nifti
@@ -39,8 +39,8 @@ def check_declared_sizes(path: Path) -> None:
         check_nifti(path)
     elif path.suffix.lower() in VOLUMES:
         check_volume(path)
-    elif path.suffix == ".annot":
-        check_annotation(path)
+    elif path.suffix.lower() == ".annot":
+        entries_of_annotation(path.read_bytes())
 
 
 def _check_cifti(path: Path) -> None:

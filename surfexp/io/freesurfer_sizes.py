@@ -71,18 +71,18 @@ class _Cursor:
         self.at += count
 
 
-def check_annotation(path: Path) -> None:
-    """Refuse a .annot file of which a count or a length reaches beyond the end.
+def entries_of_annotation(data: bytes) -> list[int]:
+    """Return the number of each entry in a table of colours, in the order of the file; a table may leave numbers out.
 
     Raises
     ------
     ValueError
-        With the number and what has room.
+        If a count or a length reaches beyond the end, with the number and what has room.
     """
-    cursor = _Cursor(path.read_bytes())
+    cursor = _Cursor(data)
     cursor.skip(8 * cursor.number("its number of vertices", 8))
     if not cursor.peek("its mark of a table of colours"):
-        return  # no table: the reader says what that means
+        return []  # no table: the reader says what that means
     cursor.skip(4)
     is_old = cursor.peek("its number of labels") > 0
     if is_old:
@@ -93,7 +93,8 @@ def check_annotation(path: Path) -> None:
     cursor.skip(cursor.number("the length of a name", 1))
     if not is_old:
         entries = cursor.number("its number of labels", ENTRY_BYTES)
-    for _ in range(entries):
-        if not is_old:
-            cursor.number("a label", 0)
+    numbers = []
+    for entry in range(entries):
+        numbers.append(entry if is_old else cursor.number("a label", 0))
         cursor.skip(cursor.number("the length of a name", 1) + 16)
+    return numbers

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from surfexp.contract.arrays import Integers
 from surfexp.io.cifti import is_cifti, read_cifti_labels
 from surfexp.io.foreign import parsing
+from surfexp.io.freesurfer_sizes import entries_of_annotation
 from surfexp.io.gifti import is_gifti, read_gifti_labels, write_gifti_labels
 from surfexp.io.hemisphere import check_named_side
 from surfexp.io.map_names import check_label_names
@@ -123,11 +124,15 @@ def _read_annotation(path: Path) -> LabelMap:
         raise ValueError(f"its {count} entries do not name the vertices 0..{count - 1} once each")
     colors = np.zeros(count, dtype=np.int64)
     colors[pairs[:, 0]] = pairs[:, 1]
-    values = table[:, 4].astype(np.int64)
+    # nibabel keeps rows of the table by their number, and names in the order of the file
+    numbers = entries_of_annotation(data)
+    names = {key: entry.decode("utf-8", "replace") for key, entry in zip(numbers, entries, strict=True)}
+    rows = np.array(sorted(names), dtype=np.int64)
+    values = table[rows, 4].astype(np.int64)
     order = np.argsort(values, kind="stable")
     place = np.minimum(np.searchsorted(values[order], colors), max(len(order) - 1, 0))
-    keys = np.where(values[order][place] == colors, order[place], -1) if len(order) else np.full(count, -1)
-    return LabelMap(keys, {key: entry.decode("utf-8", "replace") for key, entry in enumerate(entries)})
+    keys = np.where(values[order][place] == colors, rows[order][place], -1) if len(order) else np.full(count, -1)
+    return LabelMap(keys, names)
 
 
 def _write_annotation(path: Path, table: LabelMap) -> None:

@@ -34,7 +34,7 @@ class LegacyVtk:
 
     def __init__(self, data: bytes) -> None:
         self.data, self.at = data, 0
-        head = [self.line() for _ in range(3)]
+        head = [self._raw_line() for _ in range(3)]  # the title, the second of them, may be empty
         version = re.match(r"# vtk datafile version (\d{1,3})\.", head[0], re.I)
         if not version or head[2].upper() not in ("ASCII", "BINARY"):
             raise ValueError("it has no header of a legacy VTK file")
@@ -43,12 +43,15 @@ class LegacyVtk:
     def line(self) -> str:
         """Return the next line that is not empty, or nothing at the end."""
         while self.at < len(self.data):
-            stop = self.data.find(b"\n", self.at)
-            stop = len(self.data) if stop < 0 else stop
-            line, self.at = self.data[self.at : stop].decode("latin-1").strip(), stop + 1
-            if line:
+            if line := self._raw_line():
                 return line
         return ""
+
+    def _raw_line(self) -> str:
+        stop = self.data.find(b"\n", self.at)
+        stop = len(self.data) if stop < 0 else stop
+        line, self.at = self.data[self.at : stop].decode("latin-1").strip(), stop + 1
+        return line
 
     def numbers(self, count: int, kind: str) -> NDArray[np.generic]:
         """Return the next `count` numbers of a type."""
@@ -76,12 +79,8 @@ class LegacyVtk:
 
     def skip_metadata(self) -> None:
         """Pass over what is said of an array or the data set, to the next empty line."""
-        while self.at < len(self.data):
-            stop = self.data.find(b"\n", self.at)
-            stop = len(self.data) if stop < 0 else stop
-            line, self.at = self.data[self.at : stop].strip(), stop + 1
-            if not line:
-                return
+        while self.at < len(self.data) and self._raw_line():
+            pass
 
     def peek(self) -> list[str]:
         """Return the words of the next line without going on."""
@@ -93,9 +92,10 @@ class LegacyVtk:
     def skip_strings(self, count: int) -> None:
         """Pass over so many pieces of text: one a line, or behind their length in 1, 2, 4 or 8 bytes."""
         for _ in range(count):
+            if self.at >= len(self.data):
+                raise ValueError(f"it ends before {count} pieces of text that it announces")
             if not self.binary:
-                stop = self.data.find(b"\n", self.at)
-                self.at = (len(self.data) if stop < 0 else stop) + 1
+                self._raw_line()
                 continue
             size = {3: 1, 2: 2, 1: 4, 0: 8}[self.data[self.at] >> 6]
             length = int.from_bytes(self.data[self.at : self.at + size], "big") & ((1 << (8 * size - 2)) - 1)

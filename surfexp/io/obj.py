@@ -54,6 +54,8 @@ def read_obj(path: Path) -> Decoded:
                 continue
             if words[0] in ("f", "fo") and len(words) >= 4:
                 corners = [int(word.split("/")[0]) for word in words[1:]]
+                if 0 in corners:
+                    raise ValueError("corners are counted from 1")
                 polygons.append([corner - 1 if corner > 0 else len(vertices) + corner for corner in corners])
                 continue
         except ValueError:

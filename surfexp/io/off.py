@@ -82,7 +82,12 @@ def _by_rows(body: Rows, vertex_count: int, face_count: int, width: int) -> tupl
     for number, row in enumerate(rows):
         if len(row) < width:
             raise ValueError(f"vertex {number} has {len(row)} coordinates, {width} are needed")
-    faces = body[vertex_count : vertex_count + face_count]
+    if further := len(body) - vertex_count - face_count:
+        raise ValueError(
+            f"it announces {vertex_count} vertices and {face_count} faces and has {further} rows more: its counts are wrong, "
+            "write it again"
+        )
+    faces = body[vertex_count:]
     polygons = [list(map(int, row[1 : 1 + int(row[0])])) for row in faces]
     for row, polygon in zip(faces, polygons, strict=True):
         if len(polygon) != int(row[0]):

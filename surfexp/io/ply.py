@@ -29,6 +29,7 @@ TYPES = {
 }
 HEMISPHERE = re.compile(rb"^comment hemisphere (left|right)[ \t]*\r?$", re.M)
 LONGEST_HEADER = 1 << 16
+INDICES = ("vertex_indices", "vertex_index")
 ORDERS = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -52,11 +53,14 @@ def read_ply(path: Path) -> Decoded:
     data = path.read_bytes()
     order, elements, offset = _header(data)
     columns: dict[str, dict[str, Any]] = {}
+    notes: tuple[str, ...] = ()
     if order == "=":
         columns = _ascii_columns(data[offset:], elements)
     else:
         for element in elements:
             columns[element.name], offset = _binary_element(data, offset, element, order)
+        if rest := len(data[offset:].strip()):
+            notes = (f"{rest} bytes behind the last element are passed over.",)
     vertex, polygons, strips = columns.get("vertex", {}), _lists(columns, "face"), _lists(columns, "tristrips")
     if not {"x", "y", "z"} <= set(vertex) or (polygons is None and strips is None and not len(vertex["x"])):
         raise ValueError(
@@ -68,8 +72,10 @@ def read_ply(path: Path) -> Decoded:
     }
     found = triangles_of_strips([] if strips is None else strips)
     if polygons is None:  # points alone have no faces
-        return Decoded(positions, found, scalars)
-    return Decoded(positions, polygons if not len(found) else [*found.tolist(), *polygons], scalars)
+        return Decoded(positions, found, scalars, notes)
+    if beside := [name for name in columns["face"] if name not in INDICES]:
+        notes += (f"Properties of faces are passed over: {', '.join(beside)}.",)
+    return Decoded(positions, polygons if not len(found) else [*found.tolist(), *polygons], scalars, notes)
 
 
 def _ascii_columns(data: bytes, elements: list[Element]) -> dict[str, dict[str, Any]]:
@@ -92,7 +98,7 @@ def _ascii_columns(data: bytes, elements: list[Element]) -> dict[str, dict[str, 
 
 def _lists(columns: dict[str, dict[str, Any]], element: str) -> Any:
     found = columns.get(element, {})
-    return found.get("vertex_indices", found.get("vertex_index"))
+    return next((found[name] for name in INDICES if name in found), None)
 
 
 def _header(data: bytes) -> tuple[str, list[Element], int]:
@@ -160,6 +166,8 @@ def _ascii_rows(lines: list[bytes], elements: list[Element]) -> dict[str, dict[s
             kept += row[:width]
         columns[element.name], _ = _ascii_element(kept, 0, element)
         at += element.count
+    if at < len(rows):
+        raise ValueError(f"it has {len(rows)} rows where {at} are declared")
     return columns
 
 

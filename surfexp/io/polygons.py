@@ -16,6 +16,7 @@ FLATNESS = 0.01
 ROUNDING = 1e-12
 # first ears after which triangles of another area than the polygon's say that it crosses itself
 CROSSED = 64
+FEWEST_TURNS, MOST_CORNERS = 8, 10**5
 
 
 def triangulate(
@@ -47,6 +48,7 @@ def triangulate(
         return np.zeros((0, 3), dtype=np.int64), ()
     if isinstance(polygons, np.ndarray) and polygons.shape[1:] == (3,):
         return index_array(polygons, "the faces"), ()
+    polygons = [_without_repeats(polygon) if len(polygon) > 3 else polygon for polygon in polygons]
     sizes = np.fromiter(map(len, polygons), dtype=np.int64, count=len(polygons))
     if sizes.min() < 3:
         index = int(sizes.argmin())
@@ -71,6 +73,13 @@ def triangulate(
             if whole:
                 faces[place[k]] = corners[k][ears]
     return faces, tuple(_sentences(bent, crossing))
+
+
+def _without_repeats(polygon: Sequence[int] | NDArray[np.generic]) -> Sequence[int] | NDArray[np.generic]:
+    """A polygon without corners that follow themselves, as a triangle that is written with four; at least a triangle."""
+    corners = list(polygon)
+    kept = [one for one, after in zip(corners, [*corners[1:], corners[0]], strict=True) if one != after]
+    return polygon if len(kept) == len(corners) or len(kept) < 3 else kept
 
 
 def _sentences(bent: int, crossing: int) -> Iterator[str]:
@@ -112,7 +121,8 @@ def _ears(polygon: Floats) -> tuple[Integers, bool]:
     x, y = plane.T
     area = float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
     count, missed = len(polygon), 0
-    for turn in range(count):
+    # so many that a polygon of very many corners, none of whose ears fit, does not take hours
+    for turn in range(min(count, max(FEWEST_TURNS, MOST_CORNERS // count))):
         # which ear comes first decides whether a vertex on a straight side stays a corner
         order = np.roll(np.arange(count), -turn)
         ears = order[triangulate_float64(plane[order], np.array([count], np.uint32)).reshape(-1, 3).astype(np.int64)]

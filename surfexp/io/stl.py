@@ -12,7 +12,7 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.welding import weld
 
 # what follows "solid" is a name, in which any word may stand
-NAMES = re.compile(rb"^\s*(?:end\s?)?solid\b[^\r\n]*", re.M)
+NAMES = re.compile(rb"^[ \t]*(?:end\s?)?solid\b[^\r\n]*", re.M)
 FACET = re.compile(rb"\bfacet\s+normal\b")
 VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])

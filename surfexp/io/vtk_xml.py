@@ -7,6 +7,7 @@ arrays, and none can be abused.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import unescape
@@ -92,13 +93,11 @@ class VtkXml:
             If an array is of an unknown type, is cut off, or does not unpack to what it announces.
         """
         inside = self._inside(section)
-        inside = re.sub(r"<InformationKey\b.*?</InformationKey>", "", inside, flags=re.S)  # norms beside numbers
-        elements = re.findall(r"<DataArray\b([^>]*?)(?:/>|>(.*?)</DataArray>)", inside, re.S)
         arrays = {}
-        for number, (tag, body) in enumerate(elements):
+        for number, (_, _, tag, body) in enumerate(_elements(inside, "DataArray")):
             told = _attributes(tag)
             columns = told.get("NumberOfComponents", "") or "1"
-            values = self._values(told, body)
+            values = self._values(told, _without(body, "InformationKey"))  # norms beside numbers
             if not columns.isdecimal() or not 0 < int(columns) <= max(len(values), 1) or len(values) % int(columns):
                 raise ValueError(f"an array has {len(values)} numbers in {columns[:20]} components")
             arrays[told.get("Name", f"array {number}")] = values.reshape(-1, int(columns))
@@ -131,6 +130,33 @@ class VtkXml:
         return np.frombuffer(raw, self.order + kind).astype(kind)
 
 
+def _elements(text: str, name: str) -> Iterator[tuple[int, int, str, str]]:
+    """Where each element of a name begins and ends, its attributes, and what is inside; they do not nest.
+
+    By hand, since an expression looks for the end of each element to the end of the text, where there is none.
+    """
+    at = 0
+    while (begin := text.find(f"<{name}", at)) >= 0 and (head := text.find(">", begin)) >= 0:
+        tag, body, at = text[begin + len(name) + 1 : head], "", head + 1
+        if tag[:1].isalnum():
+            continue  # a longer name
+        if not tag.endswith("/"):
+            stop = text.find(f"</{name}>", at)
+            if stop < 0:
+                return
+            body, at = text[at:stop], stop + len(name) + 3
+        yield begin, at, tag.removesuffix("/"), body
+
+
+def _without(text: str, name: str) -> str:
+    """A text without the elements of a name."""
+    kept, at = list[str](), 0
+    for begin, end, _, _ in _elements(text, name):
+        kept.append(text[at:begin])
+        at = end
+    return "".join([*kept, text[at:]])
+
+
 def _attributes(tag: str) -> dict[str, str]:
-    found = re.findall(r"""(\w+)\s*=\s*(?:"([^"]*)"|'([^']*)')""", tag)
+    found = re.findall(r"""\b(\w+)\s*=\s*(?:"([^"]*)"|'([^']*)')""", tag)
     return {name: unescape(one or other, {"&quot;": '"', "&apos;": "'"}) for name, one, other in found}
