@@ -25,20 +25,20 @@ def hemisphere_of_file(path: Path | str) -> str:
     Raises
     ------
     ValueError
-        If a GIFTI or npz file cannot be read.
+        If a GIFTI, CIFTI or npz file cannot be read; the message begins with its name.
     """
     path = Path(path)
-    inside = ""
-    if is_cifti(path) and path.is_file():
-        # one that holds both may be called after a movement of the left hand
-        with reading(path, "cannot be read"):
+    with reading(path, "cannot be read"):
+        if is_cifti(path) and path.is_file():
+            # one that holds both may be called after a movement of the left hand
             check_declared_sizes(path)
             return hemisphere_of_cifti(path)
-    if is_gifti(path):
-        check_declared_sizes(path)
-        inside = hemisphere_of_gifti(path)
-    elif path.suffix.lower() in INSIDE and path.is_file():
-        inside = INSIDE[path.suffix.lower()](path)
+        inside = ""
+        if is_gifti(path):
+            check_declared_sizes(path)
+            inside = hemisphere_of_gifti(path)
+        elif path.suffix.lower() in INSIDE and path.is_file():
+            inside = INSIDE[path.suffix.lower()](path)
     return inside or hemisphere_of_name(path.name)
 
 
