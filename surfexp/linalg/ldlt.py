@@ -11,15 +11,15 @@ import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import csr_array, sparray, spmatrix
+from scipy.sparse import csr_array, issparse, sparray, spmatrix
 
 from surfexp.contract.arrays import Floats
 from surfexp.linalg.lanes import LANES
 from surfexp.linalg.ldlt_numeric import eliminate
 from surfexp.linalg.ldlt_solve import solve_lanes
 from surfexp.linalg.ldlt_solve_one import solve_one
-from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse, permuted
-from surfexp.linalg.symmetric_matrix import entries_outside, symmetric_rows
+from surfexp.linalg.ldlt_symbolic import SymbolicFactor, analyse
+from surfexp.linalg.symmetric_matrix import in_elimination_order, symmetric_rows
 
 SMALLEST_PIVOT = 1e-14
 # backward error of a first solve above which solves are refined, and its residual above which the factors are refused
@@ -78,7 +78,7 @@ class LDLT:
         Parameters
         ----------
         matrix : (n, n) sparse array
-            Symmetric; its entries that are not 0 must lie where those of the first matrix did.
+            Symmetric; its entries that are not 0 must lie where the factor has some, as those of the first matrix do.
 
         Raises
         ------
@@ -86,16 +86,7 @@ class LDLT:
             If the matrix is not symmetric, has entries elsewhere, or is singular to rounding. The factors are then those of
             no matrix.
         """
-        given = symmetric_rows(matrix)
-        if given.shape[0] != self.symbolic.size:
-            raise ValueError(f"matrix has {given.shape[0]} rows, the factors are of one with {self.symbolic.size}")
-        ordered = permuted(given, self.symbolic.permutation)
-        outside = entries_outside(ordered, self.matrix)
-        if outside:
-            raise ValueError(
-                f"matrix has {outside} entries where the factorised one has none: factorise it anew, with ldlt(matrix)"
-            )
-        self.refactor_in_order(ordered)
+        self.refactor_in_order(in_elimination_order(symmetric_rows(matrix), self.symbolic))
         self._require_regular()
 
     def refactor_in_order(self, matrix: csr_array) -> None:
@@ -129,10 +120,10 @@ class LDLT:
         solution = probe.copy()
         self.solve_in_order(solution)
         defect = matrix @ solution - probe
-        self.row_errors, self.row_sizes = np.linalg.norm(defect, axis=1), np.linalg.norm(solution, axis=1)
-        error = float(np.linalg.norm(self.row_errors))
-        self.residual = error / float(np.linalg.norm(probe))
-        self.perturbation = error / float(np.linalg.norm(self.row_sizes))
+        self.row_errors, self.row_sizes = _norm(defect, axis=1), _norm(solution, axis=1)
+        error = float(_norm(self.row_errors))
+        self.residual = error / float(_norm(probe))
+        self.perturbation = error / float(_norm(self.row_sizes))
         largest = float(abs(matrix).sum(axis=1).max())
         self.backward_error = float(np.abs(defect).max() / (largest * np.abs(solution).max() + np.abs(probe).max()))
 
@@ -208,8 +199,10 @@ class LDLT:
         Raises
         ------
         ValueError
-            If the lengths differ.
+            If the lengths differ, or it is sparse or complex.
         """
+        if issparse(right_hand_side):
+            raise ValueError("right-hand side is sparse, its solution is dense: give b.toarray()")
         if np.iscomplexobj(right_hand_side):
             raise ValueError("right-hand side is complex: solve with its real and its imaginary part")
         given = np.asarray(right_hand_side, dtype=np.float64)
@@ -267,6 +260,12 @@ class LDLT:
             )
 
 
+def _norm(values: Floats, axis: int | None = None) -> Floats:
+    """Euclidean norm of numbers of any size: those whose squares are no numbers are scaled by a power of two."""
+    power = int(np.frexp(np.abs(values).max(initial=0.0))[1])
+    return np.asarray(np.ldexp(np.linalg.norm(np.ldexp(values, -power), axis=axis), power))
+
+
 def ldlt(matrix: ArrayLike | sparray | spmatrix, symbolic: SymbolicFactor | None = None) -> LDLT:
     """Factorise a sparse symmetric matrix, definite or not, as P A P^T = L D L^T.
 
@@ -291,7 +290,7 @@ def ldlt(matrix: ArrayLike | sparray | spmatrix, symbolic: SymbolicFactor | None
     ------
     ValueError
         If the matrix is not square, not symmetric or complex, has entries that are not finite, another size than the
-        analysis, or is singular to rounding, or an indefinite one meets pivots of 0.
+        analysis or entries where it has none, or is singular to rounding, or an indefinite one meets pivots of 0.
 
     Examples
     --------
@@ -310,9 +309,12 @@ def ldlt(matrix: ArrayLike | sparray | spmatrix, symbolic: SymbolicFactor | None
     (35, 65)
     """
     given = symmetric_rows(matrix)
+    if not isinstance(symbolic, SymbolicFactor | None):
+        raise ValueError(
+            f"symbolic is a {type(symbolic).__name__}, the analysis of another factor is needed: give factor.symbolic, or "
+            "matrix + beta I where beta is meant to be added"
+        )
     symbolic = analyse(given) if symbolic is None else symbolic
-    if given.shape[0] != symbolic.size:
-        raise ValueError(f"matrix has {given.shape[0]} rows, the analysis is of one with {symbolic.size}")
-    factor = LDLT(permuted(given, symbolic.permutation), symbolic)
+    factor = LDLT(in_elimination_order(given, symbolic), symbolic)
     factor._require_regular()
     return factor

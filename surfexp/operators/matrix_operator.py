@@ -33,7 +33,7 @@ def matrix_operator(mesh: TriangleMesh, stiffness: csr_array, mass: csr_array, n
     """
     check_mesh(mesh, flat_faces=True)
     count = len(mesh.vertices)
-    matrices = csr_array(stiffness, dtype=np.float64), csr_array(mass, dtype=np.float64)
+    matrices = csr_array(stiffness, dtype=np.float64, copy=True), csr_array(mass, dtype=np.float64, copy=True)
     for what, matrix in zip(("stiffness", "mass"), matrices, strict=True):
         if matrix.shape != (count, count):
             raise ValueError(f"{what} of operator {name!r} has shape {matrix.shape}, the mesh has {count} vertices")

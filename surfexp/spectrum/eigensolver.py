@@ -62,7 +62,7 @@ def eigenpairs(
     EigensolverError
         If the request or a matrix is unfit, or no certified pairs can be given; the message names cause and way out.
     """
-    stiffness, mass = csr_array(stiffness, dtype=np.float64), csr_array(mass, dtype=np.float64)
+    stiffness, mass = (csr_array(matrix, dtype=np.float64, copy=True) for matrix in (stiffness, mass))
     if method not in METHODS:
         raise EigensolverError(f"method {method!r} is unknown, choose one of {', '.join(METHODS)}")
     if stiffness.shape != mass.shape or stiffness.shape[0] != stiffness.shape[1]:

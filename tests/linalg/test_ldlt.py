@@ -175,7 +175,7 @@ def test_another_pattern_is_refused() -> None:
     factors = ldlt(eye_array(4).tocsr())
     with pytest.raises(ValueError, match=r"2 entries where the factorised one has none: factorise it anew"):
         factors.refactor(csr_array(np.eye(4) + 0.1 * np.eye(4)[[3, 1, 2, 0]] * [1, 0, 0, 1]))
-    with pytest.raises(ValueError, match="3 rows, the factors are of one with 4"):
+    with pytest.raises(ValueError, match="3 rows, the analysis is of one with 4"):
         factors.refactor(eye_array(3).tocsr())
 
 
@@ -240,6 +240,10 @@ def test_bad_matrices_are_refused() -> None:
         ldlt(np.eye(2)).solve(np.ones(2) * 1j)
     with pytest.raises(ValueError, match="0 rows"):
         ldlt(np.eye(2)).solve(3.0)
+    with pytest.raises(ValueError, match=r"right-hand side is sparse.*: give b\.toarray\(\)"):
+        ldlt(np.eye(2)).solve(eye_array(2))
+    with pytest.raises(ValueError, match=r"symbolic is a float.*: give factor\.symbolic, or matrix \+ beta I"):
+        ldlt(np.eye(2), 0.5)
 
 
 def test_a_factor_stands_where_that_of_cholmod_did() -> None:
@@ -249,3 +253,61 @@ def test_a_factor_stands_where_that_of_cholmod_did() -> None:
     sign, logarithm = np.linalg.slogdet(matrix.toarray())
     np.testing.assert_allclose(matrix @ factor(np.arange(42.0)), np.arange(42.0), atol=1e-12)
     np.testing.assert_allclose([factor.logdet(), *factor.slogdet()], [logarithm, sign, logarithm], rtol=1e-12)
+
+
+@pytest.mark.parametrize("kind", [np.int64, bool, np.float32, np.float64])
+def test_the_matrix_that_was_given_keeps_its_entries(kind: type) -> None:
+    """Rows whose columns are not sorted: sorting them in place would move the entries of the caller's array."""
+    shared = csr_array((np.array([1, 4, 5, 1], dtype=kind), [1, 0, 1, 0], [0, 2, 4]), shape=(2, 2))
+    dense, indices = shared.toarray(), shared.indices.copy()
+    if kind is bool:
+        with pytest.raises(ValueError, match="singular"):
+            ldlt(shared)
+    else:
+        ldlt(shared).refactor(shared)
+    np.testing.assert_array_equal(shared.toarray(), dense)
+    np.testing.assert_array_equal(shared.indices, indices)
+
+
+def test_a_sparser_matrix_leaves_the_analysis_as_it_was() -> None:
+    path = grid_laplacian(1, 100) + csr_array(eye_array(100))
+    factors, load = ldlt(path), np.arange(100.0)
+    before = factors.solve(load)
+    factors.refactor(2.0 * eye_array(100))
+    factors.refactor(path)
+    assert np.array_equal(factors.solve(load), before)
+
+
+@given(st.integers(2, 40), st.integers(0, 10_000))
+@settings(max_examples=60, deadline=None)
+def test_an_analysis_serves_the_matrices_it_has_places_for_and_no_others(size: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    half = random_array((size, size), density=2.0 / size, rng=rng, format="csr")
+    first = csr_array(half + half.T + diags_array(np.full(size, size + 1.0)))
+    entry = coo_array(([0.5], rng.integers(0, size, (2, 1))), shape=first.shape)
+    other, load = csr_array(first + entry + entry.T), rng.normal(size=size)
+    symbolic = ldlt(first).symbolic
+    try:
+        factors = ldlt(other, symbolic=symbolic)
+    except ValueError as error:
+        assert "where the factorised one has none" in str(error)
+        assert other.nnz > first.nnz
+    else:
+        assert np.allclose(other @ factors.solve(load), load, rtol=0, atol=1e-12)
+
+
+def test_stored_zeros_need_no_place() -> None:
+    first = csr_array(diags_array([3.0, 4.0, 5.0]))
+    full = csr_array((np.diag([3.0, 4.0, 5.0]).ravel(), np.tile(range(3), 3), [0, 3, 6, 9]), shape=(3, 3))
+    assert full.nnz == 9
+    np.testing.assert_array_equal(ldlt(full, ldlt(first).symbolic).solve([3.0, 4.0, 5.0]), np.ones(3))
+
+
+@pytest.mark.parametrize("power", [-900, -500, 500, 538, 900])
+def test_a_power_of_two_scales_factors_and_solves_to_the_bit(power: int) -> None:
+    """Norms of solutions near 1e-162 have squares that are 0."""
+    matrix, load = grid_laplacian(8, 9) + csr_array(eye_array(72)), np.sin(np.arange(72.0))
+    scaled, plain = ldlt(matrix * 2.0**power), ldlt(matrix)
+    np.testing.assert_array_equal(scaled.solve(load) * 2.0**power, plain.solve(load))
+    assert scaled.residual == plain.residual and scaled.perturbation == plain.perturbation * 2.0**power
+    assert scaled.inertia == plain.inertia

@@ -152,3 +152,16 @@ def test_the_mesh_laplacian_of_the_example_has_the_eigenvalues_of_its_kernel() -
         exact = np.repeat([0.0, 2.0, 6.0 - 12.0 * t], [1, 3, 5])
         errors.append(np.abs(values - exact).max())
     assert errors[1] < 0.03 and 1.7 < np.log2(errors[0] / errors[1]) < 2.3
+
+
+def test_the_matrices_that_were_given_keep_their_entries() -> None:
+    """Unsorted rows in single precision: sorting indices in place would move the caller's entries."""
+    mesh = icosphere(1).mesh
+    mass = csr_array(mass_matrix(fem(mesh))).astype(np.float32)
+    backwards = np.lexsort((-mass.indices, np.repeat(np.arange(mass.shape[0]), np.diff(mass.indptr))))
+    mass = csr_array((mass.data[backwards], mass.indices[backwards], mass.indptr), shape=mass.shape)
+    dense = mass.toarray()
+    taken = matrix_operator(mesh, stiffness(fem(mesh)), mass, "pair").matrices
+    assert taken is not None
+    np.testing.assert_array_equal(mass.toarray(), dense)
+    np.testing.assert_array_equal(taken[1].toarray(), dense)

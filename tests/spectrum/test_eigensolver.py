@@ -264,3 +264,16 @@ def test_a_few_huge_values_hide_no_error_of_the_small_ones() -> None:
     assert dense_result.spacing < exact[7]
     wrong = np.abs(dense_result.values[0]) / dense_result.spacing
     assert dense_result.residuals[0] >= 0.1 * wrong
+
+
+def test_the_matrices_that_were_given_keep_their_entries() -> None:
+    """Unsorted rows in single precision: whoever sorts shared indices moves the caller's entries."""
+    given = [csr_array(matrix).astype(np.float32) for matrix in pencil(icosphere(2).mesh, lumped=False)]
+    for matrix in given:
+        backwards = np.lexsort((-matrix.indices, np.repeat(np.arange(matrix.shape[0]), np.diff(matrix.indptr))))
+        matrix.data, matrix.indices = matrix.data[backwards], matrix.indices[backwards]
+        matrix.has_sorted_indices = matrix.has_canonical_format = False
+    before = [(matrix.data.copy(), matrix.indices.copy()) for matrix in given]
+    eigenpairs(*given, 3, tolerance=1e-6)
+    for matrix, (data, indices) in zip(given, before, strict=True):
+        assert np.array_equal(matrix.data, data) and np.array_equal(matrix.indices, indices)
