@@ -67,9 +67,10 @@ def fitted_smoothing(
 ) -> FittedSmoothing:
     """Smooth a map by the mixture of heat kernel, total variation and edge-weighted total variation of least risk.
 
-    Outliers are replaced before. Where what is removed has heavy tails, values far from the smoothed map are drawn towards it,
-    to 1.5 deviations, and the map that results is smoothed in its place: Stein's estimate holds for normal noise. A map that is
-    rough itself leaves much of itself in the rest: its values are left where they are, and the choice is not cautious.
+    Outliers are replaced before: of noise that is known, those that this map has too. Where what is removed has heavy tails,
+    values far from the smoothed map are drawn towards it, to 1.5 deviations, and the map that results is smoothed in its
+    place: Stein's estimate holds for normal noise. A map that is rough itself leaves much of itself in the rest: its values
+    are left where they are, and the choice is not cautious.
 
     Parameters
     ----------
@@ -101,9 +102,12 @@ def fitted_smoothing(
     own = own_unit(values)
     sign = odd_sign(own.normalised(values))
     unit = sign * own.normalised(values)
-    read = read_noise(operator, unit)
+    given = None if level is None else level / own.unit
+    read = read_noise(operator, unit, level=given)
     noise = read if known is None else known.in_unit(1.0 / own.unit)
-    target = noise.level if level is None else level / own.unit
+    # where measurements differ the other one may be far off, and where both are, it is the map
+    noise = replace(noise, outliers=np.intersect1d(noise.outliers, read.outliers))
+    target = noise.level if given is None else given
     if not target > 0:
         raise ValueError(f"noise is {target:g}, it must be positive: give the noise of the map")
     factor = target / read.level if read.level > 0 else 1.0
@@ -120,7 +124,7 @@ def fitted_smoothing(
             bounds = DRAWN_FROM * tails(rest, noise)[0] * noise.levels
             drawn = int((np.abs(rest) > bounds).sum())
             nearer = mixture.values + np.clip(rest, -bounds, bounds)
-            again = read_noise(operator, nearer)
+            again = read_noise(operator, nearer, level=target)
             again = (again if known is None else noise).with_level(factor * again.level)
             trials = list(trials_of(nearer, again))
             mixture = stein_mixture(operator, nearer, again, trials)

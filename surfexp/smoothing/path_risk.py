@@ -106,7 +106,7 @@ def path_risk(path: RofPath, level: float, seed: int = 0, known: FittedNoise | N
     Stein: Estimation of the mean of a multivariate normal distribution (1981). Ramani et al.: Monte-Carlo SURE (2008).
     """
     operator, target = path.operator, path.own.normalised(path.image)
-    kind = read_noise(operator, target) if known is None else known
+    kind = read_noise(operator, target, level=level / path.own.unit) if known is None else known
     noise = kind.with_level(level / path.own.unit)
     probe = odd_sign(target) * noise.draw(operator, seed)
     probed = target + PROBE_STEP * probe

@@ -77,7 +77,7 @@ class NoisyImage:
         notes: tuple[str, ...] = ()
         level = self.given_noise
         if self.values.ndim == 1:
-            found = self.known_noise or read_noise(self.operator, self.values)
+            found = self.known_noise or read_noise(self.operator, self.values, level=level)
             level, notes = (found.level if level is None else level), found.notes
         elif level is None:
             level = noise_level(self.operator, self.values)

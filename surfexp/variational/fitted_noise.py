@@ -203,7 +203,7 @@ class FittedNoise(Drawable):
         return drawn
 
     def on_whole(self, part: SurfacePart) -> FittedNoise:
-        """Return the noise of a part as that of the whole surface, with the vertices of the whole.
+        """Return the noise of a part as that of the whole surface, with the vertices and the unit of length of the whole.
 
         Parameters
         ----------
@@ -214,7 +214,12 @@ class FittedNoise(Drawable):
         -------
         FittedNoise
         """
-        return replace(self, levels=part.extend(self.levels), outliers=part.vertices[self.outliers])
+        return replace(
+            self,
+            levels=part.extend(self.levels),
+            outliers=part.vertices[self.outliers],
+            width=self.width * part.length,
+        )
 
     def on_part(self, part: SurfacePart) -> FittedNoise:
         """Return the noise of a whole surface as that of a part of it.
@@ -242,7 +247,7 @@ class FittedNoise(Drawable):
                 f"noise is not known at {unknown} of the {len(levels)} vertices of the map: read it inside the same mask"
             )
         outliers = np.flatnonzero(np.isin(part.vertices, self.outliers))
-        return replace(self, levels=levels, outliers=outliers)
+        return replace(self, levels=levels, outliers=outliers, width=self.width / part.length)
 
 
 def varies(spread: float, growth: float, noise_alone: bool) -> bool:

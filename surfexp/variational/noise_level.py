@@ -52,6 +52,11 @@ def noise_level(operator: SurfaceOperator, values: Floats) -> float:
     return float(np.median(deviations)) / NORMAL_MEDIAN
 
 
+def pair_count(operator: SurfaceOperator) -> int:
+    """Return how many pairs of neighbouring triangles a surface has."""
+    return len(_face_pairs(operator.faces)[0])
+
+
 def affine_relations(operator: SurfaceOperator) -> tuple[Integers, Floats]:
     """Return the corners of every pair of neighbouring triangles, and their affine relation once they are unfolded.
 

@@ -11,7 +11,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.operators.surface_operator import SurfaceOperator
 from surfexp.variational.fitted_noise import TIED, FittedNoise, varies
 from surfexp.variational.noise_correlation import correlation
-from surfexp.variational.noise_level import NORMAL_MEDIAN, noise_level
+from surfexp.variational.noise_level import FEWEST_PAIRS, NORMAL_MEDIAN, noise_level, pair_count
 from surfexp.variational.noise_statistics import NoiseStatistics
 from surfexp.variational.own_unit import odd_sign, own_unit
 
@@ -19,7 +19,13 @@ ROUNDING = 1e-12
 PASSES = 4
 
 
-def read_noise(operator: SurfaceOperator, values: Floats, second: Floats | None = None, seed: int = 0) -> FittedNoise:
+def read_noise(
+    operator: SurfaceOperator,
+    values: Floats,
+    second: Floats | None = None,
+    seed: int = 0,
+    level: float | None = None,
+) -> FittedNoise:
     """Read the noise from a map, or from two measurements of it.
 
     A rounded map is dithered by half a step, for then the deviations are continuous again, and the variance of the
@@ -35,12 +41,16 @@ def read_noise(operator: SurfaceOperator, values: Floats, second: Floats | None 
         Another measurement of the same map, with noise of the same kind.
     seed : int
         Of the dither.
+    level : float, optional
+        Standard deviation, where it is known: that of white noise on a surface that is too small to be read.
 
     Raises
     ------
     ValueError
-        If the surface has under 20 pairs of neighbouring triangles.
+        If the surface has under 20 pairs of neighbouring triangles, and no level is known.
     """
+    if level is not None and pair_count(operator) < FEWEST_PAIRS:
+        return _white(level, len(values))
     own = own_unit(values)
     again = None if second is None else own.normalised(second)
     return _read(operator, own.normalised(values), again, seed).in_unit(own.unit)
@@ -55,8 +65,7 @@ def _read(operator: SurfaceOperator, values: Floats, second: Floats | None, seed
     free = deviations > ROUNDING * np.abs(values).max(initial=0.0)
     tied = float(1.0 - free.mean())
     if not free.any():
-        blank = np.zeros(len(values))
-        return FittedNoise(0.0, blank, 1.0, 0.0, 1.0, 0.0, tied, np.empty(0, dtype=np.int64), 1 + (second is not None))
+        return replace(_white(0.0, len(values)), tied=tied, measurements=1 + (second is not None))
     step = _step(values, tied) if second is None else 0.0
     if step:
         # the negative map has the same noise
@@ -67,6 +76,11 @@ def _read(operator: SurfaceOperator, values: Floats, second: Floats | None, seed
         variance = max(read.level**2 - step**2 / 12.0, step**2 / 12.0)
         read = read.with_level(float(np.sqrt(variance)))
     return replace(read, step=step, tied=tied, measurements=1 + (second is not None))
+
+
+def _white(level: float, count: int) -> FittedNoise:
+    """White noise of one level."""
+    return FittedNoise(level, np.full(count, level), 1.0, 0.0, 1.0, 0.0, 0.0, np.empty(0, dtype=np.int64))
 
 
 def without_outliers(operator: SurfaceOperator, values: Floats, places: Integers) -> Floats:

@@ -106,3 +106,33 @@ def test_a_text_says_that_noise_is_white_and_where_outliers_are() -> None:
     assert "The noise is white: of one level" in str(sx.noise(BALL, values))
     values[100] = 9.0
     assert "Outliers are at vertices 100." in str(sx.noise(BALL, values))
+
+
+@pytest.mark.parametrize("method", ["rof", "tgv", "auto"])
+def test_noise_that_is_given_needs_no_surface_to_read_it_from(method: str) -> None:
+    octahedron = sx.shape("icosphere", levels=0)
+    small = octahedron.mesh.vertices, octahedron.mesh.faces[:8]
+    kept = np.unique(small[1])
+    small = small[0][kept], np.searchsorted(kept, small[1])
+    values = small[0][:, 2] + 0.1 * np.random.default_rng(0).standard_normal(len(kept))
+    with pytest.raises(ValueError, match="an estimate needs 20: give noise"):
+        sx.denoise(small, values, method=method)
+    found = sx.denoise(small, values, method=method, noise=0.1)
+    assert found.certificate["noise"] == pytest.approx(0.1) and np.isfinite(found.values).all()
+    path = sx.denoise_path(small, values, noise=0.1, weights=(0.1, 1.0), tolerance=1e-2)
+    assert np.isfinite(path.risk([0.2, 0.5]).risks).all()
+
+
+@pytest.mark.parametrize("power", [-120, 120])
+def test_the_width_is_in_the_unit_of_the_surface_and_back(power: int) -> None:
+    white = np.random.default_rng(0).standard_normal((2, len(X), 1))
+    first, second = (heat_flow(OPERATOR, one, heat_time(3.0 * OPERATOR.edge_length))[:, 0] for one in white)
+    other = 2.0**power * BALL.mesh.vertices, BALL.mesh.faces
+    plain, scaled = sx.noise(BALL, first, second), sx.noise(other, first, second)
+    assert plain.width > 0 and scaled.width == pytest.approx(2.0**power * plain.width, rel=1e-12, abs=0.0)
+    weights = {"weights": (0.1, 1.0), "tolerance": 0.1}
+    risks = [
+        sx.denoise_path(where, first, noise=noise, **weights).risk([0.2, 0.5]).risks
+        for where, noise in ((BALL, plain), (other, scaled))
+    ]
+    np.testing.assert_allclose(*risks, rtol=1e-6)

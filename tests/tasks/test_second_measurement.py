@@ -104,3 +104,13 @@ def test_the_command_takes_a_second_file(working_folder: Path, capsys: pytest.Ca
     assert main(["noise", "ball.surf.gii", "first.shape.gii", "--second", "first.shape.gii"]) == 2
     said = capsys.readouterr().err.strip()
     assert "it shows no noise" in said and len(said.splitlines()) == 1
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_an_outlier_is_replaced_in_the_measurement_it_is_of(which: int) -> None:
+    pair = [Z + 0.1 * np.random.default_rng(seed).standard_normal(len(Z)) for seed in (0, 1)]
+    pair[which][7] += 5.0
+    found = sx.noise(BALL, *pair)
+    assert list(found.outliers) == [7]
+    assert [list(sx.denoise(BALL, one, noise=found).outliers) for one in pair] == [[[7], []], [[], [7]]][which]
+    assert not any("were replaced" in note for note in sx.denoise(BALL, pair[1 - which], noise=found).notes)
