@@ -49,10 +49,10 @@ def solve_at_good_shift(
     -------
     SpectrumSlice
     """
-    shift, factors = _choose_shift(pencil, found, count, low)
-    for _ in range(SHIFT_MOVES):
+
+    def request_at(shift: float) -> SliceRequest:
         below = pencil.counts[shift] - found
-        request = SliceRequest(
+        return SliceRequest(
             low=low,
             start=found,
             below=below,
@@ -62,6 +62,31 @@ def solve_at_good_shift(
             spacing=shift / max(pencil.counts[shift], 1),
             edge=edge,
         )
+
+    return solve_where_orthogonal(pencil, *_choose_shift(pencil, found, count, low), request_at, seed)
+
+
+def solve_where_orthogonal(
+    pencil: ShiftedPencil, shift: float, factors: LDLT, request_at: Callable[[float], SliceRequest], seed: int
+) -> SpectrumSlice:
+    """Solve a slice around a shift, which is moved where orthogonality was lost.
+
+    Parameters
+    ----------
+    pencil : ShiftedPencil
+    shift : float
+    factors : LDLT
+        Of the shift.
+    request_at : callable
+        What is asked for around a shift.
+    seed : int
+
+    Returns
+    -------
+    SpectrumSlice
+    """
+    for _ in range(SHIFT_MOVES):
+        request = request_at(shift)
         part = solve_slice(pencil, shift, factors, request, seed)
         if part.drift < LARGEST_DRIFT:
             break

@@ -44,7 +44,7 @@ def test_vectors_that_are_no_eigenvectors_prove_no_window() -> None:
     edges = tuple(some.factor(value)[0] for value in (1.0, 4.0))
     vectors = np.asfortranarray(np.random.default_rng(0).normal(size=(some.size, 3)))
     vectors /= np.sqrt(np.einsum("nk,nk->k", vectors, some.mass @ vectors))
-    with pytest.raises(EigensolverError, match=r"a pair has residual .*, above tolerance 1e-08"):
+    with pytest.raises(EigensolverError, match=r"pair \d has residual .*, above tolerance 1e-08"):
         _proved(some, vectors, edges, 1e-8)
 
 
@@ -53,3 +53,25 @@ def test_a_window_names_the_counts_at_its_own_ends() -> None:
     for edge, below in found.inertia:
         assert below == (found.values < edge).sum() + 1  # the constant lies below the window
     assert len(found.values) == found.inertia[-1][1] - found.inertia[0][1] == 15
+
+
+def test_one_eigenvector_twice_proves_no_window() -> None:
+    some = pencil()
+    edges = tuple(some.factor(value)[0] for value in (1.0, 4.0))
+    vectors = np.asfortranarray(pairs_between(some, 1.0, 4.0).vectors[some.order][:, [0, 1, 1]])
+    with pytest.raises(EigensolverError, match=r"orthogonal to 1\.0e\+00, at most 1e-08"):
+        _proved(some, vectors, edges, 1e-8)
+
+
+def test_a_window_moves_its_shift_where_orthogonality_was_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    solved, shifts = single_slice.solve_slice, []
+    plain = pairs_between(pencil(), 1.0, 13.0)
+
+    def drifting(some, shift, *given):
+        shifts.append(shift)
+        return replace(solved(some, shift, *given), drift=1.0 if len(shifts) == 1 else 0.0)
+
+    monkeypatch.setattr(single_slice, "solve_slice", drifting)
+    moved = pairs_between(pencil(), 1.0, 13.0)
+    assert len(set(shifts)) == len(shifts) > 1
+    np.testing.assert_allclose(moved.values, plain.values, rtol=1e-10)
