@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Self, TypeVar
 
 import numpy as np
-from sklearn.base import BaseEstimator, TransformerMixin
+from sklearn.base import BaseEstimator, ClassNamePrefixFeaturesOutMixin, TransformerMixin
 from sklearn.utils.validation import check_is_fitted
 
 from surfexp.contract.arrays import Floats
@@ -20,7 +20,7 @@ Surfaces = Sequence[SurfaceLike]
 Made = TypeVar("Made")
 
 
-class SurfaceTransformer(TransformerMixin, BaseEstimator):
+class SurfaceTransformer(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
     """What the transformers share: their input is a list of surfaces or paths, no array of numbers.
 
     Of scikit-learn's `check_estimator` those checks apply that give no data: parameters, cloning, tags.
@@ -56,6 +56,7 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         """
         whole_number(self.n, "n", 1)
         self.n_features_out_ = self._learn(X)
+        self.fitted_params_ = self.get_params()
         return self
 
     def transform(self, X: Surfaces) -> Floats:
@@ -73,10 +74,21 @@ class SurfaceTransformer(TransformerMixin, BaseEstimator):
         Raises
         ------
         ValueError
-            If a surface is unfit or too coarse, or open where its volume is asked for.
+            If a surface is unfit or too coarse, or open where its volume is asked for; if a parameter is another than at `fit`.
         """
         check_is_fitted(self)
-        return np.reshape(of_each(X, self._row), (-1, self.n_features_out_))
+        for name, value in self.get_params().items():
+            if value != (fitted := self.fitted_params_[name]):
+                raise ValueError(
+                    f"{name} = {value!r}, the transformer is fitted with {name} = {fitted!r}: fit it again"
+                )
+        rows = of_each(X, self._row)
+        return np.reshape(rows, (len(rows), self.n_features_out_))
+
+    @property
+    def _n_features_out(self) -> int:
+        """Under the name that scikit-learn numbers columns by."""
+        return self.n_features_out_
 
     def _learn(self, X: Surfaces) -> int:
         """Keep what is compared with; return the length of a row."""

@@ -115,3 +115,26 @@ def test_a_surface_that_is_unfit_is_named() -> None:
         sx.ShapeDNA(n=3).fit_transform([BODY, "lost.ply"])
     with pytest.raises(ValueError, match=r"^surface 2: .* 2 pieces"):
         sx.SpectralDistance(n=3).fit([BODY, BODY, two])
+
+
+@pytest.mark.parametrize("transformer", TRANSFORMERS, ids=lambda it: type(it).__name__)
+def test_another_number_of_modes_needs_another_fit(transformer) -> None:
+    """Rows of half the length were joined in pairs, and distances taken between embeddings of two dimensions."""
+    fitted = clone(transformer).fit(BODIES)
+    fitted.set_params(n=3)
+    with pytest.raises(ValueError, match=rf"n = 3, .* is fitted with n = {transformer.n}: fit it again"):
+        fitted.transform(BODIES[:2])
+    assert len(fitted.fit(BODIES).transform(BODIES[:2])) == 2
+
+
+@pytest.mark.parametrize("transformer", TRANSFORMERS, ids=lambda it: type(it).__name__)
+def test_columns_have_names_in_a_table(transformer) -> None:
+    rows = clone(transformer).fit_transform(BODIES)
+    table = (
+        make_pipeline(clone(transformer), StandardScaler())
+        .set_output(transform="pandas")
+        .fit(BODIES)[:1]
+        .transform(BODIES)
+    )
+    assert list(table.columns) == [f"{type(transformer).__name__.lower()}{k}" for k in range(rows.shape[1])]
+    np.testing.assert_allclose(table.to_numpy(), rows, atol=1e-12)
