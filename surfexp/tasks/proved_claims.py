@@ -32,11 +32,18 @@ def gap_claim(result: DenoisedMap) -> Claim:
     Raises
     ------
     ValueError
-        If the map was not denoised by "rof" or "tgv", or its gap is not proved.
+        If the map was not denoised by "rof" or "tgv", or the dual field that proves its gap was not kept.
     """
     proof = result.evidence
-    if proof is None or proof.solution.lower_bound is None:
+    if result.method not in ("rof", "tgv"):
         raise ValueError(f"a map after {result.method} has no duality gap: choose method rof or tgv")
+    if proof is None or proof.solution.lower_bound is None:
+        weight = result.certificate.get("weight")
+        at = "" if weight is None else f", weight={weight:g}"
+        raise ValueError(
+            f"the map after {result.method} has no dual field with it, as of a path: give that of "
+            f"denoise(..., method='{result.method}'{at})"
+        )
     solution, dual, facts = proof.solution, proof.solution.dual, result.certificate
     arrays: dict[str, NDArray[Any]] = {
         "vertices": proof.mesh.vertices,
@@ -83,7 +90,7 @@ def spectrum_claim(
     Raises
     ------
     ValueError
-        If the pairs are not those of linear elements on the surface.
+        If the pairs are not those of linear elements on the surface, or not the lowest ones.
     """
     owner = as_surface(surface)
     part = part_for(owner)
@@ -174,6 +181,14 @@ def _same(points: Floats, others: Floats) -> bool:
 def _shift(system: EigenSystem) -> tuple[float, int]:
     """Return a shift with a certified count of pairs below it: that of the proof, else the last clear gap between pairs."""
     values, count = system.values, len(system.values)
+    if not count:
+        raise ValueError("there are 0 pairs, a page proves 1 or more: give the first pairs, as eigenpairs finds them")
+    for shift, below in system.inertia:
+        if shift < values[-1] and below != (inside := int((values < shift).sum())):
+            raise ValueError(
+                f"{below} eigenvalues lie below {shift:.6g}, the pairs have {inside} of them: give the first pairs, as "
+                "eigenpairs or Spectrum.first finds them"
+            )
     for shift, below in reversed(system.inertia):
         if below == count and shift > values[-1]:
             return float(shift), count

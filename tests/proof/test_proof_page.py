@@ -270,3 +270,23 @@ def test_commands_write_the_page_beside_the_result(tmp_path: Path) -> None:
         surfexp, ["denoise", surface, noise, "--method", "auto", "--to", result, "--proof", str(page)]
     )
     assert refused.exit_code != 0 and "choose method rof or tgv" in str(refused.exception or refused.output)
+
+
+def test_a_window_above_the_lowest_pairs_is_no_proof_of_these() -> None:
+    surface = bodies()[0]
+    spectrum = sx.Spectrum(surface)
+    values = spectrum.values(12)
+    with pytest.raises(
+        ValueError, match=r"^4 eigenvalues lie below .*, the pairs have 0 of them: give the first pairs"
+    ):
+        sx.proof_page(spectrum.between(0.5 * (values[3] + values[4]), 0.5 * (values[9] + values[10])), surface)
+    with pytest.raises(ValueError, match="there are 0 pairs"):
+        sx.proof_page(spectrum.between(0.1, 0.2), surface)
+    sx.proof_page(spectrum.between(-1.0, 0.5 * (values[9] + values[10])), surface)
+    sx.proof_page(spectrum.first(7), surface)
+
+
+def test_a_map_of_a_path_says_what_it_lacks() -> None:
+    path = sx.denoise_path(*noisy(), weights=(0.5, 2.0), tolerance=1e-2)
+    with pytest.raises(ValueError, match=r"^the map after rof has no dual field.*method='rof', weight=0\.9\)$"):
+        sx.proof_page(path.at(0.9))
