@@ -7,15 +7,19 @@ from dataclasses import replace
 from scipy.sparse import csr_array
 
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.thin_faces import sharp_faces
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
 from surfexp.operators.intrinsic_delaunay import intrinsic_delaunay
 from surfexp.operators.surface_operator import SurfaceOperator
-from surfexp.spectrum.eigensolver_error import SliverError
+from surfexp.spectrum.eigensolver_error import EigensolverError, SliverError
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.single_slice import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
+
+# degrees; entries of the stiffness, and with them its rounding, grow by the cotangent, which is 57 there
+SLIVER = 1.0
 
 
 def lowest_pairs(
@@ -30,7 +34,7 @@ def lowest_pairs(
 ) -> tuple[SurfaceOperator, EigenSystem]:
     """Find the lowest pairs with linear elements on the triangles of a surface, or on its intrinsic Delaunay triangles.
 
-    The second are taken where the first leave the pairs in doubt; a note says so.
+    The second are taken where slivers among the first leave the pairs in doubt; a note says so.
 
     Parameters
     ----------
@@ -91,9 +95,19 @@ def without_slivers(surface: Surface, stopped: SliverError) -> SurfaceOperator:
     surface : Surface
     stopped : SliverError
         What its own triangles ended in.
+
+    Raises
+    ------
+    EigensolverError
+        If no triangle is a sliver, so that rounding alone stands against the tolerance.
     """
-    operator = intrinsic_delaunay(surface.mesh)
     reason = str(stopped).partition(":")[0]
+    if not sharp_faces(surface.mesh, SLIVER).any():
+        raise EigensolverError(
+            f"{reason}, and no triangle has an angle under {SLIVER:g} degree, so that others would not help: take a larger "
+            "tolerance"
+        ) from stopped
+    operator = intrinsic_delaunay(surface.mesh)
     said = (
         f"Slivers stopped the eigensolver ({reason}): the pairs are of the intrinsic Delaunay triangles of the same surface, "
         f"{operator.metrics['flips']:.0f} edges flipped."

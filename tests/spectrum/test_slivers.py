@@ -84,3 +84,15 @@ def test_a_component_with_slivers_beside_a_sound_one(scan):
     both = np.concatenate([scan[0], sound.vertices + 5.0]), np.concatenate([scan[1], sound.faces + len(scan[0])])
     found = sx.eigenpairs(both, 20)
     assert found.complete and (np.abs(found.values) < 1e-6).sum() == 2
+
+
+def test_a_tolerance_below_rounding_is_named_and_no_sliver_blamed():
+    """Ellipsoid with angles from 35 degrees on: rounding leaves more than 1e-12."""
+    body, said = (
+        sx.shape("ellipsoid", levels=5),
+        r"residual \S+, above tolerance 1e-12, and no .*: take a larger tolerance",
+    )
+    with pytest.raises(EigensolverError, match=said):
+        sx.eigenpairs(body, 150, tolerance=1e-12)
+    with pytest.raises(EigensolverError, match=said):
+        sx.Spectrum(body, tolerance=1e-12).first(150)
