@@ -9,16 +9,16 @@ from surfexp.contract.arrays import Floats
 
 # how many times the range of all other values the empty interval before them is as long
 FARNESS = 100.0
-# of all values, how many different ones may be absurd: a code for no data is one value, however many vertices have it
-DIFFERENT = 0.01
+# of all values: so few may differ among themselves, and of more than that half are one value
+FEW = 0.01
 
 
 def absurd_values(values: Floats) -> NDArray[np.bool_]:
     """Return where a map has values that an empty interval of 100 times the range of the others separates from them.
 
-    The others are more than half of the vertices and not all equal. Where the far ones take more different values than 1 + 1 %
-    of the vertices, they are the second level of a map with little noise, and no code for what is unknown. What is left is
-    looked at again: of -9999 and 3.4e38 in one map both are found.
+    The others are more than half of the vertices and not all equal. Half of what is far is one value, as a code is, or it is
+    at most a hundredth of the map: the upper of two levels is neither. What is left is looked at again: of -9999 and 3.4e38 in
+    one map both are found.
 
     Parameters
     ----------
@@ -30,7 +30,6 @@ def absurd_values(values: Floats) -> NDArray[np.bool_]:
     (n,) bool
     """
     absurd = np.zeros(len(values), dtype=bool)
-    most = 1 + int(DIFFERENT * len(values))
     while True:
         kept = np.flatnonzero(~absurd)
         order = kept[np.argsort(values[kept], kind="stable")]
@@ -39,17 +38,18 @@ def absurd_values(values: Floats) -> NDArray[np.bool_]:
         ascending = 0.5 * values[order]
         gaps, last = np.diff(ascending) / FARNESS, len(order) - half
         lower, upper = ascending[half - 1 : -1] - ascending[0], ascending[-1] - ascending[1 : last + 1]
-        steps = np.diff(values[order]) > 0
-        under = 1 + np.cumsum(steps) - steps
-        over = 1 + steps.sum() - np.cumsum(steps)
-        above = np.flatnonzero((gaps[half - 1 :] > lower) & (lower > 0) & (over[half - 1 :] <= most)) + half - 1
-        below = np.flatnonzero((gaps[:last] > upper) & (upper > 0) & (under[:last] <= most))
-        if len(above):
-            absurd[order[above[0] + 1 :]] = True
-        elif len(below):
-            absurd[order[: below[-1] + 1]] = True
-        else:
+        above = np.flatnonzero((gaps[half - 1 :] > lower) & (lower > 0)) + half - 1
+        below = np.flatnonzero((gaps[:last] > upper) & (upper > 0))
+        ends = [order[gap + 1 :] for gap in above] + [order[: gap + 1] for gap in below[::-1]]
+        found = next((end for end in ends if _no_measurements(values[end], len(values))), None)
+        if found is None:
             return absurd
+        absurd[found] = True
+
+
+def _no_measurements(far: Floats, count: int) -> bool:
+    """Whether values far from the others are a code, or so few that they may be anything."""
+    return bool(len(far) <= FEW * count or 2 * np.unique_counts(far).counts.max() >= len(far))
 
 
 def refuse_absurd_values(values: Floats, vertices: NDArray[np.int64] | None = None) -> None:

@@ -82,7 +82,7 @@ def denoise(
         Standard deviation of the noise, in the unit of the map, or what `noise` has read, as from a second measurement;
         estimated from the map if not given.
     tolerance : float, optional
-        Largest relative duality gap: 1e-3 for "auto", 1e-4 for the others if not given.
+        Largest relative duality gap. If not given, 1e-3 for one channel by "auto", else 1e-4.
     threads : int, optional
         Of "auto", which solves the map and the map with a probe side by side: all cores if not given; the bytes are the same.
     progress : callable, optional
@@ -121,18 +121,19 @@ def denoise(
     _no_foreign(method, weight, ratio)
     weight = real_number(WEIGHT if weight is None else weight, "weight", above=0.0)
     ratio = real_number(RATIO if ratio is None else ratio, "ratio", above=0.0)
-    usual = TOLERANCE_OF_AUTO if method == "auto" else TOLERANCE
-    tolerance = real_number(usual if tolerance is None else tolerance, "tolerance", above=1e-15, below=1.0)
+    if tolerance is not None:
+        tolerance = real_number(tolerance, "tolerance", above=1e-15, below=1.0)
     threads = given_threads(threads)
     image = noisy_image(surface, values, noise)
     part, operator = image.part, image.operator
     notes = part.notes
     if method == "auto":
         if image.values.ndim == 1:
-            found = automatically_denoised(image, tolerance, threads, progress)
+            found = automatically_denoised(image, tolerance or TOLERANCE_OF_AUTO, threads, progress)
             return replace(found, name=image.name)
-        method, tolerance = "rof", min(tolerance, TOLERANCE)
+        method = "rof"
         notes += (f"The map has {image.values.shape[1]} channels: method auto takes one, they were denoised by rof.",)
+    tolerance = tolerance or TOLERANCE
     sigma, said = image.noise()
     facts: dict[str, Any] = {"noise": sigma, "noise_estimated": noise is None, "weight": weight}
     facts |= {"ratio": ratio} if method == "tgv" else {}

@@ -31,7 +31,7 @@ from surfexp.variational.solvers.primal_dual import primal_dual
 # of the size of the curvature; what is left is little more than its sign, which two means can follow
 CLIPPED_AT = 50.0
 SMOOTHNESS, HALVINGS = 0.3, 8
-# rounding of a map that is the curvature times a number
+# rounding of a curvature, and of a map that is the curvature times a number
 SAME = 1e-9
 NAMES = {0: "unknown", 1: "darker", 2: "brighter"}
 
@@ -157,7 +157,8 @@ def segment(
     given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
     inside = np.asarray(part.restrict(given[0]), dtype=np.float64) if given else _curvature(owner, part)
-    refuse_absurd_values(inside, part.vertices)
+    if given:
+        refuse_absurd_values(inside, part.vertices)
     if np.ptp(inside) == 0:
         raise ValueError(f"map is constant at {inside.flat[0]:g}, two regions need two values")
     operator = fem(part.mesh)
@@ -178,16 +179,18 @@ def segment(
         return _labelled(solution, part, own, (*part.notes, *said))
     bounds = own.restored(np.array([phases.least, phases.largest]))
     said = (f"The map was clipped to the range of the denoised one, {bounds[0]:.3g} to {bounds[1]:.3g}.",)
-    mu, image = phases.mu, Image(phases.clipped, "map")
-    for _ in range(HALVINGS):
-        solution = ConvexChanVese(mu=mu, initial=phases.brighter).run(image, operator, solve)
-        if 0.0 < solution.metrics["brighter_share"] < 1.0:
+    image = Image(phases.clipped, "map")
+    for halving in range(HALVINGS):
+        weight = 0.5**halving
+        solution = ConvexChanVese(mu=phases.mu / weight, initial=phases.brighter).run(image, operator, solve)
+        if found := 0.0 < solution.metrics["brighter_share"] < 1.0:
             break
-        mu *= 2.0
-    if mu > phases.mu:
+    if not found:
+        said += (f"A region is empty, also where the length weighs {weight:g} of what the noise asks for.",)
+    elif halving:
         said += (
-            f"The length weighs {phases.mu / mu:g} of what the noise asks for, for a region was empty before: such a boundary "
-            "may be one of noise.",
+            f"The length weighs {weight:g} of what the noise asks for, for a region was empty before: such a boundary may be "
+            "one of noise.",
         )
     return _labelled(solution, part, own, (*part.notes, *said))
 
@@ -219,9 +222,11 @@ def _phases(operator: SurfaceOperator, values: Floats, threads: int, progress: P
 
 
 def _clipped_curvature(curvature: Floats) -> tuple[Floats, tuple[str, ...]]:
-    """The mean curvature of a part, clipped at the median of its size, and the note that says so."""
-    bound = float(np.percentile(np.abs(curvature), CLIPPED_AT))
-    note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size."
+    """The mean curvature of a part, clipped at the median of its size where it is not flat, and the note that says so."""
+    sizes = np.abs(curvature)
+    bent = sizes > SAME * sizes.max()
+    bound, where = float(np.percentile(sizes[bent], CLIPPED_AT)), "" if bent.all() else " where it is not 0"
+    note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size{where}."
     return np.clip(curvature, -bound, bound), (note,)
 
 

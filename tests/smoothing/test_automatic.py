@@ -114,3 +114,10 @@ def test_an_end_of_the_grid_is_said(at_the_end: bool, monkeypatch: pytest.Monkey
     result = denoise(Surface(BALL), X, method="auto")
     assert any("an end of its grid" in note for note in result.notes) == at_the_end
     assert np.array_equal(result.values, found.mixture.values)
+
+
+def test_a_tolerance_that_is_given_holds_for_several_channels_too() -> None:
+    ball = icosphere(2)
+    values = ball.mesh.vertices[:, :2] + 0.1 * np.random.default_rng(0).standard_normal((162, 2))
+    asked = {tolerance: denoise(ball, values, tolerance=tolerance).evidence for tolerance in (1e-2, 1e-5, None)}
+    assert [proof.tolerance for proof in asked.values() if proof] == [1e-2, 1e-5, 1e-4]

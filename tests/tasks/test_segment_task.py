@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import nibabel
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import surfexp as sx
+from surfexp.mesh.shapes.cube import cube
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import surface_part
 from surfexp.operators.calculus import total_variation
@@ -195,3 +197,39 @@ def test_a_part_is_segmented_by_its_curvature_whatever_lies_outside_the_mask(out
     surface = sx.Surface((vertices, faces), mask=np.arange(count + 3) < count)
     found, alone = sx.segment(surface), sx.segment(body)
     assert np.array_equal(found.labels[:count], alone.labels) and (found.labels[count:] == -1).all()
+
+
+def test_two_clean_levels_are_the_regions() -> None:
+    upper = Z > 0.2
+    noise = 1e-3 * np.random.default_rng(0).standard_normal(len(Z))
+    np.testing.assert_array_equal(sx.segment(SPHERE, upper + noise).labels, upper)
+
+
+@pytest.mark.parametrize("rotation", [(0.0, 0.0, 0.0), (10.0, 20.0, 30.0)])
+def test_the_curvature_of_a_box_is_that_of_its_edges(rotation: tuple[float, float, float]) -> None:
+    """On flat faces it is rounding, of which no region is made; nobody gave a map that could be refused."""
+    box = cube(8, rotation=rotation)
+    parts = sx.segment(box)
+    straight = cube(8).mesh.vertices
+    edges = (np.abs(straight) > 1.0 - 1e-9).sum(axis=1) > 1
+    np.testing.assert_array_equal(parts.labels, edges)
+    assert any("where it is not 0" in note for note in parts.notes)
+
+
+@pytest.mark.parametrize("tried", [1, 3, 8])
+def test_the_note_states_the_weight_that_was_solved(tried: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A region is empty for all weights but the last one tried; of 8 for all."""
+    mus = []
+
+    class Emptied(ConvexChanVese):
+        def run(self, *given, **more):
+            mus.append(self.mu)
+            solution = super().run(*given, **more)
+            empty = len(mus) < tried or tried == 8
+            return replace(solution, metrics=solution.metrics | {"brighter_share": 0.0}) if empty else solution
+
+    monkeypatch.setattr("surfexp.tasks.segmentation.ConvexChanVese", Emptied)
+    notes = [note for note in sx.segment(SPHERE, NOISY).notes if "of what the noise asks for" in note]
+    assert len(mus) == tried and len(notes) == (tried > 1)
+    assert all(f"weighs {mus[0] / mus[-1]:g} of" in note for note in notes)
+    assert all(("is empty" in note) == (tried == 8) for note in notes)

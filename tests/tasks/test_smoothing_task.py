@@ -100,6 +100,26 @@ def test_the_way_out_of_a_code_works_and_names_the_vertices_of_the_whole() -> No
     assert np.isnan(sx.denoise(BALL, values).values).sum() == 4
 
 
+@pytest.mark.parametrize("share", [0.002, 0.05, 0.49])
+@pytest.mark.parametrize("code", [-1.0, 0.0, 9999.0, 1e30])
+def test_a_code_is_found_on_up_to_half_of_a_map(code: float, share: float) -> None:
+    """As on a medial wall, also where resampling has mixed it with the map at its border."""
+    rng = np.random.default_rng(0)
+    values = 1.0 + 1e-3 * rng.uniform(-1.0, 1.0, 1000)
+    far = np.arange(1000) < 1000 * share
+    values[far] = code
+    np.testing.assert_array_equal(absurd_values(values), far)
+    border = np.flatnonzero(far)[: int(far.sum()) // 3]
+    values[border] = 1.0 + rng.uniform(0.5, 1.0, len(border)) * (code - 1.0)
+    np.testing.assert_array_equal(absurd_values(values), far)
+
+
+def test_a_code_is_found_beside_two_levels() -> None:
+    values = (np.arange(1000) < 400) + 1e-3 * np.random.default_rng(0).standard_normal(1000)
+    values[500:550] = -9999.0
+    assert np.flatnonzero(absurd_values(values)).tolist() == [*range(500, 550)]
+
+
 def test_several_codes_are_found_together() -> None:
     values = np.r_[NOISY, -9999.0, -9999.0, 3.4e38]
     assert np.flatnonzero(absurd_values(values)).tolist() == [642, 643, 644]
@@ -126,7 +146,9 @@ def test_a_map_of_two_clean_levels_is_segmented() -> None:
 
 
 @given(
-    st.integers(0, 2**31), st.sampled_from(["normal", "t3", "ties", "constant", "lognormal", "two"]), st.floats(-9, 9)
+    st.integers(0, 2**31),
+    st.sampled_from(["normal", "t3", "ties", "constant", "lognormal", "two", "levels", "spot"]),
+    st.floats(-9, 9),
 )
 def test_no_real_map_has_absurd_values(seed: int, kind: str, decade: float) -> None:
     rng = np.random.default_rng(seed)
@@ -137,6 +159,8 @@ def test_no_real_map_has_absurd_values(seed: int, kind: str, decade: float) -> N
         "constant": lambda: np.full(500, 3.0),
         "lognormal": lambda: rng.lognormal(size=500),
         "two": lambda: (rng.uniform(size=500) < 0.01).astype(float),
+        "levels": lambda: (rng.uniform(size=500) < 0.4) + 1e-3 * rng.standard_normal(500),
+        "spot": lambda: (np.arange(500) < 10) + 1e-6 * rng.standard_normal(500),
     }
     assert not absurd_values(10.0**decade * draws[kind]()).any()
 
