@@ -81,3 +81,13 @@ def test_the_face_keeps_mask_and_weights_of_denoise() -> None:
         sx.denoise_path(sphere, MAP, weights=(2.0, 1.0))
     with pytest.raises(ValueError, match="constant"):
         sx.denoise_path(sphere, np.ones(642))
+
+
+def test_a_tolerance_that_takes_too_many_solves_is_refused_after_the_first_of_them() -> None:
+    counts: list[int] = []
+    with pytest.raises(
+        ValueError, match=r"^32 solves leave .*, tolerance = 1e-06 needs about \d+, at most 400 are done: take"
+    ):
+        rof_path(OPERATOR, MAP, LEAST, MOST, tolerance=1e-6, progress=lambda count, gap: counts.append(count))
+    assert counts[-1] == 32
+    assert len(rof_path(OPERATOR, MAP, 10.0, 10.5, tolerance=1e-6).knots) < 32
