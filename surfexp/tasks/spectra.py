@@ -41,8 +41,8 @@ def eigenpairs(
     Parameters
     ----------
     surface : Surface, path, or (vertices, faces)
-        Only the part inside its mask counts. Where slivers leave the pairs in doubt, the intrinsic Delaunay triangles of the
-        same surface are taken, with a note.
+        Only the part inside its mask counts; `boundary` is the condition at the mask's boundary, too. Where slivers
+        leave the pairs in doubt, the intrinsic Delaunay triangles of the same surface are taken, with a note.
     count : int
         How many, the zero mode of a closed surface among them.
     tolerance : float

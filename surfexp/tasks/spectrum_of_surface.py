@@ -134,7 +134,8 @@ class Spectrum:
     def between(self, low: float, high: float) -> EigenSystem:
         """Return every pair with low <= lambda <= high, proved complete by the inertia just outside of both bounds.
 
-        An eigenvalue within its residual of a bound counts as inside, and a note says so.
+        An eigenvalue that meets a bound to the tolerance, relative to the bound or to the mean spacing of eigenvalues where
+        that is more, counts as inside, and a note says so.
 
         Parameters
         ----------
@@ -163,7 +164,7 @@ class Spectrum:
         Parameters
         ----------
         value : float
-            In 1 / unit^2. Within a thousandth of an eigenvalue, the count is that of a nearby number.
+            In 1 / unit^2. Near an eigenvalue the count may be that of a number up to half a percent away.
 
         Returns
         -------
