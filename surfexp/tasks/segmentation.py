@@ -114,7 +114,7 @@ def segment(
         The part inside the mask is divided, or the part where the map is finite if there is no mask.
     values : str or (n,) float64, optional
         Name of a map of the surface, or the map. Without one it is the mean curvature, positive where the surface bulges
-        outward. Any multiple of it is clipped at the median of its modulus. On a cortex the brighter region is then the gyri.
+        outward. Any multiple of it is clipped at the median of its modulus, of what is not 0 where most is flat. On a cortex the brighter region is then the gyri.
     smoothness : float, optional
         Weight of the boundary's length, dimensionless; larger is smoother. If it is not given, curvature takes 0.3. Any
         other map is denoised, by `denoise`: the regions start from two means of the result, the map is clipped to its range,
@@ -222,10 +222,11 @@ def _phases(operator: SurfaceOperator, values: Floats, threads: int, progress: P
 
 
 def _clipped_curvature(curvature: Floats) -> tuple[Floats, tuple[str, ...]]:
-    """The mean curvature of a part, clipped at the median of its size where it is not flat, and the note that says so."""
+    """The mean curvature of a part, clipped at the median of its size, or of what is no rounding, and the note that says so."""
     sizes = np.abs(curvature)
-    bent = sizes > SAME * sizes.max()
-    bound, where = float(np.percentile(sizes[bent], CLIPPED_AT)), "" if bent.all() else " where it is not 0"
+    bound, rounding, where = float(np.percentile(sizes, CLIPPED_AT)), SAME * float(sizes.max()), ""
+    if bound <= rounding:
+        bound, where = float(np.percentile(sizes[sizes > rounding], CLIPPED_AT)), " where it is not 0"
     note = f"The map is the mean curvature, clipped at ±{bound:.3g}, the median of its size{where}."
     return np.clip(curvature, -bound, bound), (note,)
 
