@@ -114,7 +114,8 @@ def segment(
         The part inside the mask is divided, or the part where the map is finite if there is no mask.
     values : str or (n,) float64, optional
         Name of a map of the surface, or the map. Without one it is the mean curvature, positive where the surface bulges
-        outward. Any multiple of it is clipped at the median of its modulus, of what is not 0 where most is flat. On a cortex the brighter region is then the gyri.
+        outward. Any multiple of it is clipped at the median of its modulus, of what is not 0 where most is flat. On a cortex the
+        brighter region is then the gyri.
     smoothness : float, optional
         Weight of the boundary's length, dimensionless; larger is smoother. If it is not given, curvature takes 0.3. Any
         other map is denoised, by `denoise`: the regions start from two means of the result, the map is clipped to its range,
