@@ -211,3 +211,26 @@ def test_a_request_that_asks_the_environment_is_planned_each_time(text: str, cac
     for request in (["--multirun"], ["title=${now:%H}"]):
         remember(request, plan)
         assert remembered(request) is None
+
+
+@pytest.mark.parametrize("name", ["subjects.csv", "shapes", "shapes/*.off", "'subjects.csv'", '"shapes/[ab]*.off"'])
+@pytest.mark.parametrize("key", ["datasets", "+datasets.subject"])
+def test_a_request_of_own_files_is_planned_again_when_its_items_are_others(
+    key: str, name: str, cache: Path, working_folder: Path
+) -> None:
+    plan, arguments = toy_plan(), ["experiment=toys", f"{key}={name}"]
+    table = working_folder / "subjects.csv"
+    (working_folder / "shapes").mkdir()
+    (working_folder / "shapes" / "a1.off").touch()
+    table.write_text("path,class\nshapes/a1.off,round\n")
+    remember(arguments, plan)
+    assert remembered(arguments) == plan
+    (working_folder / "shapes" / "b2.off").touch()
+    table.write_text("path,class\nshapes/a1.off,long\n")
+    assert remembered(arguments) is None
+
+
+@pytest.mark.parametrize("value", ["a.csv,faces", "[a.csv]", "choice(a.csv,b.csv)", "missing.csv", r"'it\'s.csv'"])
+def test_datasets_that_only_planning_reads_are_planned_each_time(value: str, cache: Path, working_folder: Path) -> None:
+    remember(arguments := ["experiment=toys", f"datasets={value}"], toy_plan())
+    assert remembered(arguments) is None

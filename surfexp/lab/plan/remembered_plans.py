@@ -1,7 +1,8 @@
 """Plans that were made before, by all that they follow from: the same request need not load a plugin to be planned again.
 
-A plan follows from what was asked for, the configuration files, the code, and the files that options name. The first
-three are the name under which it is kept in the user's cache; the last are hashed again.
+A plan follows from what was asked for, the configuration files, the items of tables and folders that stand for a
+dataset, the code, and the files that options name. All but the last are the name under which it is kept in the user's
+cache; the last are hashed again, and so is the code of plugins outside of packages.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from surfexp.lab.errors import UserError
+from surfexp.lab.experiment.dataset_files import Item, is_of_files, items_of_files
 from surfexp.lab.registry.catalogue import code_state
 from surfexp.lab.registry.folders import installed_packages, package_folder, shipped_plugin_folders
 from surfexp.lab.user_cache import fault, user_cache
@@ -26,6 +29,9 @@ PLANS_KEPT = 30
 # what else than its text decides what a configuration file means: resolvers that ask the environment or the clock, other folders
 OPEN = re.compile(rb"\$\{[^}]*:|searchpath")
 
+# one name, as it is or in quotes: no sweep, no list, no escape
+PLAIN = re.compile(r"""(?P<name>[^'"\\$,()\[\]{}]+)|(['"])(?P<quoted>[^'"\\$]+)\2""")
+
 
 def place(arguments: Sequence[str]) -> Path | None:
     """Where the plan of a request is kept in this state of code and configuration; None where the request does not say all."""
@@ -36,8 +42,27 @@ def place(arguments: Sequence[str]) -> Path | None:
     asked = "\n".join(arguments).encode()
     if any(OPEN.search(text) for _, text in [("", asked), *texts]) or any(text.startswith("-") for text in arguments):
         return None
-    facts = [str(Path.cwd()), code_state(Path.cwd()), list(arguments), texts]
+    if (own_data := _own_data(arguments)) is None:
+        return None
+    facts = [str(Path.cwd()), code_state(Path.cwd()), list(arguments), own_data, texts]
     return user_cache("plans") / hashlib.sha256(repr(facts).encode()).hexdigest()[:40]
+
+
+def _own_data(arguments: Sequence[str]) -> list[list[Item]] | None:
+    """The items of tables, folders and patterns that stand for a request's datasets; None where only Hydra can tell them."""
+    found = []
+    for text in arguments:
+        key, _, value = text.lstrip("+").partition("=")
+        if key.partition(".")[0] != "datasets":
+            continue
+        if (plain := PLAIN.fullmatch(value.strip())) is None:
+            return None
+        name = plain["name"] or plain["quoted"]
+        try:
+            found.append(items_of_files(Path(name)) if is_of_files(name) else [])
+        except (OSError, UserError):  # planning says what is wrong
+            return None
+    return found
 
 
 def remembered(folder: Path | None) -> Plan | None:
