@@ -12,7 +12,7 @@ from surfexp.lab.experiment.hydra_flags import Words, parted
 from surfexp.lab.experiment.written_out import written_out
 from surfexp.lab.experiment.yaml_files import read_yaml
 from surfexp.lab.registry.catalogue import Catalogue, catalogue
-from surfexp.lab.registry.folders import experiments, installed_packages, package_folder
+from surfexp.lab.registry.folders import configurations, experiments
 
 DEFAULT = "quickstart"
 
@@ -84,7 +84,5 @@ def _chosen(known: Catalogue, kind: str, words: Words) -> list[str]:
 
 
 def _presets(kind: str, config_dir: Path | None) -> list[str]:
-    """Names of the configurations of a kind in `conf/` of the package, of plugin packages, of the working folder and more."""
-    folders = [package_folder("surfexp.conf"), Path("conf"), *([config_dir] if config_dir else [])]
-    folders += [package_folder(name).parent / "conf" for name in installed_packages()]
-    return [file.stem for folder in folders for file in (folder / kind).glob("*.yaml")]
+    """Names of the configurations of a kind in all folders of configuration files."""
+    return [file.stem for folder in configurations(config_dir) for file in (folder / kind).glob("*.yaml")]

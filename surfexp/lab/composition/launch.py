@@ -6,7 +6,6 @@ import os
 import re
 import sys
 from collections.abc import Callable, Sequence
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +33,7 @@ from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry.catalogue import open_catalogue
-from surfexp.lab.registry.folders import package_folder
+from surfexp.lab.registry.folders import package_configurations, package_folder
 from surfexp.lab.store.kinds import KINDS
 
 
@@ -75,8 +74,8 @@ class ConfigurationFolders(SearchPathPlugin):
         """See Hydra."""
         if Path("conf").is_dir() and Path("conf").resolve() != package_folder("surfexp.conf"):
             search_path.append("working folder", f"file://{Path('conf').resolve()}")
-        for point in entry_points(group="surfexp.plugins"):
-            search_path.append(point.name, f"pkg://{point.module.split('.')[0]}.conf")
+        for folder in package_configurations():
+            search_path.append(folder.parent.name, f"file://{folder}")
         known = {element.provider for element in search_path.get_path()}
         if self.given is not None and "command-line" not in known:  # where Hydra has not done so itself
             search_path.prepend("command-line", f"file://{self.given.resolve()}", SearchPathQuery(provider="schema"))

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.dataset_files import Item, is_of_files, items_of_files
 from surfexp.lab.registry.catalogue import code_state
-from surfexp.lab.registry.folders import installed_packages, package_folder, shipped_plugin_folders
+from surfexp.lab.registry.folders import configurations, shipped_plugin_folders
 from surfexp.lab.user_cache import fault, user_cache
 
 if TYPE_CHECKING:
@@ -35,9 +35,8 @@ PLAIN = re.compile(r"""(?P<name>[^'"\\$,()\[\]{}]+)|(['"])(?P<quoted>[^'"\\$]+)\
 
 def place(arguments: Sequence[str]) -> Path | None:
     """Where the plan of a request is kept in this state of code and configuration; None where the request does not say all."""
-    folders = [package_folder("surfexp.conf"), Path("conf").resolve()]
-    folders += [package_folder(package).parent / "conf" for package in installed_packages()]
-    files = sorted(file for folder in dict.fromkeys(folders) for file in folder.rglob("*.yaml"))
+    folders = dict.fromkeys(folder.resolve() for folder in configurations())
+    files = sorted(file for folder in folders for file in folder.rglob("*.yaml"))
     texts = [(str(file), file.read_bytes()) for file in files]
     asked = "\n".join(arguments).encode()
     if any(OPEN.search(text) for _, text in [("", asked), *texts]) or any(text.startswith("-") for text in arguments):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -13,8 +12,7 @@ from surfexp.lab.registry.contained import contained_description
 from surfexp.lab.registry.described import Described
 from surfexp.lab.registry.folders import (
     entry_points_of_plugins,
-    installed_packages,
-    package_folder,
+    installed_sources,
     plugin_files,
     shipped_sources,
 )
@@ -72,15 +70,10 @@ def _read(known: dict[str, Any]) -> Catalogue:
 @cache
 def code_state(working_folder: Path) -> str:
     """Digest of the names, sizes and times of all files that plugins are made of, and of what is installed."""
-    installed = (file for name in installed_packages() for file in _python_files(str(package_folder(name))))
-    files = [*plugin_files(working_folder), *shipped_sources(), *installed]
+    files = [*plugin_files(working_folder), *shipped_sources(), *installed_sources()]
     facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
     points = sorted(f"{point.name}={point.value}" for point in entry_points_of_plugins())
     return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()
-
-
-def _python_files(folder: str) -> Iterator[Path]:
-    return (Path(file) for file in sorted(map(str, Path(folder).rglob("*.py"))))
 
 
 def open_catalogue(working_folder: Path) -> Catalogue:

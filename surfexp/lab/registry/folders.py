@@ -12,17 +12,20 @@ STUDIES = "surfexp_studies"
 
 def package_folder(name: str) -> Path:
     """Folder of one of the packages that ship beside the code: `surfexp.plugins`, `surfexp.conf`."""
+    return folders_of(name)[0]
+
+
+def folders_of(name: str) -> list[Path]:
+    """Folders of a package, several of a namespace package; none where it is a module or is not there."""
     specification = importlib.util.find_spec(name)
-    assert specification is not None and specification.submodule_search_locations  # noqa: S101, narrows a type
-    return Path(next(iter(specification.submodule_search_locations))).resolve()
+    places = specification.submodule_search_locations if specification else None
+    return [Path(place).resolve() for place in places or ()]
 
 
 @cache
 def studies_folder() -> Path | None:
     """Folder of the studies that ship beside the code, one folder a study; None where they were left out."""
-    specification = importlib.util.find_spec(STUDIES)
-    places = list(specification.submodule_search_locations or ()) if specification else []
-    return Path(places[0]).resolve() if places and Path(places[0]).is_dir() else None
+    return next((folder for folder in folders_of(STUDIES) if folder.is_dir()), None)
 
 
 @cache
@@ -34,6 +37,33 @@ def entry_points_of_plugins() -> tuple[EntryPoint, ...]:
 def installed_packages() -> list[str]:
     """Names of the installed packages that bring plugins: those of the entry points `surfexp.plugins`."""
     return sorted({point.module.split(".")[0] for point in entry_points_of_plugins()})
+
+
+def installed_sources() -> list[Path]:
+    """Every Python file of the installed packages that bring plugins, and of modules that do so by themselves."""
+    files: list[Path] = []
+    for name in installed_packages():
+        if folders := folders_of(name):
+            files += sorted(file for folder in folders for file in folder.rglob("*.py"))
+        elif (specification := importlib.util.find_spec(name)) and specification.origin:
+            files.append(Path(specification.origin).resolve())
+    return files
+
+
+def package_configurations() -> list[Path]:
+    """The folders `conf` of installed packages that bring plugins."""
+    folders = [folder / "conf" for name in installed_packages() for folder in folders_of(name)]
+    return [folder for folder in folders if folder.is_dir()]
+
+
+def configurations(config_dir: Path | None = None) -> list[Path]:
+    """All folders of configuration files: of the package, of plugin packages, of the working folder, of `--config-dir`."""
+    return [
+        package_folder("surfexp.conf"),
+        *package_configurations(),
+        Path("conf"),
+        *([config_dir] if config_dir else []),
+    ]
 
 
 def shipped_plugin_folders() -> list[Path]:
@@ -56,8 +86,6 @@ def plugin_files(working_folder: Path) -> list[Path]:
 
 
 def experiments(config_dir: Path | None = None) -> dict[str, Path]:
-    """Experiment name to YAML file, of the package, of plugin packages, of the working folder and of Hydra's `--config-dir`."""
-    names = [f"{name}.conf" for name in installed_packages()]
-    others = [package_folder(name) for name in names if importlib.util.find_spec(name)]
-    folders = (package_folder("surfexp.conf"), *others, Path("conf"), *([config_dir] if config_dir else []))
+    """Experiment name to YAML file, of all folders of configuration files."""
+    folders = configurations(config_dir)
     return {file.stem: file for folder in folders for file in sorted((folder / "experiment").glob("*.yaml"))}
