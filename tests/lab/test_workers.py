@@ -7,6 +7,8 @@ import os
 import signal
 import subprocess
 import sys
+import time
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -18,6 +20,7 @@ from surfexp.lab.plan.outcome import read_event
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.running import stage
 from surfexp.lab.running.recall import Recall
 from surfexp.lab.running.stage_process import death
 from surfexp.lab.store import store
@@ -68,7 +71,6 @@ def results(working_folder: Path) -> Path:
 
 
 def plan_of(results: Path, *stages: tuple[str, float]) -> tuple[Plan, Path]:
-    registry.load_file(results.parent / "plugins" / "surface" / "ending.py")
     registry._loaded.clear()
     registry.PLUGINS.pop(("surface", "ending"), None)
     registry.load_file(results.parent / "plugins" / "surface" / "ending.py")
@@ -236,6 +238,51 @@ def test_stages_have_limits_of_time_and_memory_where_asked_for(results: Path) ->
                         ("resources.time=soon", "valid number")):  # fmt: skip
         done = run("limits", wrong)
         assert done.returncode == 2 and said in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
+
+
+def edit(results: Path, text: str, hours_ago: int = 1) -> None:
+    """Write the plugin's file anew, as of an hour when there was no plan yet."""
+    file = results.parent / "plugins" / "surface" / "ending.py"
+    file.write_text(text)
+    long_ago = time.time() - 3600 * hours_ago
+    os.utime(file, (long_ago, long_ago))
+
+
+def test_no_result_of_edited_code_is_stored_under_the_key_of_what_was_planned(results: Path) -> None:
+    """Whenever it is edited, whatever its time says, and also where the process has imported the edited code only."""
+    plan, path = plan_of(results, ("well", 1.0), ("well", 2.0), ("well", 3.0))
+    first, second, third = (leaf.key for leaf in plan.leaves)
+    server = Server(plan, path)
+    edit(results, "# a word\n" + ENDS, 3)
+    assert server.ask([first])[first]["code"] == 0
+    edit(results, ENDS.replace("Surface(TriangleMesh(size", "Surface(TriangleMesh(7 * size"))
+    assert server.ask([second])[second]["code"] == 1
+    server.end()
+    late = Server(plan, path)
+    assert late.ask([second])[second]["code"] == 1
+    edit(results, ENDS, 2)
+    assert late.ask([third])[third]["code"] == 1
+    late.end()
+    for key in (second, third):
+        assert "the code was edited after this run was planned" in read_event(results, "surface", key)["failure"]
+        assert not store.is_done(results, "surface", key)
+
+
+def test_code_that_is_edited_while_its_stage_runs_gives_no_result(
+    results: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan, path = plan_of(results, ("well", 1.0))
+    (leaf,) = plan.leaves
+    edited = ENDS.replace("2.0 * size", "3.0 * size")
+    method = registry.plugin("surface", "ending")
+
+    def running(**options: Any) -> Any:
+        edit(results, edited)
+        return method.function(**options)
+
+    monkeypatch.setitem(registry.PLUGINS, ("surface", "ending"), replace(method, function=running))
+    assert stage.run_stage(path, leaf.key) == 1 and not store.is_done(results, "surface", leaf.key)
+    assert "the code was edited" in read_event(results, "surface", leaf.key)["failure"]
 
 
 def test_a_death_by_a_signal_without_a_name() -> None:

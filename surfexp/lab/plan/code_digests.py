@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import importlib.util
 import sys
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
 from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.plan.source_code import root_package
-from surfexp.lab.plan.source_facts import NOTHING, source_facts
+from surfexp.lab.plan.source_facts import NOTHING, edited_files, forget_files, source_facts
 from surfexp.lab.registry.folders import STUDIES, shipped_sources
 from surfexp.lab.registry.installed import package_version
 
@@ -77,9 +78,25 @@ def data_digest(package: str) -> str:
     return digest([(file.relative_to(folder).as_posix(), file_digest(file)) for file in files])
 
 
-def edited_since(moment: float, file: Path) -> bool:
-    """Whether a plugin file or any module that ships beside it is newer than a moment, and so the code may have changed."""
-    return any(path.stat().st_mtime > moment for path in (file, *shipped_sources()))
+def check_code(planned: Iterable[tuple[Path, str, str]]) -> None:
+    """Refuse code that is not what was planned: file, function and digest of each method.
+
+    What this process, or the one it is a fork of, read first has to be what was planned, and so has what the files are now.
+    Called before code is imported and when it has run, this holds for all that was imported in between.
+
+    Raises
+    ------
+    RuntimeError
+    """
+    methods = list(planned)
+    same = [code_digest(file, function) == code for file, function, code in methods]
+    if all(same) and edited_files():
+        forget_files()
+        for remembered in (code_closure, _reached_from, code_digest, data_digest, _module_files):
+            remembered.cache_clear()
+        same = [code_digest(file, function) == code for file, function, code in methods]
+    if not all(same):
+        raise RuntimeError("the code was edited after this run was planned; run the same command again")
 
 
 @cache

@@ -102,6 +102,12 @@ def _parts(path: Path) -> tuple[_Part, ...]:
     return tuple(_Part(binds, code, frozenset(_names(code))) for binds, code in parts)
 
 
+def forget_statements() -> None:
+    """Parse every file again when it is asked for."""
+    for remembered in (statements, needed_by, _parts):
+        remembered.cache_clear()
+
+
 def _is_passive(statement: ast.stmt) -> bool:
     """Whether a statement does nothing when it is executed but bind one name: a definition, a constant."""
     values: list[ast.expr | None] = []

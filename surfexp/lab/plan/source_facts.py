@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import sys
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -13,6 +14,8 @@ from surfexp.lab.plan import shown_text, source_code
 from surfexp.lab.user_cache import Memory
 
 _memory = Memory("source_facts")
+# what a file was before it was read first, by which an edit is seen
+_states: dict[Path, tuple[int, ...]] = {}
 
 
 class SourceFacts(NamedTuple):
@@ -35,6 +38,7 @@ NOTHING = SourceFacts(source_code.meaning(()), frozenset(), frozenset(), False, 
 @cache
 def source_facts(file: Path, function: str = "") -> SourceFacts:
     """Read a file, or remember what was found where one of the same name had the same bytes."""
+    _states.setdefault(file, _state(file))
     data = file.read_bytes()
     place = f"{_analysis()} {'.'.join(source_code.dotted(file))} {function}\n"
     key = hashlib.sha256(place.encode() + data).hexdigest()
@@ -47,6 +51,25 @@ def source_facts(file: Path, function: str = "") -> SourceFacts:
     imports, data_packages = source_code.imported_modules(part, file), source_code.data_packages(part)
     _memory.put(key, [meaning, sorted(imports), sorted(data_packages), compiles, whole])
     return SourceFacts(meaning, imports, data_packages, compiles, whole)
+
+
+def edited_files() -> list[Path]:
+    """The files that are others than when this process read them first."""
+    return [file for file, before in _states.items() if _state(file) != before]
+
+
+def forget_files() -> None:
+    """Read every file again when it is asked for."""
+    _states.clear()
+    source_facts.cache_clear()
+    source_code.forget_statements()
+
+
+def _state(file: Path) -> tuple[int, ...]:
+    with suppress(OSError):
+        facts = file.stat()
+        return facts.st_ino, facts.st_size, facts.st_mtime_ns
+    return ()
 
 
 @cache

@@ -20,9 +20,9 @@ from surfexp.contract.member import Member  # noqa: E402
 from surfexp.contract.result_contract import check_result  # noqa: E402
 from surfexp.lab.digests import file_digest  # noqa: E402
 from surfexp.lab.errors import DamagedResult  # noqa: E402
-from surfexp.lab.plan.code_digests import code_digest, edited_since  # noqa: E402
+from surfexp.lab.plan.code_digests import check_code  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
-from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
+from surfexp.lab.plan.plan import Keys, Node, Plan, methods, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
 from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.running.clock import clocked  # noqa: E402
@@ -52,9 +52,8 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     failure = ""
     store.write_text(_progress["path"], "started")
     try:
-        file, planned = Path(node.file), plan_path.stat().st_mtime
-        if edited_since(planned, file) and code_digest(file, node.function) != node.code:
-            raise RuntimeError("the code was edited after this run was planned; run the same command again")
+        planned = methods(plan.nodes, key)
+        check_code(planned)
         calls: list[float] = []
         while not calls or (plan.settings.timing and len(calls) < CALLS and sum(calls[1:]) < ENOUGH):
             result = make(plan.nodes, key, results)
@@ -62,6 +61,7 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
         _progress["seconds"] = median(
             calls[1:] or calls
         )  # the first fills caches, and one clock of a short call is chance
+        check_code(planned)
         store.save(results, node.kind, key, result)
     except Exception as error:
         failure = f"{node.kind}/{node.plugin}: {told(error)}"
