@@ -9,7 +9,7 @@ import pytest
 
 from surfexp.lab.errors import UserError
 from surfexp.lab.registry import catalogue as plugins
-from surfexp.lab.registry import contained
+from surfexp.lab.registry import contained, registry
 from surfexp.lab.registry.contained import contained_description
 
 GOOD = '''"""A plugin that works."""
@@ -98,3 +98,36 @@ def test_a_process_that_describes_nothing_is_refused_at_once(tmp_path: Path, mon
     ):
         contained_description(tmp_path)
     assert time.monotonic() - started < 60
+
+
+TWICE = (
+    GOOD
+    + """
+
+@register("surface", "well")
+def another() -> Surface:
+    \"\"\"A coarser sphere.\"\"\"
+    return icosphere(1)
+"""
+)
+
+
+def test_two_plugins_of_one_name_in_one_file_are_refused_with_both_lines(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    monkeypatch.setattr(registry, "_loaded", set())
+    file = tmp_path / "well.py"
+    file.write_text(TWICE)
+    with pytest.raises(UserError, match=r"plugin surface/well is defined twice: .*, line 8 and .*, line 14$"):
+        registry.load_file(file)
+
+
+def test_a_file_that_is_executed_again_defines_nothing_twice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(registry, "PLUGINS", {})
+    for name in ("well.py", "well.py", "copy.py"):
+        monkeypatch.setattr(registry, "_loaded", set())
+        (tmp_path / name).write_text(GOOD)
+        registry.load_file(tmp_path / name)
+    (found,) = registry.PLUGINS.values()
+    assert found.file == tmp_path / "well.py"

@@ -37,6 +37,7 @@ class Plugin:
     names: Mapping[str, str] = field(default_factory=dict)
     given: Mapping[str, Any] = field(default_factory=dict)
     stated: str = ""
+    line: int = 0
 
     @cached_property
     def paths(self) -> frozenset[str]:
@@ -113,12 +114,13 @@ def register(
     """
     caller = inspect.currentframe()
     assert caller is not None and caller.f_back is not None  # noqa: S101, narrows a type
-    file = Path(caller.f_back.f_code.co_filename).resolve()
+    file, line = Path(caller.f_back.f_code.co_filename).resolve(), caller.f_back.f_lineno
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         known = PLUGINS.get((kind, name))
-        if known is not None and known.file != file and known.file.read_bytes() != file.read_bytes():
-            raise UserError(f"plugin {kind}/{name} is defined twice: {known.file} and {file}")
+        if known is not None and not _same_definition(known, function, file, line):
+            places = f"{known.file}, line {known.line} and {file}, line {line}"
+            raise UserError(f"plugin {kind}/{name} is defined twice: {places}")
         if known is None:
             where = f"plugin {kind}/{name}"
             if not (isinstance(name, str) and name.isidentifier()):
@@ -129,11 +131,17 @@ def register(
             restrictions = {key: tuple(names) for key, names in (accepts or {}).items()}
             PLUGINS[kind, name] = Plugin(
                 kind, name, function, model, inputs, file, restrictions, metrics or {}, exports, names or {},
-                given or {}, summary,
+                given or {}, summary, line,
             )  # fmt: skip
         return function
 
     return decorate
+
+
+def _same_definition(known: Plugin, function: Callable[..., Any], file: Path, line: int) -> bool:
+    """Whether a definition is the one that is known, of a file that is executed again or of one of the same bytes."""
+    same_place = (known.line, known.function.__qualname__) == (line, function.__qualname__)
+    return same_place and (known.file == file or known.file.read_bytes() == file.read_bytes())
 
 
 def plugin(kind: str, name: str) -> Plugin:
