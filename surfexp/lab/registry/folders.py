@@ -41,13 +41,29 @@ def installed_packages() -> list[str]:
 
 def installed_sources() -> list[Path]:
     """Every Python file of the installed packages that bring plugins, and of modules that do so by themselves."""
-    files: list[Path] = []
+    names = installed_packages()
+    of_packages = (sorted(folder.rglob("*.py")) for name in names for folder in folders_of(name))
+    return [*(file for files in of_packages for file in files), *filter(None, map(_file_of, names))]
+
+
+def module_of(file: Path) -> str:
+    """Name by which Python imports a file of an installed package that brings plugins; "" for any other file."""
     for name in installed_packages():
-        if folders := folders_of(name):
-            files += sorted(file for folder in folders for file in folder.rglob("*.py"))
-        elif (specification := importlib.util.find_spec(name)) and specification.origin:
-            files.append(Path(specification.origin).resolve())
-    return files
+        for folder in folders_of(name):
+            if file.is_relative_to(folder):
+                parts = (name, *file.relative_to(folder).with_suffix("").parts)
+                return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+        if file == _file_of(name):
+            return name
+    return ""
+
+
+def _file_of(name: str) -> Path | None:
+    """File of a module that is no package."""
+    specification = importlib.util.find_spec(name)
+    if specification is None or specification.submodule_search_locations or not specification.origin:
+        return None
+    return Path(specification.origin).resolve()
 
 
 def package_configurations() -> list[Path]:

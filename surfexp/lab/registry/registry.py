@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import inspect
 import sys
@@ -17,6 +18,7 @@ from pydantic import BaseModel
 from surfexp.contract.metric import Metric
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError, check_known, unknown
+from surfexp.lab.registry.folders import module_of
 from surfexp.lab.registry.signature import Input, options_and_inputs
 from surfexp.lab.store.kinds import KINDS
 
@@ -161,17 +163,19 @@ def unknown_plugin(thing: str, kind: str, name: str) -> UserError:
 
 
 def load_file(file: Path) -> None:
-    """Execute one plugin file, once; UserError naming file and line if it fails."""
+    """Execute one plugin file, once; UserError naming file and line if it fails.
+
+    One of an installed package is imported by its name, so that it takes part in its package; any other stands alone.
+    """
     file = file.resolve()
-    module_name = f"surfexp_plugin_{digest(str(file))}_{file.stem}"
     if str(file) in _loaded:
         return
     _loaded.add(str(file))
-    specification = importlib.util.spec_from_file_location(module_name, file)
-    assert specification is not None and specification.loader is not None  # noqa: S101, narrows a type
-    module = sys.modules[module_name] = importlib.util.module_from_spec(specification)
     try:
-        specification.loader.exec_module(module)
+        if module := module_of(file):
+            importlib.import_module(module)
+        else:
+            _execute(file)
     except UserError:
         raise
     except SyntaxError as error:
@@ -179,6 +183,14 @@ def load_file(file: Path) -> None:
     except (Exception, SystemExit) as error:
         lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
         raise UserError(f"plugin file {file}, line {lines[-1] if lines else '?'}: {error}") from error
+
+
+def _execute(file: Path) -> None:
+    name = f"surfexp_plugin_{digest(str(file))}_{file.stem}"
+    specification = importlib.util.spec_from_file_location(name, file)
+    assert specification is not None and specification.loader is not None  # noqa: S101, narrows a type
+    module = sys.modules[name] = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
 
 
 def names_of(kind: str) -> list[str]:
