@@ -100,6 +100,24 @@ def test_keys_that_would_come_back_as_others_are_refused(keys: list[object], tmp
         encoded({"labels": dict.fromkeys(keys, "x")}, "", {})
 
 
+@dataclass(frozen=True, eq=False)
+class Finer(Surface):
+    detail: float = 1.0
+
+
+def test_what_could_not_be_read_back_is_not_stored(stored: Path, tmp_path: Path) -> None:
+    @dataclass
+    class Local:
+        value: float
+
+    mesh = store.load(stored, "assorted", KEY).mesh
+    with pytest.raises(TypeError, match="returned Finer, which is stored as no surface: return Surface itself"):
+        store.save(tmp_path, "surface", KEY, Finer(mesh))
+    with pytest.raises(TypeError, match=r"^labels could not be read back: stored class .*Local' is not a dataclass"):
+        encoded(Local(1.0), "/labels", {})
+    assert not store.is_done(tmp_path, "surface", KEY) and not list(tmp_path.iterdir())
+
+
 def test_a_flip_of_any_bit_is_detected_and_named(stored: Path, tmp_path: Path) -> None:
     results = copy(stored, tmp_path)
     for file in files(results):

@@ -21,6 +21,7 @@ def encoded(value: Any, path: str, arrays: dict[str, Any]) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         path_of_class = path_of(type(value))
         kind = next((kind.name for kind in KINDS.values() if kind.path == path_of_class), None)
+        _check_readable(kind or path_of_class, path)
         names = [item.name for item in dataclasses.fields(value)]
         fields = {name: encoded(getattr(value, name), f"{path}/{name}", arrays) for name in names}
         return {"class": kind or path_of_class, "fields": fields}
@@ -69,6 +70,13 @@ def decoded(tree: Any, arrays: Any) -> Any:
         return csr_array((parts["data"], parts["indices"], parts["indptr"]), shape=tuple(tree["shape"]))
     cls = _result_class(tree["class"])
     return cls(**{key: decoded(item, arrays) for key, item in tree["fields"].items()})
+
+
+def _check_readable(name: str, path: str) -> None:
+    try:
+        _result_class(name)
+    except DamagedResult as error:
+        raise TypeError(f"{path.strip('/') or 'result'} could not be read back: {error}") from None
 
 
 def _result_class(name: str) -> type:

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from surfexp.lab.errors import DamagedResult
+from surfexp.lab.store.kinds import KINDS
 from surfexp.lab.store.result_tree import decoded, encoded
 
 HOST = os.uname().nodename  # processes of two machines that share a folder may have one number
@@ -72,9 +73,14 @@ def _replaced(path: Path) -> Iterator[Path]:
 
 
 def save(results: Path, kind: str, key: str, result: Any) -> None:
-    """Store a result dataclass: its arrays in `arrays.npz`, the rest as JSON."""
+    """Store a result dataclass: its arrays in `arrays.npz`, the rest as JSON; TypeError where it could not be read back."""
     arrays: dict[str, Any] = {}
     tree = encoded(result, "", arrays)
+    if tree["class"] != kind:
+        promised = KINDS[kind].result.__name__
+        raise TypeError(
+            f"returned {type(result).__name__}, which is stored as no {kind}: return {promised} itself, no subclass of it"
+        )
     folder = result_folder(results, kind, key)
     folder.mkdir(parents=True, exist_ok=True)
     with _replaced(folder / ARRAYS) as temporary:
