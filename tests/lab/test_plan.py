@@ -162,6 +162,7 @@ def test_unused_options_do_not_change_a_key_and_used_ones_do() -> None:
         ({"surface": {"name": "toy_triangle", "size": -1.0}}, r"surface/toy_triangle.size = -1.0: .*greater than 0"),
         ({"surface": None}, r"no surface is configured, wanted by scalar/toy_boundary; choose surface="),
         ({"expriment": "x"}, r"configuration key 'expriment'; did you mean 'experiment'"),
+        ({"target": "model", "model": "rof"}, r"target 'model' is not stored; end in a kind that is: surface, image, "),
         ({"cores": 0}, r"configuration.cores = 0: .*greater than or equal to 1"),
         ({"scalar": {"name": "toy_boundary", "inputs": {"surfce": {}}}}, r"input of scalar/toy_boundary 'surfce'"),
     ],

@@ -28,6 +28,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
     for configuration in configurations:
         if (top := {key: value for key, value in configuration.items() if key not in KINDS}) != before or plan is None:
             settings, before = settings_of(configuration), top
+            _check_target(settings.target)
             plan, shown = plan or Plan(settings), settings.model_dump()
             resolver = Resolver(plan, settings.datasets)
         context = {kind: value for kind, value in configuration.items() if kind in KINDS and value is not None}
@@ -42,6 +43,12 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
         raise UserError("nothing to plan: the sweep is empty")
     plan.leaves += seen.values()
     return plan
+
+
+def _check_target(kind: str) -> None:
+    if kind in KINDS and not KINDS[kind].stored:
+        stored = ", ".join(name for name, other in KINDS.items() if other.stored)
+        raise UserError(f"target {kind!r} is not stored; end in a kind that is: {stored}")
 
 
 @dataclass
