@@ -81,7 +81,7 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
         check_combinations(plan)
         if left_out:
             echo(f"surfexp: columns left out, for no row has them: {', '.join(left_out)}", err=True)
-        for line in leave_out_figures(plan):
+        for line in [*leave_out_figures(plan), *_unread(plan)]:
             echo(f"surfexp: {line}", err=True)
         # a sweeper that searches asks for one plan after the other: its trials are rows of one experiment
         plans.append(joined(plans[-1], plan) if plans and plan.settings.objective else plan)
@@ -96,6 +96,20 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
     if len(plans) == 1 and plans[0].settings.objective is None:  # a sweeper may ask for one plan after the other
         remember(kept_at, plans[0])
     return plans
+
+
+def _unread(plan: Plan) -> list[str]:
+    """Say which files are in no key, since their options are text."""
+    from surfexp.lab.registry.option_files import files_as_text
+
+    nodes = reversed(plan.nodes.values())
+    found = {
+        f"{node.kind}/{node.plugin}: {option}": path
+        for node in nodes
+        for option, path in files_as_text(node.options, node.files).items()
+    }
+    why = "the option is text, so an edit of the file is not seen; annotate it Path"
+    return [f"{option} names the file {path!r}, but {why}" for option, path in found.items()]
 
 
 def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:

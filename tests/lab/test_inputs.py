@@ -6,17 +6,21 @@ import os
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
 
+from surfexp.commands import request
 from surfexp.io.map_files import read_scalars
 from surfexp.io.writing import write_mesh
 from surfexp.lab import digests
+from surfexp.lab.errors import UserError
 from surfexp.lab.plan import code_digests, outcome
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
+from surfexp.lab.registry.option_files import file_named, names_files, option_files
 from surfexp.lab.running import stage
 from surfexp.lab.store import store
 from surfexp.mesh.shapes.icosphere import icosphere
@@ -168,3 +172,71 @@ def test_numbers_of_other_widths_and_flags_are_read_as_they_are(tmp_path: Path) 
     (tmp_path / "map.npz").rename(tmp_path / "map.npy")
     with pytest.raises(ValueError, match="archive of several arrays"):
         read_scalars(tmp_path / "map.npy")
+
+
+SCANS = '''"""Areas of scans."""
+
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from surfexp.lab.registry.registry import register
+from surfexp.mesh.shapes.icosphere import icosphere
+from surfexp.mesh.surface import Surface
+
+
+@register("surface", "of_scans_{name}")
+def of_scans(scans: {annotation} = (), note: str = "") -> Surface:
+    """A sphere as large as scans say."""
+    return icosphere(1, radius=sum(float(Path(scan).read_text()) for scan in scans))
+'''
+
+
+@pytest.mark.parametrize(("name", "annotation"), [("list", "list[Path]"), ("tuple", "tuple[Path, ...]")])
+def test_files_in_a_list_are_in_the_key(name: str, annotation: str, working_folder: Path) -> None:
+    file = working_folder / "scans.py"
+    file.write_text(SCANS.format(name=name, annotation=annotation))
+    registry.load_file(file)
+    scans = [working_folder / f"{number}.txt" for number in (1, 2)]
+    for number, scan in enumerate(scans):
+        scan.write_text(f"{number + 1}.0")
+
+    def planned() -> Plan:
+        digests.file_digest.cache_clear()
+        options = {"scans": [str(scan) for scan in scans], "note": "scans.py"}
+        return make_plan([{"target": "surface", "surface": {"name": f"of_scans_{name}", **options}}])
+
+    plan = planned()
+    (leaf,), path = plan.leaves, plan.write(working_folder / "results")
+    node = plan.nodes[leaf.key]
+    assert file_named(node.options, "scans.1") == str(scans[1]) and set(node.files) == {"scans.0", "scans.1"}
+    scans.reverse()
+    assert planned().leaves[0].key != leaf.key
+    scans.reverse()
+    scans[1].write_text("3.0")
+    assert planned().leaves[0].key != leaf.key
+    assert stage.run_stage(path, leaf.key) == 1
+    assert f"scans.1 {scans[1]} was changed after this run" in failure(plan, working_folder / "results")
+    scans[1].write_text("2.0")
+    assert stage.run_stage(path, leaf.key) == 0
+    (line,) = request._unread(plan)
+    assert line.startswith(f"surface/of_scans_{name}: note names the file 'scans.py', but the option is text")
+
+
+def test_files_that_are_nested_deeper_are_refused() -> None:
+    with pytest.raises(
+        UserError, match=r"^scans.0 is \['a', 'b'\]: files of an option are one, a list of them, or a dict"
+    ):
+        option_files({"scans": [["a", "b"]]}, ["scans"])
+
+
+@pytest.mark.parametrize(
+    ("hint", "names"),
+    [
+        *((hint, True) for hint in (Path, Path | None, tuple[Path, ...], dict[str, Path], os.PathLike[str])),
+        *((hint, False) for hint in (str, Literal["Path"], list[str], None)),
+    ],
+)
+def test_an_option_names_files_if_a_path_is_in_its_type(hint: object, names: bool) -> None:
+    assert names_files(hint) == names

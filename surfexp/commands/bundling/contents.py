@@ -23,6 +23,7 @@ from surfexp.lab.plan.kinds_of_plans import OF_FILE
 from surfexp.lab.plan.plan import Node, Plan
 from surfexp.lab.registry.folders import experiments, shipped_plugin_folders
 from surfexp.lab.registry.installed import distributions, package_version
+from surfexp.lab.registry.option_files import file_named, with_file
 from surfexp.lab.registry.registry import plugin
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
@@ -104,13 +105,12 @@ def _portable(plan: Plan, folder: Path) -> Plan:
 
 
 def _portable_node(node: Node, folder: Path) -> Node:
-    options = dict(node.options)
+    options = node.options
     for option, digest in node.files.items():
-        name, _, key = option.partition(".")
-        source = Path(options[name][key] if key else options[name])
+        source = Path(file_named(node.options, option))
         place = f"inputs/{digest}/{source.name}"
         _copy_input(source, digest, folder / place)
-        options[name] = {**options[name], key: place} if key else place
+        options = with_file(options, option, place)
     return replace(node, file=_copy_code(Path(node.file), folder), options=options)
 
 

@@ -19,6 +19,7 @@ from surfexp.lab.plan.plan import Plan, read_plan
 from surfexp.lab.plan.replanning import replanned
 from surfexp.lab.registry.catalogue import open_catalogue
 from surfexp.lab.registry.installed import package_version
+from surfexp.lab.registry.option_files import file_named
 from surfexp.lab.store import store
 from surfexp.records.table import rows_of
 
@@ -111,8 +112,7 @@ def check_paths(plan: Plan, folder: Path) -> None:
     """Refuse a plan whose options name files outside of a folder; UserError with the first."""
     for node in plan.nodes.values():
         for option in node.files:
-            name, _, key = option.partition(".")
-            path = str(node.options[name][key] if key else node.options[name])
+            path = file_named(node.options, option)
             if not (folder / path).resolve().is_relative_to(folder.resolve()):
                 raise UserError(
                     f"{node.kind}/{node.plugin}: {option} is {path!r}, a file outside of the bundle: nothing was computed"

@@ -108,16 +108,14 @@ def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
     """Digests of what stages read: files that options name, and the data of installed packages."""
     from surfexp.lab.plan.code_digests import code_closure, data_digest
     from surfexp.lab.plan.source_facts import source_facts
+    from surfexp.lab.registry.option_files import file_named
 
     methods = {(Path(node.file), node.function) for node in plan.nodes.values()}
     sources = {source for method in methods for source in code_closure(*method)[0]}
     facts = [*map(source_facts, sources), *(source_facts(*method) for method in methods)]
     packages = {package for fact in facts for package in fact.data_packages}
-    named: dict[str, str] = {}
-    for node in plan.nodes.values():
-        for option, planned in node.files.items():
-            name, _, key = option.partition(".")
-            named[str(node.options[name][key] if key else node.options[name])] = planned
+    nodes = plan.nodes.values()
+    named = {file_named(node.options, name): planned for node in nodes for name, planned in node.files.items()}
     return {"files": named, "packages": {package: data_digest(package) for package in packages}}
 
 

@@ -16,6 +16,7 @@ from surfexp.lab.errors import UserError, check_known
 from surfexp.lab.experiment.configuration import Context, merge, one_line, settings_of, stage
 from surfexp.lab.plan.code_digests import code_digest, compiled_state
 from surfexp.lab.plan.plan import Leaf, Node, Plan, flat_parameters
+from surfexp.lab.registry.option_files import option_files
 from surfexp.lab.registry.registry import Plugin, names_of, plugin
 from surfexp.lab.store.kinds import KINDS
 
@@ -126,8 +127,8 @@ class Resolver:
         """Add a stage to the plan by its checked options and the keys of its inputs; return its own key."""
         function, where = method.function.__qualname__, str(method.file)
         code, cache = code_digest(method.file, function), compiled_state(method.file)
-        named = {name: options[name] for name in method.paths if options.get(name) is not None}
-        files = {name: _digest_of(path) for name, path in _file_options(named).items()}
+        named = [name for name in sorted(method.paths) if options.get(name) is not None]
+        files = {name: _digest_of(Path(path)) for name, path in option_files(options, named).items()}
         rest = {name: value for name, value in options.items() if name not in named}
         asked = {role: keys for role, keys in wired.items() if method.inputs[role].shape == "members"}
         members = {role: [asdict(member) for member in keys] for role, keys in asked.items()}
@@ -148,15 +149,6 @@ def checked_options(method: Plugin, configured: Context) -> dict[str, Any]:
         return method.options(**given).model_dump(mode="json")
     except ValidationError as error:
         raise UserError(one_line(where, error)) from None
-
-
-def _file_options(options: Mapping[str, Any]) -> dict[str, Path]:
-    """The files that options name, by option: one, or several by a name of their own ("maps.sulc")."""
-    found: dict[str, Path] = {}
-    for option, value in options.items():
-        several = isinstance(value, Mapping)
-        found |= {f"{option}.{key}": Path(path) for key, path in value.items()} if several else {option: Path(value)}
-    return found
 
 
 def _digest_of(path: Path) -> str:

@@ -19,6 +19,7 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.digests import digest
 from surfexp.lab.errors import UserError, check_known, unknown
 from surfexp.lab.registry.folders import module_of
+from surfexp.lab.registry.option_files import names_files
 from surfexp.lab.registry.signature import Input, options_and_inputs
 from surfexp.lab.store.kinds import KINDS
 
@@ -43,8 +44,8 @@ class Plugin:
 
     @cached_property
     def paths(self) -> frozenset[str]:
-        """The options that name files."""
-        return frozenset(name for name, item in self.options.model_fields.items() if "Path" in str(item.annotation))
+        """The options that name files: those annotated with a path, or a collection of paths."""
+        return frozenset(name for name, item in self.options.model_fields.items() if names_files(item.annotation))
 
     @cached_property
     def parts(self) -> dict[str, str]:

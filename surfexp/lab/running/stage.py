@@ -24,6 +24,7 @@ from surfexp.lab.plan.code_digests import check_code  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
 from surfexp.lab.plan.plan import Keys, Node, Plan, methods, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
+from surfexp.lab.registry.option_files import file_named  # noqa: E402
 from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.running.clock import clocked  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
@@ -133,8 +134,7 @@ def make(nodes: Mapping[str, Node], key: str, results: Path) -> Any:
 def _check_files(node: Node) -> None:
     """Refuse input files that are not those of the plan; called before a plugin reads them and when it has."""
     for option, planned in node.files.items():
-        name, _, key = option.partition(".")
-        path = Path(node.options[name][key] if key else node.options[name])
+        path = Path(file_named(node.options, option))
         file_digest.cache_clear()
         if not path.exists() or file_digest(path.resolve()) != planned:
             raise RuntimeError(f"{option} {path} was changed after this run was planned; run the same command again")
