@@ -63,6 +63,25 @@ def test_only_meaning_counts(package: Path) -> None:
     assert digest(package / "method.py") != before
 
 
+@pytest.mark.parametrize(
+    ("origin", "seen"), [(None, True), ('{"dir_info": {"editable": true}}', True), ('{"dir_info": {}}', False)]
+)
+def test_sources_count_of_what_changes_under_one_version(package: Path, origin: str | None, seen: bool) -> None:
+    """A folder on the path without a version, and a package installed editable; not one whose version tells what it is."""
+    if origin is not None:
+        facts = package.parent / f"{package.name}-1.0.dist-info"
+        facts.mkdir()
+        (facts / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package.name}\nVersion: 1.0\n")
+        (facts / "direct_url.json").write_text(origin)
+    plugin = package.parent / "plugins" / "mine.py"
+    plugin.parent.mkdir()
+    plugin.write_text(f"from {package.name} import helper\n\ndef f(x):\n    return helper.g(x)\n")
+    before = digest(plugin)
+    assert code_digests.code_closure(plugin)[1] == {package.name}
+    (package / "deep.py").write_text("def h(x):\n    return x + 2\n")
+    assert (digest(plugin) != before) == seen
+
+
 def test_the_framework_is_not_part_of_a_key() -> None:
 
     plugins = package_folder("surfexp.plugins")

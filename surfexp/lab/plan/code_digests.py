@@ -12,7 +12,7 @@ from surfexp.lab.digests import digest, file_digest
 from surfexp.lab.plan.source_code import root_package
 from surfexp.lab.plan.source_facts import NOTHING, edited_files, forget_files, source_facts
 from surfexp.lab.registry.folders import STUDIES, shipped_sources
-from surfexp.lab.registry.installed import package_version
+from surfexp.lab.registry.installed import changes_in_place, package_version
 
 CODE_SUFFIXES = {".py", ".pyi", ".pyc", ".pyx", ".pxd", ".so", ".c", ".h"}
 # the laboratory moves results, it does not make them; summaries and install hints only show
@@ -23,6 +23,8 @@ PACKAGE = Path(__file__).resolve().parents[2]
 @cache
 def code_closure(file: Path, function: str = "") -> tuple[frozenset[Path], frozenset[str]]:
     """Source files that a file reaches by import inside its own distributions, and the outside packages it reaches.
+
+    Packages that are installed editable, or lie on the path without a version, count by their files as well.
 
     With the name of a function, only what that function needs of the file counts; the file itself is then among the files only
     if all of it counts. The framework is left out (it moves results, it does not make them), and so is the standard library.
@@ -46,10 +48,15 @@ def _reached_from(file: Path, own: frozenset[str]) -> tuple[frozenset[Path], fro
 
 
 def _reached(names: frozenset[str], own: frozenset[str]) -> tuple[frozenset[Path], frozenset[str]]:
-    """Files of the modules of one's own distributions, and the roots of the others outside the standard library."""
+    """Files of the modules that count by their source, and the roots of those of others outside the standard library.
+
+    One's own distributions count by their source alone, and so, beside their version, do others that may change under it.
+    """
     roots = {name: name.split(".")[0] for name in names}
-    files = {found for name, root in roots.items() if root in own for found in _module_files(name)}
-    return frozenset(files), frozenset(roots.values()) - own - sys.stdlib_module_names
+    others = frozenset(roots.values()) - own - sys.stdlib_module_names
+    sources = {*own, *filter(changes_in_place, others)}
+    files = {found for name, root in roots.items() if root in sources for found in _module_files(name)}
+    return frozenset(files), others
 
 
 @cache

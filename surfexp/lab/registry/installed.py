@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
+import json
 import sys
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -22,6 +24,18 @@ def package_version(module: str) -> str:
         except importlib.metadata.PackageNotFoundError:
             continue
     return "unknown"
+
+
+@cache
+def changes_in_place(module: str) -> bool:
+    """Whether a top-level module may change under one version: it has none, or its distribution is installed editable."""
+    if package_version(module) == "unknown":
+        return True
+    for name in (module, *distributions(module)):
+        with suppress(importlib.metadata.PackageNotFoundError, ValueError):
+            origin = importlib.metadata.distribution(name).read_text("direct_url.json")
+            return bool(origin and json.loads(origin).get("dir_info", {}).get("editable"))
+    return False
 
 
 @cache
