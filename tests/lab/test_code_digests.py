@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from surfexp.lab.plan import code_digests, source_code
+from surfexp.lab.plan.shown_text import without_shown_text
 from surfexp.lab.registry.folders import package_folder, shipped_plugin_folders, studies_folder
 from surfexp.lab.registry.loading import load_all
 
@@ -238,7 +239,30 @@ def test_where_it_cannot_be_told_the_whole_file_counts(pair: Path, old: str, new
     assert digests(pair)[1] != before
 
 
+@pytest.mark.parametrize(
+    ("code", "counts"),
+    [
+        ("from surfexp.contract.metric import Metric\nx = Metric('one', bound=2)\n", False),
+        ("from surfexp.contract import metric\nx = metric.Metric('one', bound=2)\n", False),
+        ("import surfexp.contract.metric\nx = surfexp.contract.metric.Metric('one')\n", False),
+        ("from surfexp.contract.metric import Metric\nx = Metric('some', bound='one')\n", True),
+        ("class Metric:\n    def __init__(self, name): self.name = name\nx = Metric('one')\n", True),
+        ("from geometry import Metric\nx = Metric('one')\n", True),
+        ("from pydantic import Field\nx = Field(ge=0, description='one')\n", False),
+        ("import pydantic as p\nx = p.Field(ge=0, title='one')\n", False),
+        ("from physics import Field\nx = Field(title='one')\n", True),
+        ("from .events import register\nx = register(exports='one')\n", True),
+    ],
+)
+def test_descriptions_are_left_out_of_what_is_ours_alone(code: str, counts: bool) -> None:
+    """A class of another's that is called Metric is code like any other."""
+    one, other = (ast.dump(without_shown_text(ast.parse(code.replace("one", word)))) for word in ("one", "other"))
+    assert (one != other) == counts
+
+
 REGISTERED = """
+from pydantic import Field
+from surfexp.lab.registry.registry import register
 from .left import left
 from .right import right
 
