@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -92,7 +93,19 @@ def words_of(config: Mapping[str, Any], above: str = "") -> Iterator[str]:
         elif isinstance(value, Mapping):
             yield from words_of(value, f"{above}{name}.")
         else:
-            yield f"{above}{name}={value if isinstance(value, str) else json.dumps(value)}"
+            yield f"{above}{name}={value if isinstance(value, str) else _written(value)}"
+
+
+def _written(value: Any) -> str:
+    """A value as Hydra reads it, whose keys stand without quotes and to whom a backslash is one, but before a quotation mark."""
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{key}: {_written(item)}' for key, item in value.items())}}}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_written, value))}]"
+    if isinstance(value, str):
+        doubled = re.sub(r'(\\+)(?="|$)', r"\1\1", value).replace('"', '\\"')
+        return f'"{doubled}"'
+    return json.dumps(value)
 
 
 def start(path: Path, workflow: Any) -> None:

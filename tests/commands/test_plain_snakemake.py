@@ -10,11 +10,14 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+from hydra.core.override_parser.types import QuotedString
 
 from surfexp.commands import execution, plain_snakemake
 from surfexp.commands.command_line import main
+from surfexp.lab.composition.overrides import parsed
 from surfexp.lab.errors import UserError
 
 TOYS = Path(__file__).resolve().parents[1] / "lab" / "toy_plugins.py"
@@ -242,6 +245,29 @@ def test_a_configuration_is_words_of_surfexp_run() -> None:
     }
     words = ["experiment=rof_cup", "solver=newton", "solver.tolerance=1e-06", 'columns=["rmse"]', "cores=null"]
     assert list(plain_snakemake.words_of(config)) == words
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        [{"title": "both", "grid": {"surface.levels": [2, 3]}, "solver": {"name": "newton"}}, {}],
+        ["größe", 'a "word"', "back\\slash", "at the end\\", '\\"', "a, b: {c} [d]", ""],
+        [1, 2.5e-06, True, None, -3],
+    ],
+)
+def test_lists_of_a_configuration_come_back_from_hydra(value: list[object]) -> None:
+    (word,) = plain_snakemake.words_of({"variants": value})
+    (read,) = parsed([word])
+    assert _plain(read.value()) == value
+
+
+def _plain(value: Any) -> Any:
+    """What Hydra reads, quoted text as text."""
+    if isinstance(value, QuotedString):
+        return value.text
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, list) else value
 
 
 def test_a_plan_of_several_searches_is_refused(working_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
