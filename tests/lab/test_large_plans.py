@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +11,12 @@ import pytest
 
 from surfexp.lab.digests import file_digest
 from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.plan import code_digests, resolution
 from surfexp.lab.plan import remembered_plans as planned
-from surfexp.lab.plan import resolution
 from surfexp.lab.plan.plan import Plan, read_plan
 from surfexp.lab.plan.resolution import Resolver, make_plan
 from surfexp.lab.registry import catalogue, registry
+from surfexp.lab.registry.folders import package_folder
 
 TOYS = Path(__file__).with_name("toy_plugins.py")
 
@@ -199,6 +200,22 @@ def test_the_code_of_plugins_outside_of_packages_is_read_again(cache: Path, monk
     assert remembered(arguments) == plan
     monkeypatch.setattr("surfexp.lab.plan.code_digests.code_digest", lambda file, function: "edited")
     assert remembered(arguments) is None
+
+
+def test_a_method_of_ours_that_reaches_other_sources_is_read_again(
+    cache: Path, working_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those of an editable package, say, of which the state of the code does not know."""
+    plan, arguments = toy_plan(), ["experiment=toys"]
+    ours = package_folder("surfexp.plugins") / "surface" / "disk.py"
+    plan.nodes = {key: replace(node, file=str(ours)) for key, node in plan.nodes.items()}
+    for reached, methods in ((ours, 0), (working_folder / "helper.py", 1)):
+        if reached != ours:
+            reached.touch()
+        monkeypatch.setattr(code_digests, "code_closure", lambda *_, reached=reached: ({reached}, set()))
+        remember(arguments, plan)
+        (kept,) = (cache / "plans").glob("*/kept.json")
+        assert (len(json.loads(kept.read_text())["methods"]) > 0) == methods
 
 
 @pytest.mark.parametrize("text", ["title: ${oc.env:USER}\n", "hydra: {searchpath: [file:///elsewhere]}\n"])

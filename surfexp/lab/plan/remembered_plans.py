@@ -2,7 +2,7 @@
 
 A plan follows from what was asked for, the configuration files, the items of tables and folders that stand for a
 dataset, the code, and the files that options name. All but the last are the name under which it is kept in the user's
-cache; the last are hashed again, and so is the code of plugins outside of packages.
+cache; the last are hashed again, and so is code that lies neither beside surfexp nor in a package that brings plugins.
 """
 
 from __future__ import annotations
@@ -19,7 +19,13 @@ from typing import TYPE_CHECKING, Any
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.dataset_files import Item, is_of_files, items_of_files
 from surfexp.lab.registry.catalogue import code_state
-from surfexp.lab.registry.folders import configurations, shipped_plugin_folders
+from surfexp.lab.registry.folders import (
+    configurations,
+    installed_sources,
+    plugin_files,
+    shipped_plugin_folders,
+    shipped_sources,
+)
 from surfexp.lab.user_cache import fault, user_cache
 
 if TYPE_CHECKING:
@@ -104,30 +110,37 @@ def _sha256(file: Path) -> str:
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
-def _read_by(plan: Plan) -> dict[str, dict[str, str]]:
-    """Digests of what stages read: files that options name, and the data of installed packages."""
+def _read_by(plan: Plan) -> dict[str, Any]:
+    """Digests of what stages read, files that options name and the data of packages, and methods to be hashed again.
+
+    These lie outside of surfexp, or reach sources of which `code_state` does not know.
+    """
     from surfexp.lab.plan.code_digests import code_closure, data_digest
     from surfexp.lab.plan.source_facts import source_facts
     from surfexp.lab.registry.option_files import file_named
 
-    methods = {(Path(node.file), node.function) for node in plan.nodes.values()}
-    sources = {source for method in methods for source in code_closure(*method)[0]}
-    facts = [*map(source_facts, sources), *(source_facts(*method) for method in methods)]
-    packages = {package for fact in facts for package in fact.data_packages}
     nodes = plan.nodes.values()
+    closures = {(Path(node.file), node.function): code_closure(Path(node.file), node.function)[0] for node in nodes}
+    facts = [*map(source_facts, set().union(*closures.values())), *(source_facts(*method) for method in closures)]
+    packages = {package for fact in facts for package in fact.data_packages}
     named = {file_named(node.options, name): planned for node in nodes for name, planned in node.files.items()}
-    return {"files": named, "packages": {package: data_digest(package) for package in packages}}
+    own, known = {*shipped_plugin_folders()}, {*shipped_sources(), *installed_sources(), *plugin_files(Path.cwd())}
+    methods = [method for method, sources in closures.items() if not own & {*method[0].parents} or sources - known]
+    return {
+        "files": named,
+        "packages": {package: data_digest(package) for package in packages},
+        "methods": [(str(file), function) for file, function in methods],
+    }
 
 
 def _unchanged(plan: Plan, kept: Mapping[str, Any]) -> bool:
-    """Whether files are what they were, and so is the code of plugins outside of packages, which `code_state` knows in part."""
+    """Whether files, the data of packages, and the code of methods that are to be hashed again are what they were."""
     from surfexp.lab.digests import file_digest
     from surfexp.lab.plan.code_digests import code_digest, data_digest
 
-    own = shipped_plugin_folders()
-    codes = {(Path(node.file), node.function): node.code for node in plan.nodes.values()}
+    codes = {(node.file, node.function): node.code for node in plan.nodes.values()}
     return (
         all(file_digest(Path(path).resolve()) == known for path, known in kept["files"].items())
         and all(data_digest(package) == known for package, known in kept["packages"].items())
-        and all(code_digest(*method) == code for method, code in codes.items() if not {*own} & {*method[0].parents})
+        and all(code_digest(Path(file), function) == codes[file, function] for file, function in kept["methods"])
     )
