@@ -130,13 +130,6 @@ def stored_inputs(nodes: Mapping[str, Node], key: str) -> list[str]:
     return list(found)
 
 
-def methods(nodes: Mapping[str, Node], key: str) -> set[tuple[Path, str, str]]:
-    """File, function and digest of the code that a stage's process runs: its own, and that of unstored stages before it."""
-    node = nodes[key]
-    found = {(Path(node.file), node.function, node.code)}
-    return found.union(*(methods(nodes, child) for child in node.children if not KINDS[nodes[child].kind].stored))
-
-
 def _members(value: Any) -> dict[str, Any]:
     members = [value] if isinstance(value, str) else value
     return dict(members if isinstance(members, Mapping) else enumerate(members))

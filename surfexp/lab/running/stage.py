@@ -22,11 +22,12 @@ from surfexp.lab.digests import file_digest  # noqa: E402
 from surfexp.lab.errors import DamagedResult  # noqa: E402
 from surfexp.lab.plan.code_digests import check_code  # noqa: E402
 from surfexp.lab.plan.outcome import event_path  # noqa: E402
-from surfexp.lab.plan.plan import Keys, Node, Plan, methods, read_plan  # noqa: E402
+from surfexp.lab.plan.plan import Keys, Node, Plan, read_plan  # noqa: E402
 from surfexp.lab.registry import registry  # noqa: E402
 from surfexp.lab.registry.option_files import file_named  # noqa: E402
 from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.running.clock import clocked  # noqa: E402
+from surfexp.lab.running.planned_code import loaded_methods, read_code  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
 from surfexp.lab.store.kinds import KINDS  # noqa: E402
 
@@ -53,7 +54,8 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
     failure = ""
     store.write_text(_progress["path"], "started")
     try:
-        planned = methods(plan.nodes, key)
+        read_code(plan.nodes, key)
+        planned = loaded_methods(plan.nodes, key)
         check_code(planned)
         calls: list[float] = []
         while not calls or (plan.settings.timing and len(calls) < CALLS and sum(calls[1:]) < ENOUGH):

@@ -18,11 +18,11 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from surfexp.lab.plan.code_digests import check_code
-from surfexp.lab.plan.plan import Node, Plan, methods, read_plan
+from surfexp.lab.plan.plan import Node, Plan, read_plan
 from surfexp.lab.registry import registry
 from surfexp.lab.running import compiled_code
 from surfexp.lab.running.lifetime import die_with_parent
+from surfexp.lab.running.planned_code import read_code
 from surfexp.lab.running.stage_process import finished, fork_stage
 from surfexp.lab.store import store
 
@@ -48,8 +48,9 @@ def preload(plan: Plan, missing: list[Node], state: str) -> Recall | Forgetful:
     files = {plan.nodes[key].file for node in missing for key in (node.key, *node.children)}
     for module in NUMERICS:
         __import__(module)
-    with contextlib.suppress(Exception):  # as below; what is found is known to all forks
-        check_code(method for node in missing for method in methods(plan.nodes, node.key))
+    for node in missing:
+        with contextlib.suppress(Exception):  # as below; what is read is known to all forks
+            read_code(plan.nodes, node.key)
     for file in sorted(files):
         with contextlib.suppress(Exception):  # the stage that needs it fails with the reason
             registry.load_file(Path(file))
