@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from mapbox_earcut import triangulate_float64
@@ -48,8 +49,8 @@ def triangulate(
         return np.zeros((0, 3), dtype=np.int64), ()
     if isinstance(polygons, np.ndarray) and polygons.shape[1:] == (3,):
         return index_array(polygons, "the faces"), ()
-    polygons = [_without_repeats(polygon) if len(polygon) > 3 else polygon for polygon in polygons]
-    sizes = np.fromiter(map(len, polygons), dtype=np.int64, count=len(polygons))
+    cut = [_without_repeats(polygon) if len(polygon) > 3 else polygon for polygon in polygons]
+    sizes = np.fromiter(map(len, cut), dtype=np.int64, count=len(cut))
     if sizes.min() < 3:
         index = int(sizes.argmin())
         raise ValueError(f"face {index} has {sizes[index]} vertices, at least 3 are needed")
@@ -58,7 +59,7 @@ def triangulate(
     bent, crossing = 0, 0
     for size in np.unique(sizes).tolist():
         chosen = np.flatnonzero(sizes == size)
-        corners = index_array(np.array([polygons[k] for k in chosen.tolist()]), "the faces")
+        corners = index_array(np.array([cut[k] for k in chosen.tolist()]), "the faces")
         place = starts[chosen][:, None] + np.arange(size - 2)
         fans = np.stack([np.broadcast_to(corners[:, :1], place.shape), corners[:, 1:-1], corners[:, 2:]], axis=2)
         faces[place] = fans
@@ -75,7 +76,7 @@ def triangulate(
     return faces, tuple(_sentences(bent, crossing))
 
 
-def _without_repeats(polygon: Sequence[int] | NDArray[np.generic]) -> Sequence[int] | NDArray[np.generic]:
+def _without_repeats(polygon: Sequence[Any] | NDArray[np.generic]) -> Sequence[Any] | NDArray[np.generic]:
     """A polygon without corners that follow themselves, as a triangle that is written with four; at least a triangle."""
     corners = list(polygon)
     kept = [one for one, after in zip(corners, [*corners[1:], corners[0]], strict=True) if one != after]
