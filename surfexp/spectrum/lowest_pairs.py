@@ -18,8 +18,8 @@ from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.single_slice import Progress
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 
-# degrees; entries of the stiffness, and with them its rounding, grow by the cotangent, which is 57 there
-SLIVER = 1.0
+# degrees; entries of the stiffness, and with them its rounding, grow by the cotangent, which is 11 there
+SLIVER = 5.0
 
 
 def lowest_pairs(
@@ -104,7 +104,7 @@ def without_slivers(surface: Surface, stopped: SliverError) -> SurfaceOperator:
     reason = str(stopped).partition(":")[0]
     if not sharp_faces(surface.mesh, SLIVER).any():
         raise EigensolverError(
-            f"{reason}, and no triangle has an angle under {SLIVER:g} degree, so that others would not help: take a larger "
+            f"{reason}, and no triangle has an angle under {SLIVER:g} degrees, so that others would not help: take a larger "
             "tolerance"
         ) from stopped
     operator = intrinsic_delaunay(surface.mesh)

@@ -60,7 +60,7 @@ def test_modes_of_a_masked_surface_leave_in_several_formats(files: Path) -> None
 def test_every_other_command_leaves_a_file(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
     calls = [
         ["denoise", "brain.surf.gii", "noisy.shape.gii", "--method", "tgv", "--ratio", "3", "--to", "slopes.shape.gii"],
-        ["smooth", "brain.surf.gii", "noisy.shape.gii", "--width", "0.3mm", "--to", "smooth.mgh"],
+        ["smooth", "brain.surf.gii", "noisy.shape.gii", "--width", "0.3mm", "--unit", "mm", "--to", "smooth.mgh"],
         ["geodesic", "brain.surf.gii", "0", "5", "--to", "distance.csv"],
         ["curvature", "brain.surf.gii", "--to", "curvature.vtp"],
         ["skeleton", "brain.surf.gii", "--to", "skeleton.vtk"],
