@@ -76,8 +76,8 @@ reproduction: .venv/ready
 # Only experiments of which a stage's key or a claim has changed; the other sections of the page are still true.
 reproduction-changed: .venv/ready
 	names=$$($(BIN)/python -m surfexp.reproduction.stamp stale) && \
-	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs"; \
-	else $(BIN)/python -m surfexp.reproduction.stamp renew; fi
+	if [ -n "$$names" ]; then $(MAKE) reproduction EXPERIMENTS="$$names" BESIDE="--beside docs"; fi && \
+	$(BIN)/python -m surfexp.reproduction.stamp renew
 
 # Pages, API and examples with their pictures, read from disk: build/site/index.html.
 site: optional

@@ -16,7 +16,7 @@ from surfexp.lab.plan.plan import Plan
 from surfexp.records.table import rows_of
 from surfexp.report.verdict import Verdict, judge
 from surfexp.reproduction.pages import HEADING
-from surfexp.reproduction.stamp import commit_of_page, cost, state_line, state_of_plan
+from surfexp.reproduction.stamp import STATE, commit_of_page, cost, state_line, state_of_plan
 
 HEADER = ("claim", "source", "quantity", "interval", "because", "rows", "found (least to largest)", "verdict", "cause")
 FOUND = HEADER.index("found (least to largest)")
@@ -50,7 +50,9 @@ def reproduction(plans: Mapping[str, Plan], results: Path, earlier: str = "", pr
     runs = [*RUNS.findall(earlier), f"Then: {', '.join(sorted(plans))}. {ran}"] if taken_over else [f"Run: {ran}"]
     text = "".join(sections[name] for name in sorted(sections))
     head = ["# The dissertation, checked", *([preface.strip()] if preface else [])]
-    head += [counts_of(sections), state_line(), *runs]
+    # of a page some sections of which are older, `renew` tells whether all are of the present state
+    before = STATE.search(earlier) if taken_over else None
+    head += [counts_of(sections), before[0] if before else state_line(), *runs]
     return ("\n\n".join(head) + "\n" + text).rstrip()
 
 

@@ -172,6 +172,9 @@ def test_the_command_writes_the_pages_and_takes_others_over(
     assert main(asked) == 0 and capsys.readouterr().out == ""
     written = read_pages(docs)
     assert list(reproduction.sections_of(written)) == ["ball", "other"] and "\nThen: ball. " in written
+    monkeypatch.setattr(stamp, "state_of_code", lambda: ("f" * 20, "e" * 20))
+    assert main(asked) == 0, "the other section is of the state before"
+    assert stamp.STATE.search(read_pages(docs)) is not None and "f" * 20 not in stamp.STATE.findall(read_pages(docs))[0]
     assert main(asked[:-2]) == 0
     assert capsys.readouterr().out.startswith("# The dissertation, checked")
 
