@@ -117,7 +117,7 @@ def _swc(skeleton: Skeleton, unit: str) -> str:
     hidden = int(skeleton.metrics.get("hidden_handles", 0))
     if loops := int(skeleton.metrics["b1"]) + hidden:
         unseen = f", {hidden} of them between two levels" if hidden else ""
-        raise ValueError(f"the skeleton has {loops} loops{unseen}, an SWC file holds trees only: choose .graphml")
+        raise ValueError(f"the skeleton has loops ({loops}{unseen}), an SWC file holds trees only: choose .graphml")
     if not np.isfinite(skeleton.radii).all():
         raise ValueError("the skeleton has nodes without a radius, which an SWC file needs: choose .graphml")
     around: list[list[int]] = [[] for _ in skeleton.positions]

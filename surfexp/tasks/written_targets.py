@@ -76,7 +76,7 @@ def left_out(path: Path | str, surface: Surface) -> tuple[str, ...]:
     lost += [f"labels ({', '.join(surface.labels)})"] if surface.labels else []
     lost += ["mask"] if surface.mask is not None else []
     lost += [f"unit ({surface.unit})"] if surface.unit and not unit else []
-    said = [f"{target.name} does not hold {' and '.join(lost)} of the surface: they are left out."] if lost else []
+    said = [f"{target.name} does not hold {' and '.join(lost)} of the surface: left out."] if lost else []
     if unit and surface.unit not in ("", unit):
         said.append(
             f"{target.name} is read in {unit}, the surface is in {surface.unit}: give unit={surface.unit!r} where it is read."

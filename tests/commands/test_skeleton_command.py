@@ -29,7 +29,7 @@ def folder(working_folder: Path) -> Path:
 def test_a_ring_between_two_levels_is_said_and_is_no_tree(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["skeleton", "torus.ply", "x.npy", "--count", "2"]
     assert main([*call, "--to", "ring.swc"]) == 2
-    assert "the skeleton has 1 loops, 1 of them between two levels, an SWC file holds" in capsys.readouterr().err
+    assert "the skeleton has loops (1, 1 of them between two levels), an SWC file holds" in capsys.readouterr().err
     assert not Path("ring.swc").exists()
     assert main([*call, "--to", "ring.graphml"]) == 0
     said, kept = capsys.readouterr(), json.loads(Path("ring.graphml.json").read_text())
