@@ -15,7 +15,7 @@ from surfexp.spectrum.signature import Signature
 METRICS = {
     "first": Metric("first entry"),
     "last": Metric("last entry"),
-    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "complete": Metric("1 where it is proved that no eigenvalue is missing, else 0", better="higher"),
 }
 
 

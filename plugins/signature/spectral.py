@@ -16,7 +16,7 @@ TRIANGULATIONS = {"fem": fem, "intrinsic_delaunay": intrinsic_delaunay}
 
 
 METRICS = {
-    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "complete": Metric("1 where it is proved that no eigenvalue is missing, else 0", better="higher"),
     "largest_residual": Metric("largest relative residual of the pairs", better="lower"),
     "area": Metric("area", "unit of length squared"),
     "edge_length": Metric("mean length of the edges", "unit of length"),

@@ -75,7 +75,9 @@ class EigenSystem(Drawable):
         "edge_length": Metric("mean length of the edges", "unit of length"),
         "largest_residual": Metric("largest relative residual of the pairs", better="lower"),
         "orthogonality": Metric("largest entry of V^T M V - I", better="lower"),
-        "complete": Metric("1 where no eigenvalue below the last is proved to be missing, else 0", better="higher"),
+        "complete": Metric(
+            "1 where it is proved that no eigenvalue below the last is missing, else 0", better="higher"
+        ),
         "zero_modes": Metric("eigenvalues that are 0 up to rounding"),
         "first_value": Metric("first eigenvalue above the constant mode"),
         "last_value": Metric("last eigenvalue"),

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from surfexp.lab.registry import registry
+from surfexp.lab.registry.loading import load_all
+from surfexp.lab.store.kinds import KINDS
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.assembly import mass_matrix, stiffness
 from surfexp.operators.fem import fem
@@ -75,3 +79,10 @@ def test_a_window_moves_its_shift_where_orthogonality_was_lost(monkeypatch: pyte
     moved = pairs_between(pencil(), 1.0, 13.0)
     assert len(set(shifts)) == len(shifts) > 1
     np.testing.assert_allclose(moved.values, plain.values, rtol=1e-10)
+
+
+def test_tables_say_of_complete_that_it_is_a_proof() -> None:
+    load_all(Path("/nonexistent"))
+    declared = [KINDS["eigensolver"].result.METRICS, *(plugin.metrics for plugin in registry.PLUGINS.values())]
+    meanings = {metrics["complete"].meaning for metrics in declared if "complete" in metrics}
+    assert len(meanings) >= 3 and all(meaning.startswith("1 where it is proved ") for meaning in meanings)

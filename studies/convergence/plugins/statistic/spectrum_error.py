@@ -14,7 +14,7 @@ SPECTRUM_ERROR_METRICS = {
     "below_exact": Metric("eigenvalues below the exact ones", better="lower"),
     "edge_length": Metric("mean length of the edges", "unit of length"),
     "degrees_of_freedom": Metric("unknowns of the discrete problem"),
-    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "complete": Metric("1 where it is proved that no eigenvalue is missing, else 0", better="higher"),
 }
 
 

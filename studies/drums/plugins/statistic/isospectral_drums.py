@@ -19,7 +19,7 @@ NAMED = {"gordon_webb_wolpert": "Gordon-Webb-Wolpert drums", "berard": "drums of
 
 ISOSPECTRAL_DRUMS_METRICS = {
     "spectral_difference": Metric("largest relative difference of the two spectra", better="lower"),
-    "complete": Metric("1 where no eigenvalue is proved to be missing in either, else 0", better="higher"),
+    "complete": Metric("1 where it is proved of both that no eigenvalue is missing, else 0", better="higher"),
     "transplanted": Metric("largest error of a transplanted eigenfunction", better="lower"),
     "first_differing_mode": Metric("first mode with different nodal counts, 0 where there is none"),
     "differing_modes": Metric("modes with different nodal counts"),

@@ -7,7 +7,7 @@ from surfexp.lab.registry.registry import register
 from surfexp_studies.fingerprints.descriptors import fingerprint
 
 METRICS = {
-    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "complete": Metric("1 where it is proved that no eigenvalue is missing, else 0", better="higher"),
     "largest_residual": Metric("largest relative residual of the certified pairs", better="lower"),
     "area": Metric("area", "unit of length squared"),
     "vertices": Metric("number of vertices"),

@@ -16,7 +16,7 @@ METRICS = {
     "boundary_length": Metric("length of the boundary", "unit of length"),
     "boundary_heard": Metric("length of the boundary heard from the eigenvalues", "unit of length"),
     "boundary_ratio": Metric("length of the boundary heard over the true one"),
-    "complete": Metric("1 where no eigenvalue is proved to be missing, else 0", better="higher"),
+    "complete": Metric("1 where it is proved that no eigenvalue is missing, else 0", better="higher"),
 }
 
 
