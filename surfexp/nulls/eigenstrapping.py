@@ -30,7 +30,8 @@ def eigenstrapped(
 
     Modes are grouped as on a sphere, 1, 3, 5, ... at a time, and the coefficients c_l = V_l^T B f of each group are turned
     by a random rotation. The image of one vector under a Haar rotation is uniform on the sphere of its length, so that is
-    drawn in place of the rotation. The constant mode is kept, and with it the mean of the map by area.
+    drawn in place of the rotation. The constant mode is kept, and with it the mean of the map by area;
+    a residual that is permuted moves it a little.
 
     Parameters
     ----------

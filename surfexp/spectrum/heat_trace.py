@@ -23,7 +23,7 @@ class HeardGeometry:
     boundary_length : float
         0 for a closed surface.
     constant : float
-        The constant term of Z: chi / 6 where the boundary is smooth, `corner_constant` more for a polygon.
+        The constant term of Z: chi / 6 where the boundary is smooth or empty, `corner_constant` in its place for a flat polygon.
     """
 
     area: float

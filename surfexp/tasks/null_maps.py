@@ -66,7 +66,8 @@ def null_maps(
     "eigenstrapping" rotates the coefficients of the map at random, within groups of 3, 5, 7, ... modes of its surface. It
     adds the residual that the modes do not hold, with permuted values. "variogram" smooths permuted values until their
     variogram is that of the map. Both assume that the map is equally smooth everywhere. Each hemisphere, or other component,
-    is drawn apart, with modes or a variogram of its own, and keeps its mean.
+    is drawn apart, with modes or a variogram of its own. "variogram" keeps its mean over the vertices; "eigenstrapping" its mean
+    by area, but for the permuted residual.
 
     Parameters
     ----------

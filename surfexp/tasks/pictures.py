@@ -68,7 +68,8 @@ class Picture:
             return vector_panel(self.views, "pdf" if suffix == ".pdf" else "svg", width=self.figure.pixels.shape[1])
         if suffix == ".svg" and self.figure.svg:
             return self.figure.svg.encode()
-        raise ValueError(f"a picture of pixels alone has no {suffix} drawing: choose .png")
+        fit = ".png or .svg" if self.figure.svg else ".png"
+        raise ValueError(f"a picture without a surface has no {suffix} drawing: choose {fit}")
 
     def __repr__(self) -> str:
         height, width = self.figure.pixels.shape[:2]

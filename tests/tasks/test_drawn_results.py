@@ -14,6 +14,7 @@ import pytest
 import surfexp as sx
 from surfexp.mesh.label_map import LabelMap
 from surfexp.tasks.map_rows import rows_of_maps
+from surfexp.tasks.risk_curve import RiskCurve
 from surfexp.tasks.shown import shown_surfaces
 
 BODY = sx.shape("ellipsoid", levels=3)
@@ -163,3 +164,10 @@ def test_labels_may_be_texts_or_numbers_with_nan_and_are_refused_in_one_line() -
         sx.plot(BODY, height, borders="none", **SIZES)
     with pytest.raises(TypeError, match=r"skeleton is a result of sx.reeb_graph, not ndarray"):
         sx.plot(BODY, height, skeleton=height, **SIZES)
+
+
+def test_a_curve_is_a_drawing_too_and_a_refusal_names_what_it_can_be(tmp_path: Path) -> None:
+    curve = RiskCurve(np.array([0.5, 1.0, 2.0]), np.array([0.3, 0.2, 0.4]), np.full(3, 0.01)).plot(300)
+    curve.save(tmp_path / "curve.svg")
+    with pytest.raises(ValueError, match=r"no \.pdf drawing: choose \.png or \.svg"):
+        curve.save(tmp_path / "curve.pdf")
