@@ -111,11 +111,12 @@ class EigenSystem(Drawable):
         )
 
     def _summary(self) -> Summary:
+        found = len(self.values) > 0  # not in a window between two eigenvalues
         facts = {
-            "lowest": float(self.values[0]),
-            "highest": float(self.values[-1]),
+            "lowest": float(self.values[0]) if found else None,
+            "highest": float(self.values[-1]) if found else None,
             "complete": self.complete,
-            "largest residual": float(self.residuals.max()),
+            "largest residual": float(self.residuals.max()) if found else None,
             "orthogonality": self.orthogonality,
             "clusters": len(self.clusters),
             "method": self.method,

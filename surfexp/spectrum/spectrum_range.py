@@ -44,7 +44,8 @@ def pairs_between(
     Returns
     -------
     EigenSystem
-        `inertia` proves that none is missing; no pair at all is an answer, too.
+        `inertia` proves that none is missing; no pair at all is an answer, too. The metric `first_number` counts the
+        eigenvalues below the first.
 
     Raises
     ------
@@ -75,7 +76,8 @@ def pairs_between(
         met = int((chosen & ((np.abs(values - low) <= below) | (np.abs(values - high) <= above))).sum())
         found = _proved(pencil, vectors[:, chosen], (bottom, top), tolerance)
         notes = (f"{met} eigenvalues meet a bound to {tolerance:g} of it and are taken as inside.",) if met else ()
-        return replace(found, notes=(*found.notes, *notes))
+        first = start + int(((values > bottom) & (values < low - below)).sum())
+        return replace(found, metrics={**found.metrics, "first_number": float(first)}, notes=(*found.notes, *notes))
 
 
 def _spacing(pencil: ShiftedPencil) -> float:

@@ -18,6 +18,7 @@ from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.map_colours import CENTRAL, DIVERGING, central_ends
 from surfexp.tasks.map_row import MapRow
 from surfexp.tasks.mode_alignment import ModeAlignment
+from surfexp.tasks.mode_numbers import mode_numbers
 from surfexp.tasks.null_maps import NullMaps
 from surfexp.tasks.parcel_table import Parcels
 from surfexp.tasks.tested_maps import PermutationTest
@@ -66,13 +67,14 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
     if isinstance(result, DenoisedMap):
         return _before_and_after(result, surface)
     if isinstance(result, ModeAlignment):
-        return [_mode(f"aligned mode {k}", one) for k, one in enumerate(result.vectors.T[:MODES], 1)]
+        shown = zip(mode_numbers(result), result.vectors.T[:MODES], strict=False)
+        return [_mode(f"aligned mode {k}", one) for k, one in shown]
     if not isinstance(result, EigenSystem):
         return [MapRow("", [result])]
-    n = len(surface.mesh.vertices)
+    n, numbers = len(surface.mesh.vertices), mode_numbers(result)
     first = int((result.values < 1e-9 * result.values[-1]).sum()) if len(result.values) > 1 else 0
     shown = range(first, min(len(result.values), first + MODES)) or range(1)
-    names = (f"mode {k + (result.boundary == 'dirichlet')}, λ = {result.values[k]:.4g}" for k in shown)
+    names = (f"mode {numbers[k]}, λ = {result.values[k]:.4g}" for k in shown)
     return [_mode(name, result.vectors[:n, k]) for name, k in zip(names, shown, strict=True)]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.mesh.given_arrays import map_array
 from surfexp.tasks.denoised_map import DenoisedMap
+from surfexp.tasks.mode_numbers import mode_numbers
 
 
 def maps_of(what: Any) -> dict[str, Floats]:
@@ -26,7 +27,8 @@ def maps_of(what: Any) -> dict[str, Floats]:
     if isinstance(named := getattr(what, "maps", None), Mapping):
         return dict(named)
     if hasattr(what, "vectors"):
-        return {f"mode {k}": np.ascontiguousarray(column) for k, column in enumerate(what.vectors.T)}
+        columns = zip(mode_numbers(what), what.vectors.T, strict=True)
+        return {f"mode {k}": np.ascontiguousarray(column) for k, column in columns}
     if is_dataclass(what) and not hasattr(what, "values"):
         held = [one.name for one in fields(what) if isinstance(getattr(what, one.name), np.ndarray)]
         rest = f", such as one of its {', '.join(held)}" if held else ""

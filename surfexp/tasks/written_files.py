@@ -53,10 +53,10 @@ def write(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> No
     path : path
     what : Surface, mesh, (n,) or (n, c) array, dict of name to array, LabelMap, Skeleton, or a result
         A mesh is a `TriangleMesh`, (vertices, faces), or an object that has both. Eigenpairs become maps "mode 0", "mode 1",
-        ... and in .npz `values`, `vectors`, `residuals`; aligned modes likewise, and in .npz `vectors`, `basis`. A skeleton is
-        .graphml, .swc where it is a tree, .vtk or .ply. A result is a denoised map, a segmentation, ... A test is all its maps
-        by name. Parcels are their table in .csv, and the map of their means elsewhere. The common space of two Reeb graphs is
-        .npz.
+        ... and in .npz `values`, `vectors`, `residuals`; aligned modes "mode 1", ... and in .npz `vectors`, `basis`. Mode 0 is
+        the constant one, and modes of a window keep their numbers. A skeleton is .graphml, .swc where it is a tree, .vtk or
+        .ply. A result is a denoised map, a segmentation, ... A test is all its maps by name. Parcels are their table in .csv, and
+        the map of their means elsewhere. The common space of two Reeb graphs is .npz.
     surface : Surface or mesh, optional
         Of the maps: for formats that hold the geometry beside them (.ply, .vtk, .vtp), and for the hemisphere. Where it was
         repaired, maps alone are written on the vertices of its file. Of a skeleton: an .swc file names its unit.

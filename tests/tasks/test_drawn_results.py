@@ -14,6 +14,7 @@ import pytest
 import surfexp as sx
 from surfexp.mesh.label_map import LabelMap
 from surfexp.tasks.map_rows import rows_of_maps
+from surfexp.tasks.maps_of_result import maps_of
 from surfexp.tasks.risk_curve import RiskCurve
 from surfexp.tasks.shown import shown_surfaces
 
@@ -171,3 +172,27 @@ def test_a_curve_is_a_drawing_too_and_a_refusal_names_what_it_can_be(tmp_path: P
     curve.save(tmp_path / "curve.svg")
     with pytest.raises(ValueError, match=r"no \.pdf drawing: choose \.png or \.svg"):
         curve.save(tmp_path / "curve.pdf")
+
+
+def test_modes_have_one_number_in_pictures_and_files_whatever_they_begin_with() -> None:
+    disk = sx.shape("disk")
+    window, held = sx.Spectrum(BODY).between(3.0, 20.0), sx.eigenpairs(disk, 4, boundary="dirichlet")
+    below = int((sx.eigenpairs(BODY, 30).values < 3.0).sum())
+    aligned = sx.align(BODY, BODY, 3)
+    for surface, modes, first in (
+        (BODY, window, below),
+        (disk, held, 1),
+        (BODY, aligned, 1),
+        (BODY, sx.eigenpairs(BODY, 3), 0),
+    ):
+        assert list(maps_of(modes))[:2] == [f"mode {first}", f"mode {first + 1}"]
+        title = shown_surfaces(surface, modes)[0][0].title.removeprefix("aligned ")
+        assert title.split(",")[0] == f"mode {first or 1}"  # a constant is not drawn
+
+
+def test_a_window_without_eigenvalues_is_shown_and_not_drawn(tmp_path: Path) -> None:
+    empty = sx.Spectrum(sx.shape("icosphere", levels=3)).between(3.0, 5.0)
+    assert repr(empty).startswith("<EigenSystem: 0 eigenpairs, complete yes")
+    for use in (lambda: sx.plot(BODY, empty), lambda: sx.write(tmp_path / "modes.func.gii", empty)):
+        with pytest.raises(ValueError, match="there are 0 eigenpairs, a picture or a map needs 1: take wider bounds"):
+            use()
