@@ -145,6 +145,7 @@ class Spectrum:
         Returns
         -------
         EigenSystem
+            With no pair where there is none; `metrics["first_number"]` counts the eigenvalues below the first.
 
         Raises
         ------
