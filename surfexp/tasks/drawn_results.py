@@ -67,8 +67,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
     if isinstance(result, DenoisedMap):
         return _before_and_after(result, surface)
     if isinstance(result, ModeAlignment):
-        shown = zip(mode_numbers(result), result.vectors.T[:MODES], strict=False)
-        return [_mode(f"aligned mode {k}", one) for k, one in shown]
+        aligned = zip(mode_numbers(result), result.vectors.T[:MODES], strict=False)
+        return [_mode(f"aligned mode {k}", one) for k, one in aligned]
     if not isinstance(result, EigenSystem):
         return [MapRow("", [result])]
     n, numbers = len(surface.mesh.vertices), mode_numbers(result)
