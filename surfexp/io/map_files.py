@@ -36,11 +36,12 @@ KNOWN = (
 LABEL_FILES = (".annot", ".label.gii", ".label.gii.gz", ".dlabel.nii")
 
 
-def read_maps(path: Path | str, hemisphere: str = "", count: int = 0) -> dict[str, Floats]:
+def read_maps(path: Path | str, hemisphere: str = "", count: int = 0, columns: int = 1) -> dict[str, Floats]:
     """Return the maps of a file by name, each (n,) or (n, c), NaN where nothing is known.
 
     GIFTI, CIFTI-2 (one hemisphere), .mgh/.mgz, .npy/.npz, text, FreeSurfer curvature (lh.sulc). A file with one unnamed map
     names it after itself. GIFTI may list the vertices of its rows, and then leave out the last ones of a surface with `count`.
+    Of a text `columns` may be known.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def read_maps(path: Path | str, hemisphere: str = "", count: int = 0) -> dict[st
         if not 0 < path.stat().st_size <= LARGEST_BYTES:
             raise ValueError(f"it has {path.stat().st_size} bytes, 1 to {LARGEST_BYTES} are readable")
         check_declared_sizes(path)
-        maps = _read(path, hemisphere, count)
+        maps = read_table(path, columns) if path.suffix.lower() in TEXT else _read(path, hemisphere, count)
         check_map_shapes(maps)
     if len(maps) == 1 and next(iter(maps)) in UNNAMED:
         return {name_of_map(path): next(iter(maps.values()))}
@@ -71,8 +72,6 @@ def _read(path: Path, hemisphere: str, count: int) -> dict[str, Floats]:
     suffix = path.suffix.lower()
     if suffix in (".npy", ".npz"):
         return {name: real_array(array, f"array {name!r}") for name, array in read_rows(path, hemisphere).items()}
-    if suffix in TEXT:
-        return read_table(path)
     if is_cifti(path):
         return read_cifti_maps(path, hemisphere)
     if is_gifti(path):

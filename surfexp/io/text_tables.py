@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,17 +18,23 @@ DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+([eE][-+]?\d+)?")
 UNKNOWN = {"", "na", "n/a", "nan", "null", "none"}
 
 
-def read_table(path: Path) -> dict[str, Floats]:
+def read_table(path: Path, columns: int = 1) -> dict[str, Floats]:
     """Return the columns of a text table by name, or by number from 1; empty cells and NA are NaN.
 
     Columns are separated by white space, in .csv by commas, semicolons or tabs: what makes most cells of its first rows. A first
-    column that has no name and counts the rows from 0, the index that pandas writes, is no map.
+    column that has no name and counts the rows from 0 or 1, as the index of pandas and the row names of R do, is no map.
+
+    Parameters
+    ----------
+    path : Path
+    columns : int
+        How many are known to be there: of two, 1,0 is no number with a decimal comma.
 
     Raises
     ------
     ValueError
-        If a row has another length than the first, or a cell is no number, or has a decimal comma; or if columns have no names
-        and all rows may be one number with a decimal comma.
+        If a row has another length than the first, or a cell is no number, or has a decimal comma; if columns have no names
+        and all rows may be one number with a decimal comma; or if the first alone has no name and does not count the rows.
     """
     lines = [line.strip(" ") for line in path.read_text("utf-8-sig").splitlines() if not line.lstrip().startswith("#")]
     if path.suffix.lower() == ".csv":
@@ -36,12 +43,13 @@ def read_table(path: Path) -> dict[str, Floats]:
         rows = list(filter(None, map(str.split, lines)))
     if not rows:
         raise ValueError("it holds no row")
-    if all(map(DECIMAL_COMMA.fullmatch, filter(None, lines))):
+    if columns < 2 and all(map(DECIMAL_COMMA.fullmatch, filter(None, lines))):
         raise ValueError(
             f"its rows, as {next(filter(None, lines))!r}, are one number with a decimal comma or two: name the columns in a "
             "first row, or write decimal points"
         )
-    header = [] if all(map(_is_number, rows[0])) else [uncell(word.strip()) for word in rows.pop(0)]
+    counted = _are_counted(rows)
+    header = [] if all(map(_is_number, rows[0])) and not counted else [uncell(word.strip()) for word in rows.pop(0)]
     width = len(header) or len(rows[0])
     for number, row in enumerate(rows, 1 + bool(header)):
         if len(row) != width:
@@ -51,12 +59,21 @@ def read_table(path: Path) -> dict[str, Floats]:
                 decimal = ", with a decimal point" if _is_number(word.replace(",", ".", 1)) else ""
                 raise ValueError(f"row {number} has the cell {word[:20]!r}, a number is needed{decimal}")
     values = np.array([list(map(_number, row)) for row in rows], dtype=np.float64).reshape(len(rows), width)
-    if header and not header[0] and width > 1 and np.array_equal(values[:, 0], np.arange(len(values))):
+    if counted:
         header, values, width = header[1:], values[:, 1:], width - 1
+    elif header and not header[0] and any(header):
+        raise ValueError("its first column has no name and does not count the rows: name it, or leave it out")
     names = header or [f"map {k + 1}" for k in range(width)]
     if len(set(names)) < len(names):
         raise ValueError(f"two columns have the name {next(name for name in names if names.count(name) > 1)!r}")
     return {name: real_array(values[:, k].copy(), f"column {name!r}") for k, name in enumerate(names)}
+
+
+def _are_counted(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether the first column has no name and counts the rows from 0 or 1, so that the others have names."""
+    top, *words = (row[0].strip() for row in rows)
+    counts = ([str(k) for k in range(first, first + len(words))] for first in (0, 1))
+    return not top and len(rows[0]) > 1 and len(words) > 0 and words in counts
 
 
 def write_table(path: Path, maps: dict[str, Floats]) -> None:

@@ -377,6 +377,7 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
         "2,53\n-3,1\n": "its rows, as '2,53', are one number with a decimal comma or two: name the columns",
         "+2,5e-3\n0,1\n": "write decimal points",
         "2,5;1,5\n2,5;1,5\n": "the cell '5;1', a number is needed$",
+        ",a\n1,2\n0,3\n": "its first column has no name and does not count the rows: name it",
     }
     for text, words in cases.items():
         (tmp_path / "a.csv").write_text(text)
@@ -387,6 +388,15 @@ def test_text_tables_say_what_is_wrong(tmp_path: Path) -> None:
     for text in ("a,b\n1,0\n0,1\n", "1,0.0\n0,1\n", "1,-1\n1,1\n", "1, 0\n0, 1\n", "1;0\n0;1\n", "1\t0\n"):
         (tmp_path / "a.csv").write_text(text)
         assert len(read_maps(tmp_path / "a.csv")) == 2
+
+
+@pytest.mark.parametrize("first", [0, 1])
+@pytest.mark.parametrize("names", [("x",), ("0", "1"), ("V1", "V2")])
+def test_what_counts_the_rows_is_no_map(tmp_path: Path, first: int, names: tuple[str, ...]) -> None:
+    rows = [["", *names], *([str(k), *["0.5"] * len(names)] for k in range(first, first + 3))]
+    (tmp_path / "a.csv").write_text("\n".join(map(",".join, rows)))
+    found = read_maps(tmp_path / "a.csv")
+    assert tuple(found) == names and all(values.tolist() == [0.5] * 3 for values in found.values())
 
 
 @pytest.mark.parametrize("between", [",", ";", "\t"])
