@@ -59,10 +59,14 @@ def certificate_of(target: Path) -> Path:
 
 
 class Inputs(dict[str, str]):
-    """The files that went into a result, by path, each with the SHA-256 of its bytes when it was added: before it is read."""
+    """The files that went into a result, by path, each with the SHA-256 of its bytes when it was added: before it is read.
+
+    `results` are the files that are to be written.
+    """
 
     def __init__(self, *paths: Path | str) -> None:
         super().__init__()
+        self.results: set[Path] = set()
         for path in paths:
             self.add(path)
 
@@ -72,17 +76,21 @@ class Inputs(dict[str, str]):
             self[str(path)] = _sha256(Path(path))
 
     def refuse_to_overwrite(self, target: Path) -> None:
-        """Refuse a result whose file, or whose certificate, is one of the inputs.
+        """Refuse a result whose file, or whose certificate, is one of the inputs, or whose file is that of another result.
 
         Raises
         ------
         ValueError
             Naming it.
         """
+        place = target.resolve()
+        if place in self.results:
+            raise ValueError(f"{target} is the file of two results: give each its own")
+        self.results.add(place)
         for written in (target, certificate_of(target)):
             for path in self:
                 if written.exists() and written.samefile(path):
-                    raise ValueError(f"--to {target} would overwrite the input {path}: give another file")
+                    raise ValueError(f"{target} would overwrite the input {path}: give another file")
 
 
 def _sha256(path: Path) -> str:

@@ -8,7 +8,7 @@ import click
 
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import ready
+from surfexp.commands.surface_arguments import files_made, ready
 from surfexp.commands.terminal import echo
 
 DEFECTIVE = 2
@@ -68,7 +68,7 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
 
     from surfexp.tasks.repairing import repair as task
     from surfexp.tasks.stored_surface import stored_surface
-    from surfexp.tasks.written_files import places, written
+    from surfexp.tasks.written_files import written
     from surfexp.tasks.written_targets import check_surface_target
 
     files = Inputs(file)
@@ -82,8 +82,9 @@ def repair(file: str, largest_component: bool, renumber: bool, hemisphere: str |
         target, "repair", {"largest_component": largest_component, "renumber": renumber}, files, facts, changes
     )
     echo("\n".join(f"repaired: {change}" for change in changes) or f"{file}: nothing to repair")
-    made = " and ".join(map(str, places(target, surface)))
-    echo(f"{made}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})")
+    echo(
+        f"{files_made(target, surface)}: {len(mesh.vertices)} vertices, {len(mesh.faces)} faces (certificate: {proof.name})"
+    )
     loose = len(mesh.vertices) - len(np.unique(mesh.faces))
     if loose:
         echo(f"{loose} vertices have no face and keep their numbers: --renumber drops them.")

@@ -10,7 +10,7 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, shown_labels
-from surfexp.commands.surface_arguments import opened, ready_map, surface_options
+from surfexp.commands.surface_arguments import files_made, has_room_for_names, opened, ready_map, surface_options
 from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 
@@ -36,7 +36,6 @@ def parcels(path: str, map_name: str, labels: str, means: Path | None, target: P
     from surfexp.commands.certificate import write_certificate
     from surfexp.io.map_files import side_by_side
     from surfexp.io.map_shapes import scalar_channels
-    from surfexp.io.written_maps import holds_names
     from surfexp.tasks.parcellation import parcels as task
     from surfexp.tasks.written_files import written
 
@@ -56,9 +55,11 @@ def parcels(path: str, map_name: str, labels: str, means: Path | None, target: P
     write_columns(target, found.table())
     notes = found.notes
     if means is not None:
-        notes += written(means, found.named("mean") if holds_names(means) else {"mean": found.values}, surface)
+        notes += written(means, found.named("mean") if has_room_for_names(means) else {"mean": found.values}, surface)
     facts = {"parcels": len(found.names), "area": float(found.areas.sum())}
     write_certificate(target, "means by area", {"labels": labels}, files, facts, notes)
     for note in notes:
         echo(note, err=True)
-    echo(f"{target}: {len(found.names)} parcels of area {facts['area']:.4g}")
+    echo(f"{target}: {len(found.names)} parcels of area {facts['area']:.4g} (certificate: {target.name}.json)")
+    if means is not None:
+        echo(f"{files_made(means, found.values, surface)}: the mean of each parcel")

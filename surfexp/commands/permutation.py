@@ -122,8 +122,6 @@ def test(
     ready_map(target, files, surface, values, count=8)
     ready_table(table, files, "--table")
     ready_table(regions, files, "--regions")
-    if table is not None and table == regions:
-        raise ValueError(f"--table and --regions are both {table}: give two files")
     started = time.perf_counter()
     with progress_line("test") as progress:
         found = permutation_test(
@@ -141,13 +139,13 @@ def test(
 def _of_design(design: str | None, contrast: str | None, files: Inputs) -> dict[str, Any]:
     """The matrix of a file and the numbers of the contrast."""
     asked: dict[str, Any] = {}
+    if contrast is not None:
+        asked["contrast"] = [number(word, "--contrast") for word in contrast.split(",")]
     if design is not None:
         from surfexp.io.map_files import read_maps, side_by_side
 
         files.add(design)
-        asked["design"] = side_by_side(read_maps(design), design)
-    if contrast is not None:
-        asked["contrast"] = [number(word, "--contrast") for word in contrast.split(",")]
+        asked["design"] = side_by_side(read_maps(design, columns=len(asked.get("contrast", [0]))), design)
     return asked
 
 

@@ -123,9 +123,14 @@ def opened(
     path: str, mask: str | None, maps: tuple[str, ...], unit: str, hemisphere: str | None, repair: bool
 ) -> tuple[Surface, Inputs]:
     """Return the surface that the arguments describe, and the files that went into it."""
-    named = dict(item.partition("=")[::2] for item in maps)
-    if "" in named.values():
-        raise ValueError(f"--map {next(name for name in named if not named[name])}: write NAME=FILE")
+    named: dict[str, str] = {}
+    for item in maps:
+        name, _, file = item.partition("=")
+        if not (name and file):
+            raise ValueError(f"--map {item}: write NAME=FILE")
+        if name in named:
+            raise ValueError(f"--map {item}: {name!r} is {named[name]} already, give it another name")
+        named[name] = file
     pair = both_of(path)
     if isinstance(pair, str):
         files = Inputs(path, *named.values(), *([file_of(mask)] if mask else []))
@@ -164,18 +169,31 @@ def named_as(maps: dict[str, Floats], values: Floats, target: Path) -> dict[str,
     """
     import numpy as np
 
-    from surfexp.io.writing import WITH_MAPS
-    from surfexp.io.written_maps import holds_names
     from surfexp.mesh.vertex_colours import NAMES
 
     if len(maps) == 1 and next(iter(maps)) in NAMES and target.suffix.lower() == ".ply" and np.isfinite(values).all():
         values = np.clip(np.rint(values), 0.0, 255.0)
         echo(f"{target.name}: colours are rounded to whole numbers from 0 to 255, as viewers read them.", err=True)
-    if len(maps) == 1 or not (holds_names(target) or target.suffix.lower() in WITH_MAPS):
+    if len(maps) == 1 or not has_room_for_names(target):
         return {next(iter(maps)): values}
     widths = [1 if part.ndim == 1 else part.shape[1] for part in maps.values()]
     parts = np.split(values, np.cumsum(widths)[:-1], axis=1)
     return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in zip(maps, parts, strict=True)}
+
+
+def has_room_for_names(target: Path) -> bool:
+    """Whether the format of a file holds several maps by name, alone or beside their surface."""
+    from surfexp.io.writing import WITH_MAPS
+    from surfexp.io.written_maps import holds_names
+
+    return holds_names(target) or target.suffix.lower() in WITH_MAPS
+
+
+def files_made(target: Path, result: Any, surface: Surface | None = None) -> str:
+    """Name the files that a result was written to."""
+    from surfexp.tasks.written_files import places
+
+    return " and ".join(map(str, places(target, result, surface)))
 
 
 def ready(target: Path, files: Inputs, check: Callable[..., None], **wanted: Any) -> None:
@@ -263,7 +281,7 @@ def finish(
     int
         3 where the certificate says that something did not converge or is not proved complete, else 0.
     """
-    from surfexp.tasks.written_files import places, written
+    from surfexp.tasks.written_files import written
 
     notes = (*notes, *written(target, result, surface))
     if read is None:
@@ -273,8 +291,7 @@ def finish(
     for note in notes:
         echo(note, err=True)
     shown = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if value is not None)
-    made = places(target, result, surface)
-    echo(f"{' and '.join(map(str, made))}: {shown} (certificate: {certificate.name})")
+    echo(f"{files_made(target, result, surface)}: {shown} (certificate: {certificate.name})")
     return NOT_CERTIFIED if facts.get("converged") is False or facts.get("complete") is False else 0
 
 

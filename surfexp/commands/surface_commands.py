@@ -12,6 +12,7 @@ from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import shown_borders, shown_map
 from surfexp.commands.surface_arguments import (
+    files_made,
     finish,
     label_of_bar,
     notes_of,
@@ -217,7 +218,7 @@ def convert(path: str, result: Path | None, target: Path | None, **given: Any) -
     surface, files = opened(path, **given)
     ready(targets[0], files, check_surface_target, hemisphere=surface.hemisphere)
     notes = written(targets[0], surface)
-    echo(f"{targets[0]}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
+    echo(f"{files_made(targets[0], surface)}: {len(surface.mesh.vertices)} vertices, {len(surface.mesh.faces)} faces")
     for note in notes:
         echo(note)
 

@@ -62,6 +62,7 @@ def test_modes_nulls_and_pictures_of_both(folder: Path, capsys: pytest.CaptureFi
     assert main(["plot", PAIR, MAP, "--borders", "lh.parts.annot+rh.parts.annot", "--to", "z.png"]) == 0
     assert main(["segment", PAIR, MAP, "--to", "parts.label.gii"]) == 0 and Path("rh.parts.label.gii").is_file()
     assert main(["convert", PAIR, "copy.surf.gii"]) == 0 and Path("lh.copy.surf.gii").is_file()
+    assert "lh.copy.surf.gii and rh.copy.surf.gii: 324 vertices" in capsys.readouterr().out
 
 
 def test_a_test_of_groups_on_both(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -46,8 +46,10 @@ def test_the_table_and_the_map_are_those_of_the_function(folder: Path, capsys: p
     assert set(json.loads(Path("z.csv.json").read_text())["inputs"]) == {"lh.white.ply", "lh.z.npy", "lh.parts.annot"}
 
 
-def test_both_hemispheres_stand_in_one_table(folder: Path) -> None:
+def test_both_hemispheres_stand_in_one_table(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     call = ["parcels", "lh.white.ply+rh.white.ply", "lh.z.npy+rh.z.npy", "lh.parts.annot+rh.parts.annot"]
+    assert main([*call, "--to", "z.csv", "--means", "means.mgh"]) == 0
+    assert "lh.means.mgh and rh.means.mgh: the mean of each parcel" in capsys.readouterr().out
     assert main([*call, "--to", "z.csv", "--means", "means.dscalar.nii"]) == 0
     assert [row["hemisphere"] for row in rows("z.csv")] == ["left", "left", "right", "right"]
     assert len(read_maps("means.dscalar.nii", "right")["mean"]) == len(HEIGHT)
@@ -60,6 +62,8 @@ def test_maps_of_one_file_keep_their_names(folder: Path) -> None:
     (south, north) = rows("z.csv")
     assert float(north["mean sulc"]) == 2.0 * float(north["mean thickness"]) > 0.0 and "median thickness" in south
     assert [*read_maps("means.npz")] == ["mean thickness", "mean sulc"]
+    assert main([*call, "--means", "means.ply"]) == 0
+    assert [*sx.read("means.ply").scalars] == ["mean_thickness", "mean_sulc"]
     # a format without names holds them in their order
     assert main([*call, "--means", "means.npy"]) == 0
     np.testing.assert_array_equal(np.load("means.npy")[:, 1], read_maps("means.npz")["mean sulc"])
@@ -73,6 +77,7 @@ def test_maps_of_one_file_keep_their_names(folder: Path) -> None:
         (["lh.parts.annot", "--to", "lh.z.npy"], "choose .csv"),
         (["rh.parts.annot", "--to", "z.csv"], "is of the right hemisphere"),
         (["lh.parts.annot", "--to", "z.csv", "--means", "rh.z.npy"], "named as the right hemisphere"),
+        (["lh.parts.annot", "--to", "z.csv", "--means", "./z.csv"], "z.csv is the file of two results"),
     ],
 )
 def test_mistakes_are_told_in_one_line(

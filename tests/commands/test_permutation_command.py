@@ -130,7 +130,8 @@ def test_words_stand_alone_in_the_names_of_maps(words: list[str], maps: list[str
 
 def test_one_file_of_all_maps_and_a_design(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     design = np.column_stack([np.array(SEX) == "f", np.array(SEX) == "m"]).astype(float)
-    np.savetxt("design.csv", design, delimiter=",")
+    # without names 1,0 could be one number, but the contrast has two
+    np.savetxt("design.csv", design, delimiter=",", fmt="%d")
     call = ["test", "ball.surf.gii", "all.npz", "--design", "design.csv", "--contrast", "1,-1", "--one-sided"]
     assert main([*call, "--to", "found.func.gii"]) == 0
     wanted = sx.permutation_test(BALL, DATA, design, [1, -1], two_sided=False)
@@ -177,14 +178,15 @@ def test_blocks_flip_as_wholes_where_they_are_asked_to(folder: Path, capsys: pyt
         (["--labels", "all.npz"], "is no file of labels"),
         (["--table", "clusters.xls"], "choose .csv"),
         (["--table", "subjects.csv/a.csv"], "subjects.csv"),
-        (["--table", "a.csv", "--regions", "a.csv"], "--table and --regions are both a.csv: give two files"),
+        (["--table", "a.csv", "--regions", "a.csv"], "a.csv is the file of two results: give each its own"),
+        (["--table", "found.csv", "--to", "found.csv"], "found.csv is the file of two results: give each its own"),
         (["--regions", "regions.xls"], "--regions regions.xls has an unknown format, choose .csv"),
     ],
 )
 def test_mistakes_are_told_in_one_line(
     folder: Path, arguments: list[str], line: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["test", "ball.surf.gii", "all.npz", *arguments, "--to", "found.npz"]) == 2
+    assert main(["test", "ball.surf.gii", "all.npz", "--to", "found.npz", *arguments]) == 2
     said = capsys.readouterr().err.strip()
     assert line in said and len(said.splitlines()) == 1 and not Path("found.npz").exists()
 

@@ -236,6 +236,16 @@ def test_convert_takes_its_target_as_every_other_command(
         )
 
 
+def test_each_attached_map_has_a_name_of_its_own(working_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sx.write("a.ply", sx.shape("icosphere", levels=1))
+    sx.write("z.csv", np.arange(42.0))
+    attached = ["--map", "h=z.csv", "--map"]
+    assert main(["convert", "a.ply", "b.ply", *attached, "second=z.csv"]) == 0
+    for wrong, line in (("h=other.csv", "'h' is z.csv already"), ("z.csv", "NAME=FILE"), ("=z.csv", "NAME=FILE")):
+        assert main(["convert", "a.ply", "c.ply", *attached, wrong]) == 2
+        assert line in capsys.readouterr().err and not Path("c.ply").exists()
+
+
 def test_a_surface_where_a_map_is_needed_is_called_one(
     working_folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
