@@ -55,7 +55,7 @@ def fingerprint(sources: tuple[str, ...], count: int, tolerance: float, strict: 
     if not table.columns:
         raise ValueError(f"none of {len(table.refused)} surfaces can be read: nothing is written")
     table.save(target)
-    taken = [source for name, source in known.items() if name in table.columns]
+    taken = [source for name, source in known.items() if name not in table.refused]
     used = {str(source if isinstance(source, Path) else source.file) for source in taken}
     facts = {
         "complete": all(table.complete.values()),

@@ -18,6 +18,7 @@ def schema(target: Path | None) -> None:
 
     It holds the plugins of the folder you work in.
     """
+    from surfexp.io.replacing import replacing
     from surfexp.lab.experiment.schema import schema_of
     from surfexp.lab.registry import registry
     from surfexp.lab.registry.loading import load_all
@@ -28,6 +29,7 @@ def schema(target: Path | None) -> None:
         echo(text)
         return
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(text + "\n", encoding="utf-8")
+    with replacing(target) as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
     echo(f"written: {target}; an editor finds it by a first line in the experiment's file:")
     echo(f"# yaml-language-server: $schema={target.resolve().as_uri()}")

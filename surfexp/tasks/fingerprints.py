@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
@@ -17,6 +18,7 @@ from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.contract.arrays import Floats
 from surfexp.contract.summary import Summarized, Summary
 from surfexp.io.csv_cells import cells
+from surfexp.io.replacing import replacing
 from surfexp.mesh.given_numbers import real_number, whole_number
 from surfexp.mesh.surface import Surface
 from surfexp.spectrum.lowest_pairs import lowest_pairs
@@ -92,7 +94,7 @@ class Fingerprints(Summarized):
         ----------
         path : path
         """
-        with Path(path).open("w", newline="", encoding="utf-8") as stream:
+        with replacing(Path(path)) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow(["", *cells(self.columns)])
             for name, values in self.rows().items():
@@ -114,7 +116,8 @@ def fingerprint(
     sources : path, or list of paths
         Surface files; FreeSurfer subjects or folders of them, of which surf/{lh,rh}.{white,pial} are taken, called
         lh-white-2d and so on as in BrainPrint, and the structures in mri/aseg.mgz as closed surfaces; other folders, of
-        which every surface file is taken, and the structures in ``*_desc-aseg_dseg.nii.gz`` of BIDS derivatives.
+        which every surface file is taken, and the structures in ``*_desc-aseg_dseg.nii.gz`` of BIDS derivatives. A file
+        of both hemispheres has a column for each.
     count : int
         How many eigenvalues, ev0 = 0 among them.
     repair : bool
@@ -155,12 +158,28 @@ def fingerprint(
     for done, (name, source) in enumerate(found.items()):
         if progress is not None:
             progress(name, done, len(found))
-        try:
+        with _or_left_out(table, name):
             surface = read(source, repair=repair) if isinstance(source, Path) else _closed(source, volume_of)
-            _measure(table, name, surface, count, tolerance)
-        except (ValueError, OSError) as error:
-            table.refused[name] = " ".join(str(error).split())
+            for column, side in _columns(name, surface).items():
+                with _or_left_out(table, column):
+                    _measure(table, column, side, count, tolerance)
     return table
+
+
+@contextmanager
+def _or_left_out(table: Fingerprints, name: str) -> Iterator[None]:
+    """Note why a column cannot be made, and go on."""
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        table.refused[name] = " ".join(str(error).split())
+
+
+def _columns(name: str, surface: Surface) -> dict[str, Surface]:
+    """The surface of each column: two where one file is both hemispheres."""
+    if surface.right is None:
+        return {name: surface}
+    return {f"{name} {side}": one for side, one in surface.hemispheres().items()}
 
 
 def _closed(structure: LabelledStructure, volume_of: Callable[[Path], LabelVolume]) -> Surface:

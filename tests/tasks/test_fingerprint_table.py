@@ -189,3 +189,15 @@ def test_surfaces_of_one_name_are_told_apart_by_their_paths(subjects: Path) -> N
     sx.write(beside, BODY)
     sx.write(subjects / "ball.off", BODY)
     assert list(structures([beside, files[0], subjects / "ball.off", beside])) == ["ball.ply", "lh.white", "ball.off"]
+
+
+def test_a_file_of_both_hemispheres_has_a_column_for_each(working_folder: Path) -> None:
+    for side, scale in (("lh", 1.0), ("rh", 2.0)):
+        sx.write(f"{side}.ply", Surface(TriangleMesh(scale * BODY.mesh.vertices, BODY.mesh.faces)))
+    sx.write("both.npz", sx.read(left="lh.ply", right="rh.ply"))
+    assert main(["fingerprint", "both.npz", "lh.ply+rh.ply", "-k", "3", "--to", "table.csv"]) == 0
+    header, rows = read("table.csv")
+    assert header == ["both left", "both right", "lh", "rh"]
+    for name, numbers in rows.items():
+        assert name == "residual" or numbers[:2] == numbers[2:]
+    assert set(json.loads(Path("table.csv.json").read_text())["inputs"]) == {"both.npz", "lh.ply", "rh.ply"}
