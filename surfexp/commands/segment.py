@@ -10,7 +10,7 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
-from surfexp.commands.surface_arguments import finish, opened, progress_line, ready, result_option, surface_options
+from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
 
 
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))
@@ -36,11 +36,10 @@ def segment(
     its size: gyri and sulci of a cortex.
     """
     from surfexp.tasks.segmentation import segment as task
-    from surfexp.tasks.written_targets import check_target
 
     surface, files = opened(path, **given)
     values = map_of(surface, map_name, files, given["hemisphere"]) if map_name else None
-    ready(target, files, check_target, hemisphere=surface.hemisphere, labels=True)
+    ready_map(target, files, surface, *([] if values is None else [values]), labels=True)
     started = time.perf_counter()
     with progress_line("segment") as progress:
         parts = task(surface, values, smoothness=smoothness, tolerance=tolerance, threads=threads, progress=progress)

@@ -133,3 +133,12 @@ def test_what_did_not_converge_ends_with_3_and_is_kept(folder: Path, monkeypatch
     monkeypatch.setattr(denoising, "denoise", stopped)
     assert main([*COMMANDS["denoise"], "--to", "clean.csv"]) == 3
     assert Path("clean.csv").exists()
+
+
+def test_regions_of_a_part_are_refused_where_nothing_says_outside(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("surfexp.tasks.segmentation.segment", None)
+    np.save("mask.npy", BALL.mesh.vertices[:, 2] > 0)
+    assert main([*COMMANDS["segment"], "--mask", "mask.npy", "--to", "lh.regions"]) == 2
+    assert "lh.regions cannot say NaN" in capsys.readouterr().err
