@@ -23,9 +23,18 @@ def tell(error: Exception) -> int:
     if os.environ.get("SURFEXP_DEBUG"):
         traceback.print_exc()
     lack = lacking(error)
-    for line in (lack or str(error)).splitlines():
+    for line in (lack or _said(error)).splitlines():
         print(f"surfexp: {error_line(line)}", file=sys.stderr)
     return 1 if lack or isinstance(error, StageFailure) else 2
+
+
+def _said(error: Exception) -> str:
+    """What an error says; of one of the system the file and the reason, without its number."""
+    if not (isinstance(error, OSError) and error.strerror and error.filename):
+        return str(error)
+    # a file is written in a folder of its own beside its place
+    place, written, _ = str(error.filename).partition("/.writing-")
+    return f"{place}{' cannot be written to' if written else ''}: {error.strerror.lower()}"
 
 
 def lacking(error: BaseException) -> str:

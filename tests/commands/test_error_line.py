@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from surfexp.commands.command_line import main
-from surfexp.commands.error_line import LONGEST_LINE, error_line
+from surfexp.commands.error_line import LONGEST_LINE, error_line, tell
 from surfexp.lab.errors import unknown
 
 
@@ -73,3 +73,15 @@ def test_a_mistake_is_one_line_whatever_parses_it(
     assert main(arguments) == 2
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1 and len(told) <= 300
+
+
+@pytest.mark.parametrize(
+    ("file", "line"),
+    [
+        ("/proc/.writing-k3v9/x.npz", "/proc cannot be written to: no such file or directory"),
+        ("/data/a.csv", "/data/a.csv: no such file or directory"),
+    ],
+)
+def test_a_refusal_of_the_system_has_no_number(file: str, line: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert tell(FileNotFoundError(2, "No such file or directory", file)) == 2
+    assert capsys.readouterr().err == f"surfexp: {line}\n"
