@@ -26,7 +26,8 @@ class RepeatedRow:
     count, solved : int
         How many there are, and how many of them converged and did not fail: these are averaged.
     metrics : dict of str to (float, float)
-        Mean and standard deviation (with count - 1) of each metric; the deviation of a single value is NaN.
+        Mean and standard deviation (with count - 1) of each metric; the deviation of a single value, and of
+        infinite ones, is NaN.
     known : dict of str to int
         Over how many rows: those that are solved and whose metric is a number.
     """
@@ -86,9 +87,16 @@ def _repeated(rows: Sequence[Row], columns: Sequence[str], names: Sequence[str])
         name: [value for row in solved if (value := row.number(name)) is not None and not math.isnan(value)]
         for name in names
     }
-    metrics = {name: (fmean(some), stdev(some) if len(some) > 1 else math.nan) for name, some in values.items() if some}
+    metrics = {name: _moments(some) for name, some in values.items() if some}
     parameters = {name: rows[0].parameters[name] for name in columns if name in rows[0].parameters}
     return RepeatedRow(parameters, len(rows), len(solved), metrics, {name: len(values[name]) for name in metrics})
+
+
+def _moments(values: Sequence[float]) -> tuple[float, float]:
+    """Mean and standard deviation; one value has no deviation, nor have infinite ones."""
+    if not all(map(math.isfinite, values)):
+        return sum(values) / len(values), math.nan
+    return fmean(values), stdev(values) if len(values) > 1 else math.nan
 
 
 def mean_and_deviation(mean: float, deviation: float) -> str:

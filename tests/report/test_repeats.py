@@ -70,6 +70,13 @@ def test_a_mean_over_fewer_rows_says_over_how_many() -> None:
     assert r"$23.0 \pm 1.0$ (of 3)" in latex_table(group(rows), "t", "surfexp run")
 
 
+@pytest.mark.parametrize(("ends", "shown"), [((math.inf, 1.0), "∞"), ((math.inf, -math.inf), "–")])
+def test_infinite_values_have_no_deviation(ends: tuple[float, float], shown: str) -> None:
+    rows = [row(k, "fem", 1.0 + k, psnr=value) for k, value in enumerate((*ends, 20.0))]
+    found = repeats_of(group(rows))
+    assert found is not None and found.rows[0].shown("psnr") == shown
+
+
 @given(st.floats(-1e12, 1e12, allow_subnormal=False), st.floats(1e-12, 1e12, allow_subnormal=False, exclude_min=True))
 def test_the_shown_mean_is_within_a_twentieth_of_the_deviation_or_four_digits(mean: float, deviation: float) -> None:
     shown = mean_and_deviation(mean, deviation).replace("\u202f", "").replace("−", "-")
