@@ -118,7 +118,17 @@ def test_what_failed_ranks_last_and_has_no_number() -> None:
     assert found.methods == ("m0", "m1") and found.failed == (0, 5)
     assert found.mean.tolist() == [2.0, 1.0]
     assert found.difference[1] == -1.0  # over the two that both solved
-    assert found.p[0, 1] == 1.0  # two pairs are no test
+    # of the signs of seven ranks, five of which are tied above the other two: every one counted
+    sizes = np.array([5.0] * 5 + [1.5] * 2)
+    every = np.array([abs(sizes @ signs) for signs in itertools.product([-1.0, 1.0], repeat=7)])
+    assert found.p[0, 1] == pytest.approx(np.mean(every >= 5 * 5.0 - 2 * 1.5 - 1e-9))
+
+
+def test_a_method_that_failed_everywhere_is_told_apart_from_one_that_did_not() -> None:
+    table = np.column_stack([1.0 + np.arange(10.0), np.full(10, np.nan), np.full(10, np.nan)])
+    found = rank(trials(table))
+    assert found.p[0, 1] == found.p[0, 2] == pytest.approx(3 * 2.0**-9) and found.p[1, 2] == 1.0
+    assert found.groups == ((1, 2),)
 
 
 @settings(max_examples=60, deadline=None)

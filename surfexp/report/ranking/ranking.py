@@ -21,8 +21,6 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.report.ranking.trials import Trials
 
 LEVEL = 0.05
-# as many complete pairs as a signed-rank test needs
-FEWEST_PAIRS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +40,8 @@ class Ranking:
         Mean of method less best over the problems that both solved, and its 95 % interval by Student's t; NaN for the
         best itself and for under two such problems.
     p : (m, m) float64
-        Of the signed-rank tests, corrected by Holm; 1 where fewer than six problems were solved by both.
+        Of the signed-rank tests, corrected by Holm. A problem that one of two methods did not solve has the largest of
+        their differences; 1 where all are zero.
     p_friedman : float
         That all methods rank alike; NaN for two methods.
     groups : tuple of (int, int)
@@ -94,7 +93,7 @@ def rank(trials: Trials) -> Ranking:
     each = stats.rankdata(worst, axis=1)
     order = np.argsort(each.mean(axis=0), kind="stable")
     each, values = each[:, order], trials.values[:, order]
-    p = _pairwise(values)
+    p = _pairwise(worst[:, order])
     p_friedman = _friedman(each) if len(order) > 2 else float("nan")
     solved = [column[~np.isnan(column)] for column in values.T]
     mean = np.array([column.mean() if len(column) else np.nan for column in solved])
@@ -110,20 +109,20 @@ def _friedman(ranks: Floats) -> float:
     return 1.0 if not np.ptp(ranks, axis=1).any() else float(stats.friedmanchisquare(*ranks.T).pvalue)
 
 
-def _pairwise(values: Floats) -> Floats:
+def _pairwise(worst: Floats) -> Floats:
     from statsmodels.stats.multitest import multipletests
 
-    pairs = list(combinations(range(values.shape[1]), 2))
-    corrected = multipletests([_signed_ranks(values[:, i] - values[:, j]) for i, j in pairs], method="holm")[1]
-    p = np.ones((values.shape[1],) * 2)
+    pairs = list(combinations(range(worst.shape[1]), 2))
+    corrected = multipletests([_signed_ranks(worst[:, i], worst[:, j]) for i, j in pairs], method="holm")[1]
+    p = np.ones((worst.shape[1],) * 2)
     for (i, j), value in zip(pairs, corrected, strict=True):
         p[i, j] = p[j, i] = value
     return p
 
 
-def _signed_ranks(differences: Floats) -> float:
-    found = differences[~np.isnan(differences)]
-    return float(stats.wilcoxon(found).pvalue) if len(found) >= FEWEST_PAIRS and found.any() else 1.0
+def _signed_ranks(one: Floats, other: Floats) -> float:
+    differ = one != other
+    return float(stats.wilcoxon(one[differ] - other[differ]).pvalue) if differ.any() else 1.0
 
 
 def _interval(differences: Floats) -> tuple[float, float, float]:

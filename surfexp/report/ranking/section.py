@@ -43,10 +43,8 @@ class RankingShown:
 
 
 def write_rankings(group: Comparison, folder: Path, number: int) -> list[RankingShown]:
-    """Draw the rankings of a table, of its first metrics, into a folder; pictures of an earlier state are removed."""
+    """Draw the rankings of a table, of its first metrics, into a folder."""
     found = trials_of(group)[:RANKINGS_SHOWN]
-    for file in folder.glob(f"ranking-{number}-*.svg"):
-        file.unlink()
     if not found:
         return []
     # the tests and the plots are imported where a table has something to rank
@@ -69,7 +67,8 @@ def _lines(ranking: Ranking) -> list[RankingLine]:
     for k, (method, failed) in enumerate(zip(ranking.methods, ranking.failed, strict=True)):
         mean = mean_and_deviation(float(ranking.mean[k]), float(ranking.deviation[k]))
         low, high = (format_number(float(end[k])) for end in (ranking.low, ranking.high))
-        difference = f"{format_number(float(ranking.difference[k]))} ({low} to {high})" if k else "–"
+        known = ranking.difference[k] == ranking.difference[k]
+        difference = f"{format_number(float(ranking.difference[k]))} ({low} to {high})" if known else "–"
         p = format_number(float(ranking.p[0, k])) if k else "–"
         lines.append(RankingLine(method, f"{ranking.ranks[k]:.2f}", mean, difference, p, count - failed))
     return lines
