@@ -35,7 +35,7 @@ class Verdict:
         """The numbers between which the quantity is asked to lie, for a table."""
         if self.claim.interval is None:
             return "–"
-        low, high = (None if end is None else f"{end:g}" for end in self.claim.interval)
+        low, high = (None if end is None else f"{end:.15g}" for end in self.claim.interval)
         if low is None or high is None:
             return f"≥ {low}" if low is not None else f"≤ {high}"
         return low if low == high else f"{low} to {high}"
@@ -50,10 +50,18 @@ class Verdict:
         """The quantity with the range of the rows for a table."""
         if self.low is None or self.high is None:
             return "–"
-        spread = f"{format_number(self.low)} to {format_number(self.high)}"
+        low, high = map(self._shown, (self.low, self.high))
+        spread = f"{low} to {high}"
         if self.value is None:
-            return spread if self.high > self.low else format_number(self.low)
-        return format_number(self.value) + (f" ({spread})" if self.high > self.low else "")
+            return spread if self.high > self.low else low
+        return self._shown(self.value) + (f" ({spread})" if self.high > self.low else "")
+
+    def _shown(self, value: float) -> str:
+        """A number as tables show it, with more digits where rounding would move it over an end of the interval."""
+        between = self.claim.interval
+        shown = (format_number(value), *(f"{value:.{digits}g}" for digits in range(5, 17)))
+        right = (text for text in shown if between is None or _same_side(between, value, text))
+        return next(right, repr(value))
 
     @property
     def why(self) -> str:
@@ -103,6 +111,10 @@ def _judge(claim: Claim, rows: Sequence[Row]) -> Verdict:
     holds = any(inside) if claim.summary == "any" else all(inside)
     words = ("reproduced", claim.otherwise or "not reproduced") if claim.published else ("holds", "does not hold")
     return Verdict(claim, words[0] if holds else words[1], len(chosen), value, low, high)
+
+
+def _same_side(between: Interval, value: float, shown: str) -> bool:
+    return _lies_inside(between, float(shown.replace("\u202f", ""))) == _lies_inside(between, value)
 
 
 def _lies_inside(between: Interval, number: float) -> bool:

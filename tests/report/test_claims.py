@@ -252,3 +252,22 @@ def measured() -> Row:
 )  # fmt: skip
 def test_the_ends_belong_to_the_interval(between: list[float | None], energy: float, word: str) -> None:
     assert judged(CLAIM | PUBLISHED | {"between": between}, row("a", energy=energy)).verdict == word
+
+
+@pytest.mark.parametrize(
+    ("between", "energy", "shown"),
+    [
+        ([0.95, None], 0.949996, "0.949996"),
+        ([None, 1e-6], 1.04e-6, "1.04e-06"),
+        ([None, 1e-6], 9.96e-7, "1.0e-6"),  # inside, as it is shown
+        ([0.95, None], 0.95004, "0.95"),
+        ([None, 20000.0], 20000.4, "20000.4"),
+    ],
+)
+def test_no_number_is_rounded_over_an_end_of_its_interval(between: list[float], energy: float, shown: str) -> None:
+    found = judged(CLAIM | {"between": between}, row("a", energy=energy))
+    assert found.number == shown
+    low, high = (None if end is None else float(end) for end in between)
+    inside = (low is None or float(shown) >= low) and (high is None or float(shown) <= high)
+    assert inside == (found.verdict == "holds")
+    assert judged(CLAIM | {"between": [1234567.5, None]}, row("a", energy=1.0)).interval == "≥ 1234567.5"
