@@ -8,10 +8,9 @@ import numpy as np
 
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.figures.figure import Figure
-from surfexp.records.table import Comparison
+from surfexp.records.table import Comparison, short_name
 
-GAP, TOLERANCE, SEED = "relative_gap", "solver.tolerance", "image.seed"
-CAPTION = "Measured, one run for each tolerance; the band is the range over the seeds of the noise."
+GAP, METHOD, TOLERANCE = "relative_gap", "solver.name", "solver.tolerance"
 
 
 def cost_figure(group: Comparison) -> Figure | None:
@@ -20,7 +19,7 @@ def cost_figure(group: Comparison) -> Figure | None:
     for row in group.rows:
         gap = row.metrics.get(GAP, 0.0)
         if gap > 0.0 and row.seconds and not row.failure and TOLERANCE in row.parameters:
-            places = found.setdefault(str(row.parameters["solver.name"]).replace("_", " "), {})
+            places = found.setdefault(str(row.parameters[METHOD]).replace("_", " "), {})
             places.setdefault(str(row.parameters[TOLERANCE]), []).append((gap, row.seconds))
     if len(found) < 2 or sum(len(places) > 1 for places in found.values()) < 2:
         return None
@@ -29,4 +28,11 @@ def cost_figure(group: Comparison) -> Figure | None:
         gaps = np.array([median(gap for gap, _ in runs) for runs in places.values()])
         clocks = [[clock for _, clock in runs] for runs in places.values()]
         methods[name] = gaps, np.array([(median(times), min(times), max(times)) for times in clocks])
-    return cost_plot(methods, title="Cost", caption=CAPTION)
+    return cost_plot(methods, title="Cost", caption=_caption(group))
+
+
+def _caption(group: Comparison) -> str:
+    """What else differs between the rows of a method and tolerance is what its band goes over."""
+    others = [short_name(name) for name in group.varying if name not in (METHOD, TOLERANCE)]
+    band = f"; of each the median, and as a band the range, over {', '.join(others)}" if others else ""
+    return f"Measured, one run for each row{band}."

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -56,3 +58,19 @@ def test_the_faster_method_is_drawn_to_the_left() -> None:
 def test_what_cannot_be_drawn_is_refused(methods: dict[str, tuple[np.ndarray, np.ndarray]]) -> None:
     with pytest.raises(ValueError, match=r"at least 1|positive"):
         cost_plot(methods)
+
+
+def test_a_caption_names_what_a_band_goes_over() -> None:
+    plain = cost_figure(comparison(*TWO_METHODS))
+    rows = [
+        *TWO_METHODS,
+        *(row(r.parameters["solver.name"], r.parameters["solver.tolerance"], 9.0) for r in TWO_METHODS),
+    ]
+    rows = [
+        replace(one, parameters={**one.parameters, "surface.levels": number // len(TWO_METHODS)})
+        for number, one in enumerate(rows)
+    ]
+    banded = cost_figure(comparison(*rows))
+    assert plain is not None and banded is not None
+    assert "band" not in plain.caption and "seed" not in plain.caption
+    assert "over surface levels" in banded.caption and "seed" not in banded.caption
