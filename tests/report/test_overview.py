@@ -46,7 +46,9 @@ def test_experiments_are_listed_the_newest_first(tmp_path: Path) -> None:
     page = overview(tmp_path)
     assert page.index('href="./new/report.html"') < page.index('href="./old/report.html"')
     assert "2 rows" in page and "1 row did not converge" in page and "2 holds" in page and "1 does not hold" in page
-    assert 'src="./new/figures/error-1a2b3c4d.png"' in page
+    assert (
+        'src="./new/figures/error-1a2b3c4d.png"' in page and "3 s of processor time without the stages before" in page
+    )
 
 
 def test_what_a_summary_says_is_text(tmp_path: Path) -> None:
