@@ -45,7 +45,8 @@ def diff(first: str, second: str, results: Path) -> int:
     console.print(numbers)
     for row in (one, other):
         if row.failure:
-            console.print(f"{row.leaf.key[:8]} failed: {row.failure}", soft_wrap=True)
+            why = f": {row.failure}" if row.failure != row.state else ""
+            console.print(f"{row.leaf.key[:8]} {row.state}{why}", soft_wrap=True)
     return 0
 
 

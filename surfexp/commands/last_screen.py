@@ -123,8 +123,7 @@ def _columns(group: Comparison, width: int) -> tuple[list[Column], list[str], in
     """The columns that fit, options before numbers, what is the same in all rows, and how many numbers do not fit."""
     options = {short_name(name): [word(row.parameters.get(name, "–")) for row in group.rows] for name in group.varying}
     numbers = {
-        name.replace("_", " "): [format_number(row.metrics.get(name)) for row in group.rows]
-        for name in group.metric_names
+        name.replace("_", " "): [format_number(row.number(name)) for row in group.rows] for name in group.metric_names
     }
     said, kept, dropped = [], list[Column](), 0
     if states := _states(group.rows):
@@ -145,7 +144,7 @@ def _columns(group: Comparison, width: int) -> tuple[list[Column], list[str], in
 
 
 def _states(rows: Sequence[Row]) -> list[str]:
-    states = ["failed" if row.failure else "not converged" if row.limited else "" for row in rows]
+    states = [row.state for row in rows]
     return states if any(states) else []
 
 
@@ -185,5 +184,5 @@ def _printed(group: Comparison, head: list[Text], columns: Sequence[Column], dro
     for place in range(count):
         row = group.rows[place]
         text = (" " * GAP).join(column.line(column.cells[place]) for column in columns).rstrip()
-        lines.append(Text(text, "red" if row.failure or row.limited else ""))
+        lines.append(Text(text, "red" if row.state else ""))
     return [*lines, Text("")]

@@ -84,7 +84,7 @@ def _table(group: Comparison, rows: Sequence[Row], notes: dict[str, int]) -> Tab
         table.add_column(escape(short_name(name)), overflow="fold")
     for name in group.metric_names:
         table.add_column(escape(name.replace("_", " ")), justify="right")
-    limited = any(row.limited or row.failure for row in group.rows)
+    limited = any(row.state for row in group.rows)
     if limited:
         table.add_column("state", style="red", no_wrap=True)
     for row in rows:
@@ -92,8 +92,7 @@ def _table(group: Comparison, rows: Sequence[Row], notes: dict[str, int]) -> Tab
         numbers = [format_number(row.number(name)) for name in group.metric_names]
         if marks := [str(notes[note]) for note in notes if note in row.notes]:
             values = [f"{values[0]} \\[{','.join(marks)}]", *values[1:]] if values else values
-        state = "failed" if row.failure else "not converged" if row.limited else ""
-        table.add_row(*values, *numbers, *([state] if limited else []), style="red" if state else None)
+        table.add_row(*values, *numbers, *([row.state] if limited else []), style="red" if row.state else None)
     return table
 
 

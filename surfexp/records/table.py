@@ -14,8 +14,9 @@ from typing import Any
 
 from surfexp.contract.metric import Metric, find_metric
 from surfexp.io.csv_cells import cells
-from surfexp.lab.plan.outcome import outcome
+from surfexp.lab.plan.outcome import NOT_COMPUTED, outcome
 from surfexp.lab.plan.plan import Leaf, Plan
+from surfexp.records.failures import cause
 
 # numbers of a note that tables write with spaces between thousands
 LONG = re.compile(r"(?<![\w./,-])-?(?:\d{5,6}(?:\.\d+)?|\d{4}\.\d+)(?!\.?\w)")
@@ -64,6 +65,13 @@ class Row:
     def limited(self) -> bool:
         """Whether it did not converge: it ended before its tolerance, or the means of its regions still moved."""
         return self.metrics.get("converged", 1.0) == 0.0
+
+    @property
+    def state(self) -> str:
+        """What stands beside a row that failed, was not computed or did not converge; empty beside others."""
+        if self.failure:
+            return self.failure if self.failure == NOT_COMPUTED else "failed"
+        return "not converged" if self.limited else ""
 
 
 @dataclass
@@ -181,8 +189,11 @@ class Comparison:
 
 
 def rows_of(plan: Plan, results: Path) -> list[Row]:
-    """Read what is known of every leaf: numbers from its result, seconds and failure from its event."""
-    rows, known = [], dict[str, frozenset[str]]()
+    """Read what is known of every leaf: numbers from its result, seconds and failure from its event.
+
+    One that was not computed since a stage before it failed has the failure of that stage.
+    """
+    rows, known, causes = [], dict[str, frozenset[str]](), dict[str, str]()
     for leaf in plan.leaves:
         found = outcome(results, plan.nodes[leaf.key])
         parameters = {key: value for key, value in plan.parameters(leaf).items() if value is not None}
@@ -190,7 +201,10 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
         node = plan.nodes[leaf.key]
         measured = node.kind == "statistic" and "solver" in node.inputs
         notes = [as_in_tables(note) for note in found.notes]
-        rows.append(Row(leaf, parameters, found.metrics, found.seconds, notes, found.failure, data, measured))
+        failure = found.failure
+        if failure == NOT_COMPUTED:
+            failure = cause(plan, results, leaf.key, causes) or failure
+        rows.append(Row(leaf, parameters, found.metrics, found.seconds, notes, failure, data, measured))
     return rows
 
 
@@ -232,7 +246,7 @@ def to_csv(rows: list[Row]) -> str:
         values = [row.parameters.get(name, "") for name in parameters]
         numbers = [repr(row.metrics[name]) if name in row.metrics else "" for name in metrics]
         comparison = row.leaf.settings["comparison"]
-        seconds = "" if row.seconds is None else f"{row.seconds:.3f}"
+        seconds = "" if row.seconds is None else repr(round(row.seconds, 6))
         writer.writerow(cells([comparison, row.leaf.key, *values, *numbers, seconds, row.failure]))
     return sink.getvalue()
 

@@ -71,13 +71,13 @@ def latex_table(group: Comparison, label: str, command: str) -> str:
     """
     repeats = repeats_of(group)
     names, metrics = repeats.columns if repeats else group.varying, group.metric_names
-    state = not repeats and any(row.limited or row.failure for row in group.rows)
+    state = not repeats and any(row.state for row in group.rows)
     head = [escape(short_name(name)) for name in names]
     head += [_heading(group, name) for name in metrics] + (["state"] if state else []) + (["$n$"] if repeats else [])
     rows = _repeated_cells(repeats) if repeats else [_cells(group, row, state) for row in group.rows]
     columns = "l" * len(names) + "r" * (len(metrics) + bool(repeats)) + ("l" if state else "")
     lines = [
-        f"% {command}",
+        f"% {' '.join(command.split())}",
         r"\begin{table}",
         r"  \centering",
         f"  \\caption{{{escape(_sentence(group))}}}",
@@ -132,7 +132,7 @@ def _cells(group: Comparison, row: Row, state: bool) -> list[str]:
     for name in group.metric_names:
         text = number(row.number(name))
         cells.append(f"\\boldmath{text}" if group.is_best(row, name) else text)
-    return cells + (["failed" if row.failure else "not converged" if row.limited else ""] if state else [])
+    return cells + ([row.state] if state else [])
 
 
 def _repeated_cells(repeats: Repeats) -> list[list[str]]:

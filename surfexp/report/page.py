@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import re
 import sys
-from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from surfexp.lab.errors import DamagedResult
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
+from surfexp.records.failures import failures_of
 from surfexp.records.origin import read_origin
 from surfexp.records.run_names import run_names
 from surfexp.records.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
@@ -34,6 +35,7 @@ from surfexp.report.verdict import judge
 
 # beyond these a browser becomes slow; the page says what it leaves out and where it stands
 ROWS_SHOWN, FIGURES_SHOWN, FAILURES_SHOWN = 500, 200, 20
+WRITTEN = re.compile(r"([\w-]+-[0-9a-f]{8}|cost-\d+|ranking-\d+-\d+|search)\.(png|svg)")
 
 
 @dataclass(frozen=True)
@@ -75,16 +77,19 @@ def write_report(plan: Plan, results: Path) -> Path:
     searched = write_search(search, folder / "figures") if search else ""
     data = as_data(table.encode(), "text/csv;charset=utf-8")
     names = [*_names_of_pictures(sections), *([searched] if searched else [])]
+    everything = [item["file"] for section in sections for item in section.figures]
+    _remove_others(folder / "figures", {*names, *everything})
     stills, size = addresses(folder / "figures", names, len(data) + sum(map(len, turning.payload.arrays.values())))
     page = render(
         "report.html.j2",
         settings=plan.settings,
         sections=sections,
         figures_shown=FIGURES_SHOWN,
-        failures=Counter(row.failure for row in rows if row.failure).most_common(),
+        failures=failures_of(plan, results, rows).most_common(),
         failures_shown=FAILURES_SHOWN,
         verdicts=verdicts,
         stages=len(plan.stored),
+        done=sum(store.is_done(results, node.kind, node.key) for node in plan.stored),
         requested=plan.requested,
         made=made,
         search=search,
@@ -97,8 +102,7 @@ def write_report(plan: Plan, results: Path) -> Path:
         runs=run_names(results / "mlflow.db", plan.settings.experiment),
     )
     store.write_text(folder / "report.html", page)
-    pictures = [item["file"] for section in sections for item in section.figures]
-    write_summary(folder, plan, rows, verdicts, pictures[0] if pictures else "")
+    write_summary(folder, plan, rows, verdicts, everything[0] if everything else "")
     try:
         write_overview(results)
     except Exception as error:  # whatever lies in other folders: this report is written
@@ -128,7 +132,7 @@ def _section(group: Comparison, drawn: Mapping[str, dict[str, Any]], folder: Pat
 
 
 def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[str, Any]]:
-    """Encode every finished figure of a plan; names tell what they show, files of other plans are removed."""
+    """Encode every finished figure of a plan; names tell what they show."""
     wanted: dict[str, dict[str, Any]] = {}
     folder.mkdir(parents=True, exist_ok=True)
     for leaf in plan.leaves:
@@ -144,11 +148,14 @@ def _write_figures(plan: Plan, results: Path, folder: Path) -> dict[str, dict[st
             if not (folder / name).exists():
                 _write(figure, folder / name)
             wanted[key] = {"key": key, **_shown(name, figure)}
-    names = {item["file"] for item in wanted.values()}
-    for file in [*folder.glob("*.png"), *folder.glob(f"*-{8 * '[0-9a-f]'}.svg")]:
-        if file.name not in names:
-            file.unlink()
     return wanted
+
+
+def _remove_others(folder: Path, names: Collection[str]) -> None:
+    """Remove pictures that reports of other plans wrote; files of a person stay."""
+    for file in folder.iterdir():
+        if WRITTEN.fullmatch(file.name) and file.name not in names:
+            file.unlink()
 
 
 def _costs_of(group: Comparison, folder: Path, number: int) -> list[dict[str, Any]]:

@@ -130,3 +130,10 @@ def test_a_metric_that_is_no_number_is_named_with_its_rows() -> None:
     sink = io.StringIO()
     print_tables([group], Console(file=sink, width=200))
     assert sink.getvalue().splitlines().count(said) == 1
+
+
+def test_seconds_that_were_asked_for_are_shown() -> None:
+    leaf = Leaf("key", "configuration", {"target": "solver"})
+    rows = [Row(leaf, {"solver.name": name}, {"gap": 1.0 + k}, 0.25 + k) for k, name in enumerate("ab")]
+    text = "\n".join(printed([Comparison("Clocks", "", rows, ["seconds", "gap"])], 100, 40))
+    assert "seconds" in text and "0.25" in text and "1.25" in text

@@ -83,3 +83,8 @@ def test_seconds_that_were_asked_for_are_a_column() -> None:
     rows = [Row(leaf, {"solver.name": name}, {"gap": 1.0}, seconds) for name, seconds in (("a", 0.25), ("b", None))]
     text = latex_table(Comparison("Clocks", "", rows, ["seconds", "gap"]), "t", "surfexp run")
     assert r"solver & seconds (s) & gap \\" in text and r"a & $0.25$ & $1$ \\" in text and r"b & -- & $1$ \\" in text
+
+
+def test_a_command_of_several_lines_stays_a_comment() -> None:
+    text = latex_table(comparison(), "t", "surfexp run title='two\n\\input{secret}'")
+    assert text.startswith("% surfexp run title='two \\input{secret}'\n\\begin{table}")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,17 @@ from surfexp.contract.metric import Metric, find_metric
 from surfexp.figures.figure import whole
 from surfexp.lab.plan.outcome import Outcome, event_path
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row, as_in_tables, comparisons, format_number, number_notes, rows_of
+from surfexp.lab.store import store
+from surfexp.records.table import (
+    Comparison,
+    Row,
+    as_in_tables,
+    comparisons,
+    format_number,
+    number_notes,
+    rows_of,
+    to_csv,
+)
 from surfexp.report import page
 from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report
@@ -251,6 +263,64 @@ def test_seconds_that_were_asked_for_are_one_column_in_their_place(tmp_path: Pat
         plan = plan_of(sweep(3) | {"columns": columns}, tmp_path)
         fill(plan, tmp_path)
         html = (write_report(plan, tmp_path) / "report.html").read_text()
-        head = re.findall(r'<th class="number" data-name="([^"]*)"', html.partition("</thead>")[0])
+        head = re.findall(r'<th scope="col" class="number" data-name="([^"]*)"', html.partition("</thead>")[0])
         assert head == (["seconds", "relative gap"] if len(columns) == 2 else ["relative gap", "seconds"])
         assert html.count('<td class="number" data-name="seconds"') == 3
+
+
+def _lose(results: Path, plan: Any, kind: str, failure: str) -> None:
+    """Leave no result of a kind, and of the solvers when it is one before them; its event says why."""
+    for node in plan.stored:
+        if node.kind == kind or (node.kind in ("solver", "figure") and kind == "operator"):
+            shutil.rmtree(store.result_folder(results, node.kind, node.key))
+            event_path(results, node.kind, node.key).unlink()
+            if node.kind == kind:
+                store.write_text(event_path(results, kind, node.key), json.dumps({"failure": failure}))
+
+
+def test_a_row_that_a_stage_before_it_stopped_says_which_and_why(tmp_path: Path) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    fill(plan, tmp_path)
+    _lose(tmp_path, plan, "operator", "MemoryError: 3 GB")
+    assert {(row.failure, row.state) for row in rows_of(plan, tmp_path)} == {
+        ("operator/fem: MemoryError: 3 GB", "failed")
+    }
+    html = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "<b>Failed:</b> operator/fem: MemoryError: 3 GB (3 times)" in html and html.count("<b>failed</b>") == 3
+    assert f"· {len(plan.stored) - 4} of {len(plan.stored)} stages computed" in html
+
+
+def test_a_row_that_was_never_run_is_not_called_failed(tmp_path: Path) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    html = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "<b>Without a result:</b> not computed (3 times)" in html and html.count("<b>not computed</b>") == 3
+    assert "ailed" not in html.partition("<main>")[2]
+
+
+def test_a_figure_that_failed_is_named(tmp_path: Path) -> None:
+    plan = plan_of({**sweep(3), "figures": [{"name": "denoising"}]}, tmp_path)
+    fill(plan, tmp_path)
+    assert 'role="alert"' not in (write_report(plan, tmp_path) / "report.html").read_text()
+    _lose(tmp_path, plan, "figure", "ValueError: no light")
+    html = (write_report(plan, tmp_path) / "report.html").read_text()
+    assert "figure/denoising: ValueError: no light (3 times)" in html
+
+
+def test_pictures_of_an_earlier_plan_go_and_those_of_a_person_stay(tmp_path: Path) -> None:
+    plan = plan_of({**sweep(3), "figures": [{"name": "denoising"}]}, tmp_path)
+    fill(plan, tmp_path)
+    figures = tmp_path / "synthetic" / "figures"
+    figures.mkdir(parents=True)
+    kept = {"mine.png", "my-drawing.svg", "notes.txt"}
+    gone = {"flow-0123abcd.png", "cost-1.svg", "ranking-3-0.svg", "search.svg", "search.png"}
+    for name in kept | gone:
+        (figures / name).write_text("")
+    write_report(plan, tmp_path)
+    left = {file.name for file in figures.iterdir()}
+    assert not left & gone and kept < left and len(left - kept) == 3
+
+
+def test_seconds_of_a_quick_stage_are_not_zero_in_the_table_of_all_numbers() -> None:
+    leaf = Leaf("key", "configuration", {"target": "solver", "comparison": ""})
+    table = to_csv([Row(leaf, {"solver.name": "a"}, {}, seconds) for seconds in (0.00025, 1234.5, None)])
+    assert [line["seconds"] for line in csv.DictReader(table.splitlines())] == ["0.00025", "1234.5", ""]
