@@ -82,7 +82,7 @@ def test_a_finger_hits_every_control_and_each_has_a_name(one_browser: Browser, a
 @needs_browser
 def test_a_wide_table_keeps_its_first_column(one_browser: Browser, alone: Path) -> None:
     one_browser.open(alone, 700)
-    place = "document.querySelector('table.rows tbody td').getBoundingClientRect().left"
+    place = "document.querySelector('table.rows tbody th').getBoundingClientRect().left"
     scroll = "document.querySelector('.scroll')"
     one_browser.run(f"{scroll}.style.width = '200px'; 0")
     before = one_browser.run(place)

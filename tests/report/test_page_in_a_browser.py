@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from browser import browser
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
 from surfexp.report.page import write_report
@@ -96,7 +97,10 @@ def test_no_number_breaks_on_paper(tmp_path: Path) -> None:
     page = page_of(tmp_path)
     # many columns: each number six times
     wide = re.sub(
-        r'(<td class="number.*?</td>|<th class="number.*?</th>)', 6 * r"\1", page.read_text(), flags=re.DOTALL
+        r'(<td class="number.*?</td>|<th scope="col" class="number.*?</th>)',
+        6 * r"\1",
+        page.read_text(),
+        flags=re.DOTALL,
     )
     page.write_text(wide)
     numbers = set(re.findall(r'<td class="number[^>]*>([\d.e\u202f−-]{4,})', page.read_text()))
@@ -106,3 +110,34 @@ def test_no_number_breaks_on_paper(tmp_path: Path) -> None:
     subprocess.run([BROWSER, *options, f"--print-to-pdf={paper}", page.as_uri()], capture_output=True, timeout=120)
     text = subprocess.run(["pdftotext", "-layout", paper, "-"], capture_output=True, text=True, check=True).stdout
     assert text.count("\n") and not numbers - {*text.split()}
+
+
+def test_a_table_wider_than_the_page_says_how_many_columns_are_hidden(tmp_path: Path) -> None:
+    page, note = page_of(tmp_path), "document.querySelector('.wider')"
+    with browser(tmp_path / "profile") as tab:
+        tab.open(page, 1280)
+        tab.wait(f"{note}.textContent && {note}.hidden")
+        tab.run("document.querySelector('table.rows').style.width = '3000px'")
+        tab.wait(f"!{note}.hidden")
+        beyond = tab.run(
+            "[...document.querySelectorAll('thead th')].filter((head) => head.getBoundingClientRect().right > "
+            "document.querySelector('.scroll').getBoundingClientRect().right).length"
+        )
+        assert beyond > 1 and f"for {beyond} more columns" in tab.run(f"{note}.textContent")
+
+
+def test_every_head_of_every_table_says_what_it_heads(tmp_path: Path) -> None:
+    grid = {"image.seed": list(range(6)), "operator": ["fem", "libigl"]}
+    claims = [{"claim": "small", "quantity": {"all": "rmse"}, "between": [0, 1]}]
+    html = page_of(tmp_path, grid=grid, columns=["rmse"], claims=claims).read_text()
+    assert html.count("<table") == 4  # claims, means, rows, ranks
+    assert html.count("<th ") == html.count('<th scope="col"') + html.count('<th scope="row"') and "<th>" not in html
+    assert html.count('<th scope="row"') == html.count("<tr") - 4
+    assert html.count('<div class="scroll"') == html.count(
+        '<div class="scroll" tabindex="0" role="group" aria-label="Table: '
+    )
+
+
+def test_a_telephone_shows_units_where_there_is_no_head(tmp_path: Path) -> None:
+    html = page_of(tmp_path, columns=["rmse", "seconds"]).read_text()
+    assert html.count('data-name="seconds" data-unit="s"') == html.count('<td class="number" data-name="seconds"')

@@ -54,6 +54,20 @@ for (const table of document.querySelectorAll("table.rows")) {
   tools.append(word, menu, count);
   if (rows.length > 2) table.parentElement.before(tools);
 }
+// a table that is wider than the page says so, and how much of it is hidden
+for (const box of document.querySelectorAll(".scroll")) {
+  const heads = [...box.querySelectorAll("thead th")], note = document.createElement("p");
+  const look = new ResizeObserver(() => {
+    const hidden = heads.filter((head) => head.offsetLeft + head.offsetWidth > box.clientWidth + 1).length;
+    note.hidden = hidden === 0;
+    note.textContent = `Wider than the page: scroll the table sideways for ${hidden} more ${hidden === 1 ? "column" : "columns"}.`;
+  });
+  note.className = "note wider";
+  note.hidden = true;
+  box.before(note);
+  look.observe(box);
+  look.observe(box.firstElementChild);
+}
 // what is folded away on a screen is on paper
 addEventListener("beforeprint", () => {
   for (const part of document.querySelectorAll("details.rows")) part.open = true;
