@@ -141,3 +141,21 @@ def test_every_head_of_every_table_says_what_it_heads(tmp_path: Path) -> None:
 def test_a_telephone_shows_units_where_there_is_no_head(tmp_path: Path) -> None:
     html = page_of(tmp_path, columns=["rmse", "seconds"]).read_text()
     assert html.count('data-name="seconds" data-unit="s"') == html.count('<td class="number" data-name="seconds"')
+
+
+def test_what_a_pointer_is_told_stands_on_the_page_too(tmp_path: Path) -> None:
+    claim = {"claim": "small", "quantity": {"all": "rmse"}, "between": [0, 99], "because": "A `tenth` & more."}
+    html = page_of(tmp_path, columns=["rmse"], claims=[claim]).read_text()
+    text = re.sub(r"<(?!/?code)[^>]*>", " ", html.partition("<main>")[2])  # without attributes
+    assert "why that interval A <code>tenth</code> &amp; more." in text
+    meaning = re.search(r'data-name="rmse" title="([^";]+)', html)
+    assert meaning and f"rmse: {meaning[1]}" in text
+
+
+def test_what_failed_is_red(tmp_path: Path) -> None:
+    plan = plan_of(sweep(3), tmp_path)
+    page = write_report(plan, tmp_path) / "report.html"
+    with browser(tmp_path / "profile") as tab:
+        tab.open(page)
+        colour = "getComputedStyle(document.querySelector('{}')).color"
+        assert tab.run(colour.format(".note.bad")) == tab.run(colour.format("tr.bad"))
