@@ -17,8 +17,9 @@ if TYPE_CHECKING:
     from surfexp.lab.plan.plan import Plan
 
 # what runs make below a results folder, which may hold other files as well
-MADE = ("store/*/*", "store/KEYS", "plans/*.json", "events/*/*", "mlflow.db*", "mlflow-artifacts", "logs/*.snakemake.log",
-        "logs/*/*.log", "logs/*/*.benchmark.tsv", "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
+MADE = ("store/*/*", "store/KEYS", "plans/*.json", "plans/order.txt", "events/*/*", "mlflow.db*", "mlflow-artifacts",
+        "logs/*.snakemake.log", "logs/*/*.log", "logs/*/*.benchmark.tsv",
+        "cache/numba", "cache/finished", "cache/verified.json")  # fmt: skip
 
 
 @click.command(**shown("clean", "", "--older", "--all --yes", cls=click.Command))
@@ -84,8 +85,9 @@ def _without_content(results: Path) -> list[Path]:
 
 def _unplanned(results: Path, older: bool) -> list[Path]:
     """Stored results that no plan names, and older plans if they are not to count."""
-    files = sorted((results / "plans").glob("*.json"), key=lambda file: file.stat().st_mtime)
-    plans = {file: _read(file) for file in files}
+    from surfexp.lab.plan.plan import plans_by_age
+
+    plans = {file: _read(file) for file in plans_by_age(results)}
     latest = {(_experiment(file), _asked(plan)): file for file, plan in plans.items()}
     dropped = set(plans) - set(latest.values()) if older else set[Path]()
     kept = {key for file, plan in plans.items() if file not in dropped for key in plan.nodes}

@@ -86,7 +86,7 @@ def test_plans_of_older_code_are_given_up_where_that_is_asked_for(
     assert all(left(old, tmp_path)) and "--older" in capsys.readouterr().out
     assert main(["clean", "--older", "--yes", "--results", str(tmp_path)]) == 0
     assert "3 entries" in (said := capsys.readouterr().out) and "with plans of synthetic" in said
-    assert all(left(new, tmp_path) + left(other, tmp_path)) and len(list((tmp_path / "plans").iterdir())) == 2
+    assert all(left(new, tmp_path) + left(other, tmp_path)) and len(list((tmp_path / "plans").glob("*.json"))) == 2
     assert left(old, tmp_path).count(False) == len(old.leaves) == 2
 
 

@@ -155,7 +155,7 @@ def test_the_plan_of_a_request_is_remembered(cache: Path) -> None:
     remember(arguments, plan)
     assert remembered(arguments) == plan
     assert remembered([*arguments, "surface.size=2"]) is None
-    (kept,) = (cache / "plans").glob("*/plans/*.json")
+    (kept,) = (cache / "plans").glob("*/plan.json")
     data = bytearray(kept.read_bytes())
     data[len(data) // 2] ^= 1
     kept.write_bytes(bytes(data))

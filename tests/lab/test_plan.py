@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import time
 from dataclasses import replace
@@ -12,7 +13,7 @@ import pytest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan import outcome
-from surfexp.lab.plan.plan import Plan, read_plan, stored_inputs
+from surfexp.lab.plan.plan import Plan, latest_plan, read_plan, stored_inputs
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry import registry
 from surfexp.lab.running import stage
@@ -250,3 +251,16 @@ def test_no_stage_kind_needs_a_plus_on_the_command_line(working_folder: Path) ->
     plans: list[Plan] = []
     launch(["experiment=spectral_mds", "eigensolver=arpack", "operator=fem"], plans.append)
     assert {node.plugin for node in plans[0].nodes.values() if node.kind == "eigensolver"} == {"arpack"}
+
+
+def test_the_latest_plan_is_the_one_written_last_whatever_the_times_of_files(tmp_path: Path) -> None:
+    """They are those of copying where a results folder was copied."""
+    base = {"experiment": "toys", "target": "scalar", "surface": "toy_triangle"}
+    plans = [make_plan([base | {"scalar": {"name": "toy_boundary", "shift": shift}}]) for shift in (1.0, 2.0)]
+    for order in (plans, plans[::-1], [*plans, plans[0]]):
+        for age, plan in enumerate(order):
+            os.utime(plan.write(tmp_path), (100 - age, 100 - age))
+        assert latest_plan(tmp_path, "toys").identity == order[-1].identity
+    (tmp_path / "plans" / "order.txt").unlink()  # of an earlier version
+    os.utime(tmp_path / "plans" / f"toys-{plans[1].identity}.json", (200, 200))
+    assert latest_plan(tmp_path, "toys").identity == plans[1].identity

@@ -63,9 +63,7 @@ def write_contents(plan: Plan, results: Path, folder: Path) -> dict[str, Any]:
     """
     _check_finished(plan, results)
     bundled, rows = _portable(plan, folder), rows_of(plan, results.resolve())
-    written = bundled.write(folder)
-    written.rename(folder / PLAN)
-    written.parent.rmdir()
+    (folder / PLAN).write_text(bundled.text())
     _copy_results(plan, results, folder / PUBLISHED)
     origin = read_origin(results, plan)
     facts = {

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from surfexp.lab.errors import UserError, check_known, unknown
 from surfexp.lab.plan.kinds_of_plans import load_known_kinds
-from surfexp.lab.plan.plan import Node, Plan, latest_plan, read_plan
+from surfexp.lab.plan.plan import Node, Plan, latest_plan, plans_by_age, read_plan
 from surfexp.lab.registry.folders import experiments
 from surfexp.records.tracking import tracking_uri
 
@@ -31,7 +31,7 @@ def find(results: Path, target: str) -> tuple[Plan, str]:
     UserError
         If there is no such thing, or more than one.
     """
-    plans = sorted((results / "plans").glob("*.json"), key=lambda file: file.stat().st_mtime, reverse=True)
+    plans = plans_by_age(results)[::-1]
     names = {file.stem.rpartition("-")[0] for file in plans}
     key = _leaf_of_run(results, target) if RUN.fullmatch(target) and target not in names else target
     if key in names:

@@ -16,6 +16,7 @@ from surfexp.lab.store.kinds import KINDS
 from surfexp.lab.store.store import write_text
 
 Keys = str | list[str] | dict[str, str]
+ORDER = Path("plans", "order.txt")
 
 
 @dataclass(frozen=True)
@@ -81,14 +82,20 @@ class Plan:
         return flat_parameters(self.nodes, leaf.key)
 
     def write(self, results: Path) -> Path:
-        """Write the plan below the results folder: what all share, the leaves, and each stage on a line of its own."""
+        """Write the plan below the results folder, as the latest one there."""
         path = results / "plans" / f"{self.settings.experiment}-{self.identity}.json"
+        write_text(path, self.text())
+        earlier = [file.name for file in plans_by_age(results) if file != path]
+        write_text(results / ORDER, "\n".join([*earlier, path.name]))
+        return path
+
+    def text(self) -> str:
+        """The plan as it is written: what all share, the leaves, and each stage on a line of its own."""
         shown = {id(leaf.settings): leaf.settings for leaf in self.leaves}
         places = {identity: place for place, identity in enumerate(shown)}
         leaves = [vars(leaf) | {"settings": places[id(leaf.settings)]} for leaf in self.leaves]
         head = {"settings": self.settings.model_dump(), "requested": self.requested, "shown": list(shown.values())}
-        write_text(path, "\n".join(map(json.dumps, (head, leaves, *map(vars, self.nodes.values())))))
-        return path
+        return "\n".join(map(json.dumps, (head, leaves, *map(vars, self.nodes.values()))))
 
 
 def read_plan(path: Path, key: str = "") -> Plan:
@@ -161,10 +168,22 @@ def flat_parameters(nodes: Mapping[str, Node], key: str, root: str = "") -> dict
     return flat
 
 
+def plans_by_age(results: Path) -> list[Path]:
+    """Files of the plans of a results folder, in the order in which they were written last.
+
+    That stands in a file, since times of files change when the folder is copied. Plans of earlier versions, which are not in
+    it, come first, by their times.
+    """
+    order = results / ORDER
+    places = {name: place for place, name in enumerate(order.read_text().splitlines())} if order.is_file() else {}
+    plans = (results / "plans").glob("*.json")
+    return sorted(plans, key=lambda file: (places.get(file.name, -1), file.stat().st_mtime_ns))
+
+
 def latest_plan(results: Path, experiment: str) -> Plan:
     """The plan of an experiment that was written last."""
-    found = {file: file.stem.rpartition("-")[0] for file in (results / "plans").glob("*.json")}
+    found = {file: file.stem.rpartition("-")[0] for file in plans_by_age(results)}
     mine = [file for file, name in found.items() if name == experiment]
     if not mine:
         raise unknown(f"finished experiment in {results}", experiment, set(found.values()))
-    return read_plan(max(mine, key=lambda file: file.stat().st_mtime))
+    return read_plan(mine[-1])

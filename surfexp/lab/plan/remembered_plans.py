@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from surfexp.lab.plan.plan import Plan
 
 PLANS_KEPT = 30
+PLAN = "plan.json"
 # what else than its text decides what a configuration file means: resolvers that ask the environment or the clock, other folders
 OPEN = re.compile(rb"\$\{[^}]*:|searchpath")
 
@@ -80,7 +81,7 @@ def remembered(folder: Path | None) -> Plan | None:
         return None
     with contextlib.suppress(Exception):  # a cache that cannot be read is none
         kept = json.loads((folder / "kept.json").read_text())
-        file = folder / "plans" / kept["name"]
+        file = folder / PLAN
         if _sha256(file) != kept["digest"]:
             return None
         plan = read_plan(file)
@@ -101,8 +102,9 @@ def remember(folder: Path | None, plan: Plan) -> None:
         for old in [folder, *others[: max(0, len(others) - PLANS_KEPT + 1)]]:
             shutil.rmtree(old, ignore_errors=True)
         folder.mkdir(mode=0o700)
-        file = plan.write(folder)
-        kept = {"name": file.name, "digest": _sha256(file), **_read_by(plan)}
+        file = folder / PLAN
+        file.write_text(plan.text())
+        kept = {"digest": _sha256(file), **_read_by(plan)}
         (folder / "kept.json").write_text(json.dumps(kept))
 
 
