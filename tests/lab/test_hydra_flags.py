@@ -230,3 +230,33 @@ def test_what_plugins_publish_is_not_copied_whole_and_stays_as_it_is() -> None:
     assert copy.deepcopy({"store": published})["store"] is published
     published.load("solver/primal_dual.yaml").node["tolerance"] = "changed"
     assert published.load("solver/primal_dual.yaml").node["tolerance"] != "changed"
+
+
+@pytest.mark.parametrize(
+    ("file", "asked"),
+    [
+        ("experiment/own.yaml", ["experiment=own"]),
+        ("experiment/own.yaml", ["experiment=own", "surface.levels=2,3"]),
+        ("experiment/own.yaml", ["experiment=own", "--cfg", "job"]),
+        ("surface/ball.yaml", ["experiment=own", "surface=ball"]),
+        ("datasets/balls.yaml", ["experiment=own", "datasets.surface=balls"]),
+    ],
+)
+def test_of_two_files_of_one_name_none_is_taken(
+    file: str, asked: list[str], own: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    first, second = own / "conf" / file, own / "elsewhere" / file
+    for one in (first, second):
+        one.parent.mkdir(exist_ok=True)
+    first.write_text(OWN if "own" in file else "name: icosphere\n")
+    second.write_text(f"# another\n{first.read_text()}")
+    said = told(capsys, "plan", "--config-dir", "elsewhere", *asked, code=2)
+    assert f"{file.removesuffix('.yaml')} is two files" in said and str(second) in said
+    second.write_text(first.read_text())
+    if "datasets" not in file:
+        told(capsys, "plan", "--config-dir", "elsewhere", *asked)
+
+
+def test_an_experiment_of_the_name_of_a_shipped_one_is_refused(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (own / "conf" / "experiment" / "rof_cup.yaml").write_text(OWN)
+    assert "experiment/rof_cup is two files" in told(capsys, "plan", "experiment=rof_cup", code=2)

@@ -25,6 +25,7 @@ from surfexp.lab.composition.shown import shown
 from surfexp.lab.digests import file_digest
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import expand
+from surfexp.lab.experiment.hydra_files import check_one_file
 from surfexp.lab.experiment.hydra_flags import ANSWERED_BY_HYDRA, Words, parted
 from surfexp.lab.experiment.interpolation import resolved
 from surfexp.lab.experiment.own_data import with_datasets, without_foreign_words
@@ -54,8 +55,9 @@ class PlanLauncher(Launcher):
         jobs = []
         for overrides in job_overrides:
             request = request_of([*overrides, *self.removed], self.loader.repository)
-            composed = _plain(self.loader.load_sweep_config(self.config, request.rest))
-            jobs.append(_leaves(composed, overrides, request))
+            composed = self.loader.load_sweep_config(self.config, request.rest)
+            _check_chosen(composed, self.loader.repository)
+            jobs.append(_leaves(_plain(composed), overrides, request))
         plan = make_plan(leaf for leaves in jobs for leaf in leaves)
         type(self).action(plan)
         values = [_objective(make_plan(leaves)) if plan.settings.objective else None for leaves in jobs]
@@ -171,7 +173,14 @@ def _composed(overrides: Sequence[str], words: Words) -> tuple[DictConfig, Reque
     loader: Any = GlobalHydra.instance().config_loader()
     request = request_of(overrides, loader.repository)
     name = words.flags.get("--config-name", "config")
-    return compose(name, overrides=request.rest, return_hydra_config=True), request
+    composed = compose(name, overrides=request.rest, return_hydra_config=True)
+    _check_chosen(composed, loader.repository)
+    return composed, request
+
+
+def _check_chosen(composed: DictConfig, repository: Any) -> None:
+    for group, name in composed.hydra.runtime.choices.items():
+        check_one_file(f"{group}/{name}", repository)
 
 
 def _checked(overrides: Sequence[str], words: Words) -> tuple[DictConfig, Request]:

@@ -14,6 +14,7 @@ from hydra.errors import OverrideParseException
 
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.configuration import Settings
+from surfexp.lab.experiment.hydra_files import loaded
 from surfexp.lab.experiment.interpolation import resolved
 from surfexp.lab.experiment.own_data import dataset_called
 from surfexp.lab.registry import registry
@@ -108,7 +109,7 @@ def request_of(overrides: Sequence[str], repository: Any) -> Request:
 def _plugin(kind: str, name: Any, repository: Any) -> Any:
     if isinstance(name, dict):
         return name
-    found = repository.load_config(f"{kind}/{name}")
+    found = loaded(f"{kind}/{name}", repository)
     if found is None:
         raise registry.unknown_plugin(kind, kind, str(name))
     return resolved(found.config)

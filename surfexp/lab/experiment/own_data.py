@@ -8,6 +8,7 @@ from typing import Any
 
 from surfexp.lab.errors import UserError, check_known, unknown
 from surfexp.lab.experiment.dataset_files import DATASET, is_of_files, items_of_files
+from surfexp.lab.experiment.hydra_files import loaded
 from surfexp.lab.store.kinds import KINDS
 
 DATA = {"surface", "image", "datasets", "variants", "grid"}
@@ -76,7 +77,7 @@ def dataset_called(name: str, repository: Any) -> dict[str, Any]:
 
     from surfexp.lab.experiment.interpolation import resolved
 
-    if found := repository.load_config(f"datasets/{name}"):
+    if found := loaded(f"datasets/{name}", repository):
         return dict(resolved(found.config))
     if is_of_files(name):
         return {DATASET: items_of_files(Path(name))}
