@@ -12,13 +12,16 @@ from surfexp.lab.errors import StageFailure, UserError
 
 # the worst that happened is what the command ends with
 WORST_FIRST = 1, 2, 3
+# as Hydra's grammar has a list of values
+CHOICE = re.compile(r"choice\((.*)\)")
 
 
 def apart(arguments: Sequence[str]) -> list[list[str]]:
     """Return the arguments of each experiment that a list of names asks for; what is no such list stays as it is."""
     for place, text in enumerate(arguments):
         key, _, value = text.partition("=")
-        names = [name.strip() for name in value.split(",")]
+        listed = CHOICE.fullmatch(value.strip())
+        names = [name.strip() for name in (listed[1] if listed else value).split(",")]
         if key == "experiment" and len(names) > 1 and all(map(_can_be_a_name, names)):
             return [
                 [*arguments[:place], f"experiment={name}", *arguments[place + 1 :]] for name in dict.fromkeys(names)
