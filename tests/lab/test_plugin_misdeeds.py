@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import time
 from pathlib import Path
 
@@ -11,6 +12,8 @@ from surfexp.lab.errors import UserError
 from surfexp.lab.registry import catalogue as plugins
 from surfexp.lab.registry import contained, registry
 from surfexp.lab.registry.contained import contained_description
+from surfexp.lab.registry.folders import sources
+from surfexp.lab.registry.imported import imported_from_elsewhere
 
 GOOD = '''"""A plugin that works."""
 
@@ -131,3 +134,26 @@ def test_a_file_that_is_executed_again_defines_nothing_twice(tmp_path: Path, mon
         registry.load_file(tmp_path / name)
     (found,) = registry.PLUGINS.values()
     assert found.file == tmp_path / "well.py"
+
+
+def test_a_catalogue_is_made_again_where_a_file_changed_that_plugins_import_from_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept: dict[str, object] = {}
+    monkeypatch.setattr(plugins._memory, "put", lambda key, value: kept.update({key: value}))
+    monkeypatch.setattr(plugins._memory, "get", kept.get)
+    monkeypatch.syspath_prepend(tmp_path)
+    helper = tmp_path / "helper_from_elsewhere.py"
+    helper.write_text("LEVELS = 2\n")
+    importlib.import_module(helper.stem)
+    imported = imported_from_elsewhere(sources(tmp_path))
+    assert str(helper) in imported and not any("site-packages" in file for file in imported)
+    assert str(helper) not in imported_from_elsewhere([helper])
+    description = {"plugins": [], "kinds": [], "certified": [], "broken": {}, "imported": imported}
+    monkeypatch.setattr(plugins, "contained_description", lambda folder: description | {"contained": []})
+    plugins.catalogue(tmp_path)
+    plugins.remembered.cache_clear()
+    assert plugins.remembered(tmp_path) is not None
+    helper.write_text("LEVELS = 30\n")
+    plugins.remembered.cache_clear()
+    assert plugins.remembered(tmp_path) is None

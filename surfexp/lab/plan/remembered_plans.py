@@ -19,13 +19,7 @@ from typing import TYPE_CHECKING, Any
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.dataset_files import Item, is_of_files, items_of_files
 from surfexp.lab.registry.catalogue import code_state
-from surfexp.lab.registry.folders import (
-    configurations,
-    installed_sources,
-    plugin_files,
-    shipped_plugin_folders,
-    shipped_sources,
-)
+from surfexp.lab.registry.folders import configurations, shipped_plugin_folders, sources
 from surfexp.lab.user_cache import fault, user_cache
 
 if TYPE_CHECKING:
@@ -126,8 +120,8 @@ def _read_by(plan: Plan) -> dict[str, Any]:
     facts = [*map(source_facts, set().union(*closures.values())), *(source_facts(*method) for method in closures)]
     packages = {package for fact in facts for package in fact.data_packages}
     named = {file_named(node.options, name): planned for node in nodes for name, planned in node.files.items()}
-    own, known = {*shipped_plugin_folders()}, {*shipped_sources(), *installed_sources(), *plugin_files(Path.cwd())}
-    methods = [method for method, sources in closures.items() if not own & {*method[0].parents} or sources - known]
+    own, known = {*shipped_plugin_folders()}, {*sources(Path.cwd())}
+    methods = [method for method, reached in closures.items() if not own & {*method[0].parents} or reached - known]
     return {
         "files": named,
         "packages": {package: data_digest(package) for package in packages},

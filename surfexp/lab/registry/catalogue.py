@@ -10,12 +10,8 @@ from typing import Any
 
 from surfexp.lab.registry.contained import contained_description
 from surfexp.lab.registry.described import Described
-from surfexp.lab.registry.folders import (
-    entry_points_of_plugins,
-    installed_sources,
-    plugin_files,
-    shipped_sources,
-)
+from surfexp.lab.registry.folders import entry_points_of_plugins, sources
+from surfexp.lab.registry.imported import file_facts
 from surfexp.lab.registry.installed import installed_state
 from surfexp.lab.store.kinds import stage_kind
 from surfexp.lab.user_cache import Memory
@@ -58,7 +54,12 @@ def catalogue(working_folder: Path) -> Catalogue:
 def remembered(working_folder: Path) -> Catalogue | None:
     """The catalogue of a working folder where it is known without loading a plugin, else None."""
     known = _memory.get(code_state(working_folder))
-    return _read(known) if known else None
+    return _read(known) if known and _unchanged(known["imported"]) else None
+
+
+def _unchanged(imported: dict[str, list[int]]) -> bool:
+    """Whether what plugins import from elsewhere, of which `code_state` does not know, is what it was."""
+    return all(file_facts(Path(file)) == facts for file, facts in imported.items())
 
 
 def _read(known: dict[str, Any]) -> Catalogue:
@@ -70,8 +71,7 @@ def _read(known: dict[str, Any]) -> Catalogue:
 @cache
 def code_state(working_folder: Path) -> str:
     """Digest of the names, sizes and times of all files that plugins are made of, and of what is installed."""
-    files = [*plugin_files(working_folder), *shipped_sources(), *installed_sources()]
-    facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
+    facts = [(str(file), *file_facts(file)) for file in sources(working_folder)]
     points = sorted(f"{point.name}={point.value}" for point in entry_points_of_plugins())
     return hashlib.sha256(repr((facts, points, installed_state())).encode()).hexdigest()
 

@@ -94,9 +94,12 @@ def main(working_folder: Path, faults: dict[str, str]) -> None:
             text = text[os.write(answers, text) :]
 
     from surfexp.lab.registry.description import describe_all
+    from surfexp.lab.registry.folders import sources
+    from surfexp.lab.registry.imported import imported_from_elsewhere
 
     try:
-        answer(description=describe_all(working_folder, faults, lambda file: answer(file=file)))
+        found = describe_all(working_folder, faults, lambda file: answer(file=file))
+        answer(description=found | {"imported": imported_from_elsewhere(sources(working_folder))})
     except UserError as error:
         answer(refused=str(error))
     os._exit(0)  # threads and exit handlers that plugins have started do not matter

@@ -101,6 +101,11 @@ def plugin_files(working_folder: Path) -> list[Path]:
     return [file for file in files if file.name != "__init__.py"]
 
 
+def sources(working_folder: Path) -> list[Path]:
+    """Every file that plugins are made of: their own, those of the package and of its studies, and of packages with plugins."""
+    return [*plugin_files(working_folder), *shipped_sources(), *installed_sources()]
+
+
 def experiments(config_dir: Path | None = None) -> dict[str, Path]:
     """Experiment name to YAML file, of all folders of configuration files."""
     folders = configurations(config_dir)

@@ -51,8 +51,13 @@ def distributions(module: str) -> tuple[str, ...]:
 @cache
 def installed_state() -> str:
     """Digest of the folders with installed distributions and of when something was last added to or removed from them."""
-    folders = [Path(entry) for entry in sys.path if any(Path(entry).glob("*.dist-info"))]
-    return hashlib.sha256(repr([(str(folder), folder.stat().st_mtime_ns) for folder in folders]).encode()).hexdigest()
+    states = [(str(folder), folder.stat().st_mtime_ns) for folder in installed_folders()]
+    return hashlib.sha256(repr(states).encode()).hexdigest()
+
+
+def installed_folders() -> list[Path]:
+    """Folders on the path with installed distributions."""
+    return [Path(entry) for entry in sys.path if any(Path(entry).glob("*.dist-info"))]
 
 
 _every = cache(importlib.metadata.packages_distributions)
