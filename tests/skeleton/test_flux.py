@@ -84,7 +84,13 @@ def test_gradients_and_flux_of_a_ridge():
     found = flux(FLAT, ridge)
     on_ridge = (np.abs(Y - 0.5) < 1e-9) & (X > 0.1) & (X < 2.4)
     elsewhere = (np.abs(Y - 0.5) > 2.5 * H) & (Y > 0.1) & (Y < 0.9) & (X > 0.1) & (X < 2.4)
-    assert found[on_ridge].max() < -0.2 and np.abs(found[elsewhere]).max() < 1e-9
+    assert np.abs(found[elsewhere]).max() < 1e-9
+    # above and below the gradient points at the ridge: an edge takes in the sine of its angle with it
+    steps = np.diff(FLAT.vertices[FLAT.edges], axis=1)[:, 0]
+    sines = np.abs(steps[:, 1]) / np.linalg.norm(steps, axis=1)
+    for vertex in np.flatnonzero(on_ridge):
+        assert found[vertex] == pytest.approx(-sines[(FLAT.edges == vertex).any(axis=1)].mean(), abs=1e-12)
+    assert on_ridge.sum() > 50
 
 
 def test_least_flux_is_on_the_skeleton_of_a_rectangle():
@@ -130,6 +136,12 @@ def test_the_eigenvalue_of_a_rectangle_with_weight_two():
     assert abs(np.corrcoef(found.values, cosine)[0, 1]) > 0.999999
 
 
+@pytest.mark.parametrize(("index", "gap"), [(1, 1.0), (2, 0.36 / 0.64), (3, 0.16), (4, 0.16 / 1.16)])
+def test_the_gap_is_that_to_the_nearest_eigenvalue_on_either_side(index: int, gap: float) -> None:
+    """Of the rectangle they are 0, 0.16, 0.64, 1, 1.16 and 1.44 times the square of pi."""
+    assert eigenmap(fem(FLAT), index).metrics["gap"] == pytest.approx(gap, rel=0.02)
+
+
 def test_hamilton_jacobi_keeps_topology_and_finds_three_arms():
     y = y_patch().mesh
     skeleton = hamilton_jacobi_skeleton(y, boundary_distance(y), -0.5)
@@ -164,6 +176,11 @@ def test_points_on_the_midline_of_a_rectangle_have_more_weight() -> None:
     assert weight_far_from_boundary(mesh, weights, distance) > 1.1
     assert weight_far_from_boundary(mesh, 1.0 / weights, distance) < 1.0
     assert weight_far_from_boundary(mesh, np.ones(len(distance)), distance) == pytest.approx(1.0)
+
+
+def test_the_weight_of_the_farthest_tenth_beside_the_mean() -> None:
+    # 1 + x is 1 + 2.375 in the mean from 2.25 to 2.5, and 2.25 in the mean from 0 to 2.5
+    assert weight_far_from_boundary(FLAT, 1.0 + X, X) == pytest.approx(3.375 / 2.25, rel=0.02)
 
 
 def test_of_a_face_that_is_kept_whole_the_longest_side_goes():
