@@ -118,6 +118,17 @@ def test_accuracy_counts_area(pair: Pair) -> None:
         map_metrics(pair.source_surface, pair.target_surface, np.arange(3))
 
 
+def test_the_error_of_origins_is_a_mean_by_area_in_units_of_the_root_of_the_area() -> None:
+    body = ellipsoid(2, (1.0, 1.3, 2.0))
+    count = len(body.mesh.vertices)
+    truth = Truth(origin=np.arange(count), template=body.mesh.identity)
+    one_off = np.arange(count)
+    one_off[3] = 50
+    miss = np.linalg.norm(body.mesh.vertices[50] - body.mesh.vertices[3])
+    expected = miss * body.mesh.vertex_areas[3] / body.mesh.area**1.5
+    assert map_metrics(body, replace(body, truth=truth), one_off)["origin error"] == pytest.approx(expected)
+
+
 def test_unfit_requests_are_refused(pair: Pair) -> None:
     areas, rows = pair.areas, np.zeros(len(pair.areas[1]), np.int64)
     with pytest.raises(ValueError, match="take 1 <= first <= last <= 31"):
@@ -151,6 +162,9 @@ def test_geodesic_errors_are_arcs_of_the_sphere() -> None:
     # half a turn over the square root of 4 pi
     assert errors["opposite"] == pytest.approx(np.pi / np.sqrt(4.0 * np.pi), rel=0.03)
     assert share_within(np.array([0.0, 0.1, 0.1, 0.4]), np.array([0.0, 0.1, 1.0])).tolist() == [0.25, 0.75, 1.0]
+    # all the area at one vertex
+    alone = geodesic_errors(mesh, (true == 7).astype(float), true, {"one": np.where(true == 7, far, true)}, samples=5)
+    assert alone["one"] == pytest.approx(np.full(5, np.pi / np.sqrt(4.0 * np.pi)), rel=0.03)
     with pytest.raises(ValueError, match="map 'short' has 3 entries"):
         geodesic_errors(mesh, mesh.vertex_areas, true, {"short": true[:3]})
     with pytest.raises(ValueError, match="map 'origin' names vertex"):

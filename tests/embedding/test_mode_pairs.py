@@ -75,6 +75,20 @@ def test_signs_in_order_by_moment_and_by_largest_entry() -> None:
     assert found.signs.tolist() == [1, -1] and found.partners.tolist() == [0, 1]
 
 
+def test_the_sign_of_a_mode_without_mean_is_that_of_its_skewness() -> None:
+    modes, areas = np.array([[-2.0], [1.0], [1.0]]), np.ones(3)
+    assert pairs_in_order(modes, np.ones((3, 1)), areas, areas).signs.tolist() == [-1]
+    assert pairs_in_order(-modes, np.ones((3, 1)), areas, areas).signs.tolist() == [1]
+    areas = np.array([1.0, 5.0, 5.0])  # -8 + 5 + 5 > 0
+    assert pairs_in_order(modes, np.ones((3, 1)), areas, areas).signs.tolist() == [1]
+
+
+def test_means_of_modes_do_not_count_in_correlations() -> None:
+    rows = np.arange(400)
+    table = mode_correlations(MODES + 3.0, 2.0 * MODES - 5.0, WEIGHTS, rows)
+    np.testing.assert_allclose(table, np.eye(6), atol=1e-12)
+
+
 def test_agreement_needs_partner_and_sign() -> None:
     one = ModePairs(np.array([0, 1, -1, 3]), np.array([1, -1, 0, 1], np.int8))
     other = ModePairs(np.array([0, 1, -1, 2]), np.array([1, 1, 0, 1], np.int8))
@@ -94,6 +108,16 @@ def test_turned_scaled_and_shuffled_points_are_mapped_onto_themselves() -> None:
         assert (rows == order).all() and misfit < 1e-9
     mirrored = points[order] * [-1.0, 1.0, 1.0]
     assert rigid_map(points, mirrored, body.vertex_areas, body.vertex_areas[order])[1] > 0.01
+
+
+def test_a_flat_shape_is_not_mapped_onto_its_mirror_image() -> None:
+    """Which is near it, so that the best orthogonal map of closest points is a reflection."""
+    x, y = np.random.default_rng(2).uniform(-1.0, 1.0, (2, 600)) * [[2.0], [1.0]]
+    points = np.column_stack([x, y + 0.2 * x**2, 0.05 * np.sin(3.0 * x + 1.0) * (1.0 + y)])
+    rows, misfit = rigid_map(points, points * [1.0, 1.0, -1.0], np.ones(600), np.ones(600))
+    assert misfit > 0.02
+    rows, misfit = rigid_map(points, points, np.ones(600), np.ones(600))
+    assert (rows == np.arange(600)).all() and misfit < 1e-9
 
 
 def test_closest_points_mend_a_start_that_is_not_exact() -> None:

@@ -19,6 +19,13 @@ def test_shifted_copies_have_the_shift_within_and_the_spacing_between() -> None:
     assert swapped.found == 0.0
 
 
+def test_regions_of_the_first_are_sought_among_those_of_the_second() -> None:
+    first, second = np.array([[0.0], [10.0]]), np.array([[1.0], [4.0]])
+    for one, other, share, between in ((first, second, 1.0, 10.0), (second, first, 0.5, 3.0)):
+        found = region_separation(one, np.ones(2), np.arange(2), other, np.ones(2), np.arange(2))
+        assert (found.found, found.between, found.within) == (share, between, 3.5)
+
+
 def test_centres_are_weighted_and_foreign_labels_left_out() -> None:
     points, labels = np.array([[0.0], [1.0], [9.0], [50.0]]), np.array([0, 0, 1, -1])
     other = region_separation(

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from surfexp.inference.exchangeability import allowed_rearrangements, keeps_nuisance
+from surfexp.inference.exchangeability import allowed_rearrangements, keeps_nuisance, least_p
 from surfexp.inference.linear_model import ContrastModel, contrast_model
-from surfexp.inference.rearrangements import Rearrangements, unchanged
+from surfexp.inference.rearrangements import Rearrangements, sign_flips, unchanged
 
 RANDOM = np.random.default_rng(0)
 DATA = RANDOM.standard_normal((6, 4))
@@ -79,3 +79,10 @@ def test_many_flips_are_a_power() -> None:
     for size, words in ((12, "100 of 4,096"), (19, "100 of 524,288"), (20, "100 of 2^20"), (15000, "100 of 2^15000")):
         data = np.ones((size, 1)) + np.arange(size)[:, None] % 2
         assert allowed([np.ones(size)], [1], data=data, count=100)[2] == f"{words} sign flips"
+
+
+def test_no_p_is_under_the_share_of_flips_that_only_turn_the_statistic_around() -> None:
+    """Of five observations flips have cosines of 1, 3/5, 1/5 and their negatives with the mean."""
+    model = contrast_model(np.arange(1.0, 6.0)[:, None], np.ones((5, 1)), np.ones(1))
+    chosen = sign_flips(np.arange(5), 32, np.random.default_rng(0))
+    assert (least_p(model, chosen, True), least_p(model, chosen, False)) == (2.0 / 32.0, 1.0 / 32.0)
