@@ -133,7 +133,7 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     from surfexp.lab.errors import UserError
     from surfexp.lab.plan.kinds_of_plans import load_known_kinds
     from surfexp.lab.plan.plan import latest_plan
-    from surfexp.records.table import rows_of
+    from surfexp.records.table import in_tables, rows_of
 
     root = Path(results).resolve()
     try:
@@ -144,7 +144,7 @@ def load(experiment: str, results: str | Path = "results") -> ExperimentRun:
     folder = root / experiment
     figures = {file.stem: file for file in sorted((folder / "figures").glob("*.[ps][nv]g"))}
     kinds = {leaf.key: plan.nodes[leaf.key].kind for leaf in plan.leaves}
-    return ExperimentRun(experiment, _frame(rows_of(plan, root)), figures, folder, kinds)
+    return ExperimentRun(experiment, _frame(in_tables(rows_of(plan, root))), figures, folder, kinds)
 
 
 def run(experiment: str, results: str | Path = "results", **overrides: Any) -> ExperimentRun:

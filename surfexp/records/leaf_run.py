@@ -103,7 +103,7 @@ def names_of_runs(plan: Plan) -> dict[str, str]:
     """A name for the run of every leaf: what tells it from the others of its table, then the table among several."""
     groups = comparisons([Row(leaf, plan.parameters(leaf), {}, None) for leaf in plan.leaves])
     names = {}
-    for group in groups:
+    for group in reversed(groups):  # a row of several tables is named by the first
         for row in group.rows:
             known = [(name, row.parameters[name]) for name in group.varying if row.parameters.get(name) is not None]
             parts = [str(value) if name.endswith(".name") else f"{short_name(name)} {value}" for name, value in known]

@@ -7,8 +7,9 @@ import io
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -217,10 +218,20 @@ def _data(plan: Plan, key: str, known: dict[str, frozenset[str]]) -> frozenset[s
     return known[key]
 
 
+def in_tables(rows: Sequence[Row]) -> list[Row]:
+    """The rows, and those that several tables ask for again at their place in each; their figures stand with the first."""
+    again = [
+        (place - 0.5, replace(row, leaf=Leaf(row.leaf.key, row.leaf.configuration, settings)))
+        for row in rows
+        for place, settings in row.leaf.also
+    ]
+    return [row for _, row in sorted([*enumerate(rows), *again], key=itemgetter(0))]
+
+
 def comparisons(rows: list[Row]) -> list[Comparison]:
     """Group rows by the comparison that their variant names, in order of appearance."""
     groups: dict[str, Comparison] = {}
-    for row in rows:
+    for row in in_tables(rows):
         settings = row.leaf.settings
         title = settings["comparison"] or settings["title"] or settings["experiment"]
         group = groups.setdefault(title, Comparison(title, settings["caption"], [], []))
@@ -237,6 +248,7 @@ def number_notes(rows: Sequence[Row]) -> dict[str, int]:
 
 def to_csv(rows: list[Row]) -> str:
     """The tidy table as text: comparison, parameters, metrics, failure."""
+    rows = in_tables(rows)
     parameters = list(dict.fromkeys(name for row in rows for name in row.parameters))
     metrics = list(dict.fromkeys(name for row in rows for name in row.metrics))
     sink = io.StringIO()

@@ -83,16 +83,20 @@ def leave_out_columns(plan: Plan, replaced: Collection[str]) -> list[str]:
     """
     metrics = [declared(plan.nodes, leaf.key) | SECONDS for leaf in plan.leaves]
     here = {name: metric for known in metrics for name, metric in known.items()}
-    asked = dict.fromkeys(name for leaf in plan.leaves for name in leaf.settings["columns"])
+    asked = dict.fromkeys(name for leaf in plan.leaves for settings in leaf.shown for name in settings["columns"])
     missing = [name for name in asked if find_metric(name, here) is None]
     present = {node.kind for node in plan.nodes.values()}
     gone = [name for name, kind in KINDS.items() if replaced and not kind.stored and name not in present]
     elsewhere = _of_kinds([*replaced, *gone]) if missing else {}
     left_out = [name for name in missing if find_metric(name, elsewhere) is not None]
     changed: dict[int, dict[str, Any]] = {}  # leaves share their settings
+
+    def without(settings: dict[str, Any]) -> dict[str, Any]:
+        kept = [name for name in settings["columns"] if name not in left_out]
+        return changed.setdefault(id(settings), settings | {"columns": kept})
+
     for leaf in plan.leaves if left_out else ():
-        kept = [name for name in leaf.settings["columns"] if name not in left_out]
-        leaf.settings = changed.setdefault(id(leaf.settings), leaf.settings | {"columns": kept})
+        leaf.settings, leaf.also = without(leaf.settings), [(place, without(settings)) for place, settings in leaf.also]
     return left_out
 
 
@@ -128,9 +132,8 @@ def _check_parameters(where: str, wanted: Mapping[str, Any], rows: Sequence[Row]
 def _check_columns(leaves: Sequence[Leaf], metrics: Mapping[str, Mapping[str, Metric]]) -> None:
     """Tables may share their columns: each is one that some row of the experiment declares."""
     anywhere = {name: metric for known in metrics.values() for name, metric in known.items()}
-    for leaf in leaves:
-        for name in leaf.settings["columns"]:
-            _check_metric("columns", name, anywhere)
+    for name in dict.fromkeys(name for leaf in leaves for settings in leaf.shown for name in settings["columns"]):
+        _check_metric("columns", name, anywhere)
 
 
 def _check_options(plan: Plan, node: Node) -> None:

@@ -28,7 +28,7 @@ from surfexp.lab.registry.registry import plugin
 from surfexp.lab.store import store
 from surfexp.lab.store.kinds import KINDS
 from surfexp.records.origin import read_origin
-from surfexp.records.table import Row, rows_of, to_csv
+from surfexp.records.table import Row, in_tables, rows_of, to_csv
 from surfexp.report.citation import bibliography
 
 PUBLISHED = "published"
@@ -184,7 +184,7 @@ def write_parquet(path: Path, rows: Iterable[Row]) -> None:
     import pyarrow
     from pyarrow import parquet
 
-    rows = list(rows)
+    rows = in_tables(list(rows))
     columns: dict[str, Any] = {
         "comparison": [str(row.leaf.settings["comparison"]) for row in rows],
         "leaf": [row.leaf.key for row in rows],

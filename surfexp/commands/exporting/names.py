@@ -37,7 +37,7 @@ def slug(value: Any, limit: int = STEM) -> str:
 
 def names_of(plan: Plan, results: Path) -> dict[str, Named]:
     """Return the name of every stored stage of a plan by key; it does not depend on which of them are exported."""
-    groups = comparisons(rows_of(plan, results.resolve()))
+    groups = comparisons(rows_of(plan, results.resolve()))[::-1]  # a row of several tables is named by the first
     titles = {row.leaf.key: group.title for group in groups for row in group.rows}
     varying = {
         row.leaf.key: {name: row.parameters[name] for name in group.varying if name in row.parameters}

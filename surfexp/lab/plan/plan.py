@@ -49,13 +49,25 @@ class Node:
 class Leaf:
     """What one configuration asks for: the stage at the end of its chain, a digest of its options, its figures.
 
-    `settings` say how to show it; leaves share them where they agree.
+    `settings` say how to show it; leaves share them where they agree. `also` are those of other tables that ask for it, each
+    with the number of leaves that stand before it there.
     """
 
     key: str
     configuration: str
     settings: dict[str, Any]
     figures: list[str] = field(default_factory=list)
+    also: list[tuple[int, dict[str, Any]]] = field(default_factory=list)
+
+    @property
+    def shown(self) -> list[dict[str, Any]]:
+        """Its settings in each table that it stands in."""
+        return [self.settings, *(settings for _, settings in self.also)]
+
+    def ask_again(self, place: int, settings: dict[str, Any]) -> None:
+        """Note that another table asks for it too, after `place` other leaves."""
+        if settings["comparison"] not in [known["comparison"] for known in self.shown]:
+            self.also.append((place, settings))
 
 
 @dataclass
@@ -91,9 +103,14 @@ class Plan:
 
     def text(self) -> str:
         """The plan as it is written: what all share, the leaves, and each stage on a line of its own."""
-        shown = {id(leaf.settings): leaf.settings for leaf in self.leaves}
-        places = {identity: place for place, identity in enumerate(shown)}
-        leaves = [vars(leaf) | {"settings": places[id(leaf.settings)]} for leaf in self.leaves]
+        shown = {id(settings): settings for leaf in self.leaves for settings in leaf.shown}
+        numbers = {identity: number for number, identity in enumerate(shown)}
+        leaves = [
+            vars(leaf)
+            | {"settings": numbers[id(leaf.settings)]}
+            | {"also": [(place, numbers[id(settings)]) for place, settings in leaf.also]}
+            for leaf in self.leaves
+        ]
         head = {"settings": self.settings.model_dump(), "requested": self.requested, "shown": list(shown.values())}
         return "\n".join(map(json.dumps, (head, leaves, *map(vars, self.nodes.values()))))
 
@@ -107,8 +124,10 @@ def read_plan(path: Path, key: str = "") -> Plan:
         return _of_one_document(tree)
     leaves, nodes = lines[0], {line[9:29]: line for line in lines[1:]}
     plan = Plan(_settings(tree["settings"]), requested=tree["requested"])
+    shown = tree["shown"]
     for leaf in [] if key else json.loads(leaves):
-        plan.leaves.append(Leaf(**leaf | {"settings": tree["shown"][leaf["settings"]]}))
+        also = [(place, shown[number]) for place, number in leaf.get("also", ())]
+        plan.leaves.append(Leaf(**leaf | {"settings": shown[leaf["settings"]], "also": also}))
     waiting = [key] if key else list(reversed(nodes))
     while waiting:
         if (one := waiting.pop()) not in plan.nodes:

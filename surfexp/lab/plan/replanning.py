@@ -45,7 +45,7 @@ def replanned(plan: Plan) -> tuple[Plan, dict[str, str]]:
     for leaf in plan.leaves:
         key = visit(leaf.key)
         figures = [visit(figure) for figure in leaf.figures]
-        here.leaves.append(Leaf(key, digest(flat_parameters(here.nodes, key)), leaf.settings, figures))
+        here.leaves.append(Leaf(key, digest(flat_parameters(here.nodes, key)), leaf.settings, figures, leaf.also))
     return here, keys
 
 

@@ -39,6 +39,7 @@ def make_plan(configurations: Iterable[Context]) -> Plan:
             leaf.figures.append(resolver.node("figure", merge(context, {"figure": figure}), ()))
         plan.requested += sum(resolver.visits[one] for one in (key, *leaf.figures))
         first = seen.setdefault(key, leaf)
+        first.ask_again(len(seen), shown)
         first.figures += [figure for figure in leaf.figures if figure not in first.figures]
     if plan is None:
         raise UserError("nothing to plan: the sweep is empty")
