@@ -33,7 +33,7 @@ def clean(older: bool, everything: bool, yes: bool, results: Path) -> None:
     It is asked first. Every run leaves its plan as FOLDER/plans/EXPERIMENT-KEY.json: remove one by hand to give up what it
     alone names.
     """
-    from surfexp.commands.execution import hold_results
+    from surfexp.commands.results_lock import hold_results
 
     if not (results / "store").exists():
         raise UserError(f"{results} holds no stored results")

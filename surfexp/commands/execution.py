@@ -2,35 +2,30 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import shutil
 import sys
-import traceback
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
-from surfexp.commands import slurm_jobs
+from surfexp.commands import results_lock, slurm_jobs
 from surfexp.commands.executors import check_executor, said_at_submission
+from surfexp.commands.finishing import finish
 from surfexp.commands.processes import drive
 from surfexp.commands.progress import follow
-from surfexp.commands.terminal import echo
-from surfexp.lab.digests import digest
+from surfexp.commands.terminal import say_once
+from surfexp.commands.unfinished_stages import clear, unfinished
 from surfexp.lab.errors import StageFailure, UserError, unknown
-from surfexp.lab.plan.outcome import event_path, read_event
+from surfexp.lab.plan.outcome import read_event
 from surfexp.lab.plan.plan import Node, Plan
-from surfexp.lab.registry.catalogue import code_state
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.running import compiled_code
 from surfexp.lab.store import store
 
-HELD = "SURFEXP_HOLDS_RESULTS"
 SECONDS_TO_CANCEL = 15.0
-LINES_OF_DAMAGE, NAMED_FILES = 10, 5
+NAMED_FILES = 5
 PATTERN, ADDRESS = "which Snakemake reads as a pattern", "behind which the address of the runs' database ends"
 UNFIT_MARKS = {"{": PATTERN, "}": PATTERN, "?": ADDRESS}
-_locks: list[int] = []
 
 
 def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
@@ -45,8 +40,8 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
     for mark in str(results):
         if why := UNFIT_MARKS.get(mark, "" if mark.isprintable() else "which is not printed"):
             raise UserError(f"results folder {str(results)!r} has a {mark!r}, {why}: choose another name")
-    hold_results(results, wait=True)
-    _warn([store.note_on_older_keys(results)])
+    results_lock.hold_results(results, wait=True)
+    say_once([store.note_on_older_keys(results)])
     path = plan.write(results)
     tried, stages = set[str](), [(node.kind, node.key) for node in plan.stored]
     store.take_back(results, stages)  # of a run that was killed
@@ -55,12 +50,12 @@ def run(plan: Plan, arguments: Sequence[str] | None = None) -> None:
         tried |= missing.keys()
         try:
             clear(plan, results, missing)
-            _warn(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
+            say_once(compiled_code.choose(plan.nodes[key].cache)[1] for key in missing)
             _snakemake(plan, path, results, [plan.nodes[key] for key in missing])
         finally:
             store.take_back(results, stages)
         events = [read_event(results, plan.nodes[key].kind, key) for key in missing]
-        _warn(warning for event in events for warning in event.get("warnings", ()))
+        say_once(warning for event in events for warning in event.get("warnings", ()))
     finish(path, plan, arguments, bool(tried))
     if missing:
         failures: dict[str, dict[str, None]] = {}
@@ -87,42 +82,6 @@ def _in_brackets(files: list[str]) -> str:
     return f" ({', '.join(files[:NAMED_FILES])}{more})" if files else ""
 
 
-def _warn(lines: Iterable[str]) -> None:
-    for line in dict.fromkeys(filter(None, lines)):
-        echo(f"surfexp: {line}", err=True)
-
-
-def unfinished(plan: Plan, results: Path) -> dict[str, str]:
-    """Stages of a plan without a sound result, by key: "" where there is none, else what is wrong with it.
-
-    In benchmark mode, a leaf that was not measured alone is among them.
-    """
-    leaves = [plan.nodes[leaf.key] for leaf in plan.leaves] if plan.settings.timing else []
-    events = {node.key: read_event(results, node.kind, node.key) for node in leaves}
-    untimed = {key: "" for key, event in events.items() if event.get("failure") or not event.get("alone")}
-    return untimed | store.faults(results, [(node.kind, node.key) for node in plan.stored])
-
-
-def clear(plan: Plan, results: Path, missing: Mapping[str, str]) -> None:
-    """Remove what is left of unfinished stages: damaged results, which are named, and the traces of earlier runs.
-
-    Sound results that are to be measured again are set aside.
-    """
-    lines = []
-    for key, fault in missing.items():
-        kind = plan.nodes[key].kind
-        lines += [fault] if fault else [read_event(results, kind, key).get("damage", "")]
-        is_sound = not fault and store.is_done(results, kind, key)
-        (store.set_aside if is_sound else store.discard)(results, kind, key)
-        for suffix in (".json", ".progress"):
-            event_path(results, kind, key).with_suffix(suffix).unlink(missing_ok=True)
-    lines = [line for line in lines if line]
-    for line in lines[:LINES_OF_DAMAGE]:
-        echo(f"surfexp: {line}; it is removed and computed again", err=True)
-    if len(lines) > LINES_OF_DAMAGE:
-        print(f"surfexp: and {len(lines) - LINES_OF_DAMAGE} results more", file=sys.stderr)
-
-
 def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> None:
     rules = Path(compiled_code.__file__).with_name("rules.smk")
     profile = _profile(plan.settings.profile or "default")
@@ -135,7 +94,8 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
     command += ["--cores", str(cores), "--config", f"plan={path}", "only_missing=1"]
     command += slurm_jobs.requests(plan.nodes, missing, results, settings) if slurm else []
     log = results / "logs" / f"{path.stem}.snakemake.log"
-    environment = {**os.environ, HELD: "1", "PYTHONSAFEPATH": "1"}  # a module in the working folder is not imported
+    # a module in the working folder is not imported
+    environment = {**os.environ, results_lock.HELD: "1", "PYTHONSAFEPATH": "1"}
     grace = SECONDS_TO_CANCEL if plan.settings.profile else 0.0
     shown, notices = missing or plan.stored, slurm_jobs.Queue() if slurm else list
     code = drive(
@@ -144,7 +104,7 @@ def _snakemake(plan: Plan, path: Path, results: Path, missing: list[Node]) -> No
         lambda it: follow(it, plan.nodes, shown, results, notices),
         grace,
         env=environment,
-        pass_fds=_locks,
+        pass_fds=results_lock.locks,
     )
     if slurm:
         slurm_jobs.tell_of_ended(log.read_text(), missing, results)
@@ -176,107 +136,11 @@ def before_snakemake(plan: Plan, results: Path) -> None:
     Nothing at all is removed while another run works in the folder.
     """
     try:
-        hold_results(results)
+        results_lock.hold_results(results)
     except UserError as error:
-        _warn([str(error)])
+        say_once([str(error)])
         return
-    _warn([store.note_on_older_keys(results)])
+    say_once([store.note_on_older_keys(results)])
     missing = unfinished(plan, results).items()
     kinds = {key: plan.nodes[key].kind for key, _ in missing}
     clear(plan, results, {key: said for key, said in missing if said or not store.is_done(results, kinds[key], key)})
-
-
-def hold_results(results: Path, wait: bool = False) -> None:
-    """Take the results folder for this process; a second run waits for it, or is refused when `wait` is false."""
-    if os.environ.get(HELD) or _locks:
-        return
-    results.mkdir(parents=True, exist_ok=True)
-    descriptor = os.open(results / ".lock", os.O_RDWR | os.O_CREAT)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        if not wait:
-            os.close(descriptor)
-            raise UserError(f"results folder {results} is in use by another run; wait for it to end") from None
-        echo(f"{results} is in use by another run; waiting for it to end", err=True)
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-    except OSError as error:  # of a file system without locks
-        _warn([f"{results} cannot be locked ({error.strerror}): let one run at a time work there"])
-    _locks.append(descriptor)
-
-
-def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, computed: bool = True) -> None:
-    """Record a plan's events in MLflow and write its views: report, table, figures; nothing if that is done already."""
-    results = path.parent.parent
-    if is_finished(path, plan):
-        return
-    state, done = _state(path, plan, results), _done(results, plan)
-    from surfexp.records.origin import forget_origin, note_origin
-    from surfexp.records.tracking import record
-    from surfexp.report.page import write_report  # which draws with matplotlib
-
-    done.unlink(missing_ok=True)
-    with _told("the report is not written"):
-        if arguments is not None:
-            note_origin(results, plan, arguments, computed)
-        elif computed:
-            forget_origin(results, plan)
-        recording = None
-        with _told("runs are not recorded in MLflow"):  # before the page, which leads to them
-            recording = record(plan, results)
-            _warn(recording.said)
-        folder = write_report(plan, results)
-        with _told("the report is not kept in MLflow"):
-            if recording:
-                recording.attach(folder, _dashboard(plan, results))
-                store.write_text(done, state)
-
-
-def _dashboard(plan: Plan, results: Path) -> dict[str, str]:
-    """Tags that let the dashboard open an experiment by its tables, and not as one of language models."""
-    from surfexp.records.table import comparisons, rows_of
-    from surfexp.report.dashboard_view import TAG, dashboard_view
-    from surfexp.report.declared import declared_by
-
-    groups = comparisons(rows_of(plan, results))
-    for group in groups:
-        group.metrics = declared_by(plan, group.rows)
-    return {TAG: dashboard_view(groups, plan.settings.objective), "mlflow.experimentKind": "custom_model_development"}
-
-
-def is_finished(path: Path, plan: Plan) -> bool:
-    """Whether the records and pages of a plan are those of its results as they are now."""
-    results = path.parent.parent
-    views, done = results / plan.settings.experiment, _done(results, plan)
-    files = (done, views / "report.html", results / "index.html", results / "mlflow.db")
-    return all(file.exists() for file in files) and done.read_text() == _state(path, plan, results)
-
-
-def _done(results: Path, plan: Plan) -> Path:
-    return results / "cache" / "finished" / f"{plan.settings.experiment}.txt"
-
-
-@contextmanager
-def _told(what: str) -> Iterator[None]:
-    """Say in one line what could not be done: results, their table and the exit code do not depend on it."""
-    try:
-        yield
-    except UserError:
-        raise
-    except Exception as error:  # of MLflow, SQLAlchemy, SQLite, matplotlib, templates: any of them
-        if os.environ.get("SURFEXP_DEBUG"):
-            traceback.print_exc()
-        reason = " ".join(str(error).split())[:200]
-        _warn([f"{what} ({type(error).__name__}: {reason}); results are kept, the same command tries again"])
-
-
-def _state(path: Path, plan: Plan, results: Path) -> str:
-    """Digest of all that reports and records are made from: the plan, what its stages left, and our own code."""
-    files = [file for node in plan.stored for file in _left_by(results, node) if file.exists()]
-    facts = [(str(file), stat.st_size, stat.st_mtime_ns) for file in files for stat in [file.stat()]]
-    return digest([path.read_text(), facts, code_state(Path.cwd())])
-
-
-def _left_by(results: Path, node: Node) -> list[Path]:
-    record = store.result_folder(results, node.kind, node.key) / store.RECORD
-    return [record, event_path(results, node.kind, node.key)]

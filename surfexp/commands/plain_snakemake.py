@@ -14,8 +14,10 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from surfexp.commands import execution, slurm_jobs
+from surfexp.commands import results_lock, slurm_jobs
 from surfexp.commands.arguments import check_arguments
+from surfexp.commands.execution import before_snakemake
+from surfexp.commands.finishing import finish, is_finished
 from surfexp.commands.request import plan_and_act
 from surfexp.lab import running
 from surfexp.lab.errors import UserError
@@ -53,10 +55,10 @@ def planned(config: Mapping[str, Any], workflow: Any) -> Path:
         plan = _plan_of(list(words_of(config)))
         path = plan.write(Path(plan.settings.results).resolve())
     if workflow.is_main_process:
-        execution.before_snakemake(plan, path.parent.parent)
+        before_snakemake(plan, path.parent.parent)
         # Snakemake compares small inputs by content, with its own last report: a new word says that the page is of another plan
         page, asked = path.parent.parent / plan.settings.experiment / "report.html", path.with_suffix(".asked")
-        finished = page.exists() and execution.is_finished(path, plan)
+        finished = page.exists() and is_finished(path, plan)
         if not asked.exists() or (page.exists() and not finished):
             asked.write_text(str(time.time_ns()))
         if finished:
@@ -112,15 +114,15 @@ def start(path: Path, workflow: Any) -> None:
     """Take the results folder for this process; refuse to start where that is taken, or where Slurm is not that shall be used."""
     if getattr(workflow.executor_plugin, "name", "").rpartition("_")[2] == "slurm":
         slurm_jobs.check_slurm("with the executor slurm")
-    execution.hold_results(path.parent.parent)
+    results_lock.hold_results(path.parent.parent)
 
 
 def record(path: Path) -> None:
     """Record a plan that has ended and write its pages; nothing when `surfexp run` drives it and does so itself."""
-    if not os.environ.get(execution.HELD):
+    if not os.environ.get(results_lock.HELD):
         plan = read_plan(path)
         load_own_kinds(plan)
-        execution.finish(path, plan)
+        finish(path, plan)
 
 
 if __name__ == "__main__":

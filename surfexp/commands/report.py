@@ -53,7 +53,7 @@ def report(
         else:
             write_pages(pages_of(document), pages)
         return
-    from surfexp.commands.execution import hold_results
+    from surfexp.commands.results_lock import hold_results
     from surfexp.report.page import write_report
 
     hold_results(results.resolve())

@@ -127,7 +127,8 @@ def _trials(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
 
 def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     """Run a plan and show its results; rows that did not converge are named and added to `doubtful`."""
-    from surfexp.commands.execution import run, unfinished
+    from surfexp.commands.execution import run
+    from surfexp.commands.unfinished_stages import unfinished
     from surfexp.commands.views import wide_console
 
     results = Path(plan.settings.results)
@@ -185,7 +186,7 @@ def warn(lines: list[str]) -> None:
 
 
 def _show(plan: Plan) -> None:
-    from surfexp.commands.execution import unfinished
+    from surfexp.commands.unfinished_stages import unfinished
 
     results = Path(plan.settings.results)
     missing = Counter(plan.nodes[key].kind for key in unfinished(plan, results))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 import click
 
@@ -26,3 +27,9 @@ def plain_text(text: str) -> str:
 def echo(message: object = "", nl: bool = True, err: bool = False) -> None:
     """Print a message, of which names and words of others may be a part."""
     click.echo(plain_text(str(message)), nl=nl, err=err)
+
+
+def say_once(lines: Iterable[str]) -> None:
+    """Say each line once on standard error, after the name of the program; empty ones are left out."""
+    for line in dict.fromkeys(filter(None, lines)):
+        echo(f"surfexp: {line}", err=True)

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from hydra.core.override_parser.types import QuotedString
 
-from surfexp.commands import execution, plain_snakemake
+from surfexp.commands import plain_snakemake, results_lock
 from surfexp.commands.command_line import main
 from surfexp.lab.composition.overrides import parsed
 from surfexp.lab.errors import UserError
@@ -213,12 +213,12 @@ def test_nothing_is_removed_while_another_run_works_in_the_folder(
     (pairing / "record.json").unlink()
     half = pairing / ".arrays.elsewhere.npz"
     half.write_bytes(b"half")
-    monkeypatch.setattr(execution, "_locks", [])
-    monkeypatch.delenv(execution.HELD, raising=False)
-    execution.hold_results(folder / "results")
+    monkeypatch.setattr(results_lock, "locks", [])
+    monkeypatch.delenv(results_lock.HELD, raising=False)
+    results_lock.hold_results(folder / "results")
     assert "is in use by another run" in snakemake("-n") and half.exists()
     assert "is in use by another run" in snakemake("-c1", code=1) and half.exists()
-    for descriptor in execution._locks:
+    for descriptor in results_lock.locks:
         os.close(descriptor)
     snakemake("-n")
     assert not half.exists()

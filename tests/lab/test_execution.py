@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from surfexp.commands import execution, request
+from surfexp.commands import execution, request, results_lock, unfinished_stages
 from surfexp.contract.metric import Metric
 from surfexp.io.writing import write_mesh
 from surfexp.lab.errors import StageFailure, UserError
@@ -71,7 +71,7 @@ def run(plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
         execution.run(plan)
         return list(started)
 
-    monkeypatch.setenv(execution.HELD, "1")
+    monkeypatch.setenv(results_lock.HELD, "1")
     monkeypatch.setattr(execution, "_snakemake", in_this_process)
     monkeypatch.setattr(execution, "finish", lambda *given: None)
     return once
@@ -211,7 +211,9 @@ def test_a_result_that_is_measured_again_is_kept_until_the_new_one_is_there(
         failing.setattr(module, "Pairing", lambda *values, **metrics: 1 / 0)
         run()
     assert store_bytes(results) == sound
-    execution.clear(plan, results, execution.unfinished(plan, results))  # killed with nothing but that done
+    unfinished_stages.clear(
+        plan, results, unfinished_stages.unfinished(plan, results)
+    )  # killed with nothing but that done
     assert store_bytes(results) != sound
     plan.settings = plain
     assert run() == [] and store_bytes(results) == sound
@@ -248,7 +250,7 @@ def test_a_failure_names_the_files_that_it_failed_on(tmp_path: Path, monkeypatch
             if key in {node.key for node in missing}:
                 stage.run_stage(path, key)
 
-    monkeypatch.setenv(execution.HELD, "1")
+    monkeypatch.setenv(results_lock.HELD, "1")
     monkeypatch.setattr(execution, "_snakemake", in_this_process)
     monkeypatch.setattr(execution, "finish", lambda *_: None)
     with pytest.raises(

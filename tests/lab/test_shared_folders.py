@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from surfexp.commands import execution
+from surfexp.commands import results_lock
 from surfexp.lab.store import store
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
@@ -57,11 +57,11 @@ def test_a_folder_that_cannot_be_locked_is_worked_in_with_a_line(
     def no_locks(descriptor: int, how: int) -> None:
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
 
-    monkeypatch.setattr(execution.fcntl, "flock", no_locks)
-    monkeypatch.setattr(execution, "_locks", [])
-    monkeypatch.delenv(execution.HELD, raising=False)
-    execution.hold_results(tmp_path)
+    monkeypatch.setattr(results_lock.fcntl, "flock", no_locks)
+    monkeypatch.setattr(results_lock, "locks", [])
+    monkeypatch.delenv(results_lock.HELD, raising=False)
+    results_lock.hold_results(tmp_path)
     (line,) = capsys.readouterr().err.splitlines()
     assert line == f"surfexp: {tmp_path} cannot be locked (No locks available): let one run at a time work there"
-    for descriptor in execution._locks:
+    for descriptor in results_lock.locks:
         os.close(descriptor)

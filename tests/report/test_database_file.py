@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.commands import execution
+from surfexp.commands import finishing
 from surfexp.lab.plan.plan import Plan
 from surfexp.records import database_file, tracking
 from surfexp.records.database_file import prepare, schema, unusable
@@ -219,8 +219,8 @@ def test_neither_the_report_nor_mlflow_stops_a_run(
     path = plan.write(tmp_path)
     with monkeypatch.context() as patch:
         patch.setattr(part, lambda *_: 1 / 0)
-        execution.finish(path, plan)
+        finishing.finish(path, plan)
     (line,) = [line for line in capsys.readouterr().err.splitlines() if line.startswith("surfexp:")]
     assert "(ZeroDivisionError: division by zero); results are kept, the same command tries again" in line
-    execution.finish(path, plan)
+    finishing.finish(path, plan)
     assert "surfexp:" not in capsys.readouterr().err and (tmp_path / "mlflow.db").exists()

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from audits.benchmarks.synthetic_results import fill, plan_of, sweep
-from surfexp.commands import execution
+from surfexp.commands import results_lock
 from surfexp.commands.command_line import main
 from surfexp.records.origin import note_origin, read_origin
 from surfexp.report.overview import FILE, is_ours, write_overview
@@ -127,7 +127,7 @@ def test_what_writes_into_a_folder_waits_for_no_run_and_writes_nothing(
     plan = plan_of(sweep(1), tmp_path)
     fill(plan, tmp_path)
     plan.write(tmp_path)
-    monkeypatch.setattr(execution, "_locks", [])
+    monkeypatch.setattr(results_lock, "locks", [])
     with (tmp_path / ".lock").open("w") as run:
         fcntl.flock(run, fcntl.LOCK_EX)
         assert main([*words, "--results", str(tmp_path)]) == 2
