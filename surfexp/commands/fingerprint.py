@@ -11,7 +11,7 @@ import click
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import both_of
-from surfexp.commands.surface_arguments import NOT_CERTIFIED
+from surfexp.commands.surface_results import NOT_CERTIFIED
 from surfexp.commands.terminal import echo
 
 SPOKEN_EVERY = 30.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -87,6 +88,18 @@ def shown_labels(surface: Surface, given: str, files: Inputs, side: str | None) 
 def shown_borders(surface: Surface, given: str | None, files: Inputs, side: str | None) -> LabelMap | str | None:
     """Return labels as `shown_labels`; what is neither a name nor a file of labels is left to the picture, which says so."""
     return given and (shown_labels(surface, given, files, side) or given)
+
+
+def label_of_bar(values: Any, map_name: str | None) -> str:
+    """What the colour bar of a file's map is called: by its name without folder and format, or by that of each map in it."""
+    from surfexp.io.hemisphere import common_name
+    from surfexp.io.quantity_of_file import quantity_named
+
+    if isinstance(values, Mapping) or not map_name:
+        return ""
+    pair = both_of(map_name)
+    name = Path(pair).name if isinstance(pair, str) else common_name(*(Path(one).name for one in pair.values()))
+    return quantity_named(name)
 
 
 def given_maps(surface: Surface, given: str, files: Inputs, side: str | None) -> dict[str, Floats]:

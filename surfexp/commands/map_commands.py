@@ -11,18 +11,11 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, map_of
-from surfexp.commands.surface_arguments import (
-    finish,
-    named_as,
-    opened,
-    progress_line,
-    proof_option,
-    ready_map,
-    ready_proof,
-    result_option,
-    save_proof,
-    surface_options,
-)
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.proof_pages import ready_proof, save_proof
+from surfexp.commands.surface_options import proof_option, result_option, surface_options
+from surfexp.commands.surface_results import finish, named_as, ready_map
+from surfexp.commands.terminal import progress_line
 
 if TYPE_CHECKING:
     from surfexp.mesh.surface import Surface

@@ -8,7 +8,7 @@ import click
 
 from surfexp.commands.certificate import Inputs, write_certificate
 from surfexp.commands.click_command import shown
-from surfexp.commands.surface_arguments import files_made, ready
+from surfexp.commands.surface_results import files_made, ready
 from surfexp.commands.terminal import echo
 
 DEFECTIVE = 2

@@ -10,7 +10,9 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
-from surfexp.commands.surface_arguments import finish, opened, ready_map, result_option, surface_options
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import result_option, surface_options
+from surfexp.commands.surface_results import finish, ready_map
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white lh.thickness", "lh.white first.mgh --second again.mgh --to level.shape.gii")

@@ -10,7 +10,9 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, shown_labels
-from surfexp.commands.surface_arguments import files_made, has_room_for_names, opened, ready_map, surface_options
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import surface_options
+from surfexp.commands.surface_results import files_made, has_room_for_names, ready_map
 from surfexp.commands.table_file import ready_table
 from surfexp.commands.terminal import echo
 

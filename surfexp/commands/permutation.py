@@ -11,10 +11,12 @@ import click
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, shown_labels
-from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import result_option, surface_options
+from surfexp.commands.surface_results import finish, ready_map
 from surfexp.commands.table_file import ready_table
 from surfexp.commands.table_of_subjects import names_of_maps, number, of_subjects
-from surfexp.commands.terminal import echo
+from surfexp.commands.terminal import echo, progress_line
 
 if TYPE_CHECKING:
     from surfexp.contract.arrays import Floats

@@ -11,16 +11,10 @@ import click
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
+from surfexp.commands.given_surfaces import notes_of, surface_of
 from surfexp.commands.skeleton import level_options
-from surfexp.commands.surface_arguments import (
-    NOT_CERTIFIED,
-    finish,
-    notes_of,
-    ready,
-    repair_option,
-    result_option,
-    surface_of,
-)
+from surfexp.commands.surface_options import repair_option, result_option
+from surfexp.commands.surface_results import NOT_CERTIFIED, finish, ready
 from surfexp.commands.terminal import echo
 
 if TYPE_CHECKING:

@@ -10,7 +10,10 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
-from surfexp.commands.surface_arguments import finish, opened, progress_line, ready_map, result_option, surface_options
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import result_option, surface_options
+from surfexp.commands.surface_results import finish, ready_map
+from surfexp.commands.terminal import progress_line
 
 
 @click.command(**shown("segment", "lh.white --to parts.label.gii", "scan.ply height.csv --smoothness 1 --to parts.vtk"))

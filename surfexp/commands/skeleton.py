@@ -11,7 +11,9 @@ import click
 
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import map_of
-from surfexp.commands.surface_arguments import finish, opened, ready, result_option, surface_options
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import result_option, surface_options
+from surfexp.commands.surface_results import finish, ready
 from surfexp.commands.table_file import ready_table
 
 LEVELS = ("arc_length", "uniform", "area_quantile", "critical")

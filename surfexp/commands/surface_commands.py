@@ -10,26 +10,18 @@ import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_maps import shown_borders, shown_map
-from surfexp.commands.surface_arguments import (
-    files_made,
-    finish,
-    label_of_bar,
-    notes_of,
-    opened,
+from surfexp.commands.given_maps import label_of_bar, shown_borders, shown_map
+from surfexp.commands.given_surfaces import notes_of, opened, surface_of
+from surfexp.commands.proof_pages import ready_proof, save_proof
+from surfexp.commands.surface_options import (
     picture_options,
-    progress_line,
     proof_option,
-    ready,
-    ready_map,
-    ready_proof,
     repair_option,
     result_option,
-    save_proof,
-    surface_of,
     surface_options,
 )
-from surfexp.commands.terminal import echo
+from surfexp.commands.surface_results import files_made, finish, ready, ready_map
+from surfexp.commands.terminal import echo, progress_line
 
 EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),

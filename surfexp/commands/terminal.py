@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 
 import click
 
@@ -33,3 +36,20 @@ def say_once(lines: Iterable[str]) -> None:
     """Say each line once on standard error, after the name of the program; empty ones are left out."""
     for line in dict.fromkeys(filter(None, lines)):
         echo(f"surfexp: {line}", err=True)
+
+
+@contextmanager
+def progress_line(label: str) -> Iterator[Callable[[int, float], None]]:
+    """Yield a progress callback that keeps one line of the terminal up to date, with the elapsed time; silent without one."""
+    started, last = time.monotonic(), [0.0]
+    shown = sys.stderr.isatty()
+
+    def report(step: int, rest: float) -> None:
+        now = time.monotonic()
+        if shown and now - last[0] > 0.2:
+            last[0] = now
+            echo(f"\r{label}: {step:,}, {rest:.1e} left, {now - started:.0f} s \x1b[K", nl=False, err=True)
+
+    yield report
+    if shown and last[0]:
+        echo("\r\x1b[K", nl=False, err=True)

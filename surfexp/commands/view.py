@@ -9,15 +9,10 @@ from typing import Any
 import click
 
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_maps import shown_borders, shown_map
-from surfexp.commands.surface_arguments import (
-    label_of_bar,
-    opened,
-    picture_options,
-    ready,
-    result_option,
-    surface_options,
-)
+from surfexp.commands.given_maps import label_of_bar, shown_borders, shown_map
+from surfexp.commands.given_surfaces import opened
+from surfexp.commands.surface_options import picture_options, result_option, surface_options
+from surfexp.commands.surface_results import ready
 from surfexp.commands.terminal import echo
 
 EXAMPLES = ("lh.white", "lh.white lh.thickness --to thickness.html")
