@@ -35,10 +35,10 @@ SECTIONS: dict[str, dict[str, Entry]] = {
         "segment": Entry("segment", "Divide a surface into two regions, with a proved lower bound."),
         "skeleton": Entry("skeleton", "Find the Reeb graph of a map on a surface."),
         "distance": Entry(
-            "surface_commands", "Measure the spectral distance of two surfaces, with a proved lower bound."
+            "pairs_of_surfaces", "Measure the spectral distance of two surfaces, with a proved lower bound."
         ),
         "reeb-distance": Entry("reeb_distance", "Bound the distance of the Reeb graphs of maps on two surfaces."),
-        "align": Entry("surface_commands", "Align the modes of one surface with those of another."),
+        "align": Entry("pairs_of_surfaces", "Align the modes of one surface with those of another."),
         "fingerprint": Entry("fingerprint", "Write area, volume and lowest eigenvalues of many surfaces as a table."),
         "geodesic": Entry("surface_commands", "Measure the geodesic distance from vertices, with a bound from below."),
         "curvature": Entry(

@@ -8,18 +8,11 @@ from typing import Any
 
 import click
 
-from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import label_of_bar, shown_borders, shown_map
-from surfexp.commands.given_surfaces import notes_of, opened, surface_of
+from surfexp.commands.given_surfaces import opened
 from surfexp.commands.proof_pages import ready_proof, save_proof
-from surfexp.commands.surface_options import (
-    picture_options,
-    proof_option,
-    repair_option,
-    result_option,
-    surface_options,
-)
+from surfexp.commands.surface_options import picture_options, proof_option, result_option, surface_options
 from surfexp.commands.surface_results import files_made, finish, ready, ready_map
 from surfexp.commands.terminal import echo, progress_line
 
@@ -27,8 +20,6 @@ EXAMPLES = {
     "modes": ("lh.white --to modes.npz", "brain.gii -k 200 --mask lh.cortex.label --to modes.vtk"),
     "geodesic": ("lh.white 0 --to distance.shape.gii", "bunny.ply 12 40 --to distance.csv"),
     "curvature": ("lh.white --to curvature.shape.gii", "bunny.ply --to bunny.vtp"),
-    "distance": ("a.ply b.ply -n 20", "a.ply b.ply --to map.npz"),
-    "align": ("a.ply b.ply -k 50 --to aligned.npz", "lh.white other/lh.white -k 20 --to aligned.npz"),
     "convert": ("lh.white white.gii", "scan.obj scan.ply"),
     "plot": (
         "lh.white lh.thickness --to thickness.pdf",
@@ -108,87 +99,6 @@ def curvature(path: str, target: Path, **given: Any) -> None:
     values = mean_curvature(surface)
     facts = {"seconds": time.perf_counter() - started}
     finish(target, {"mean curvature": values}, surface, "mean curvature", {}, files, facts)
-
-
-@click.command(**shown("distance", *EXAMPLES["distance"]))
-@click.argument("first", type=click.Path())
-@click.argument("second", type=click.Path())
-@click.option("-n", "count", default=20, help="number of eigenfunctions")
-@click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
-@repair_option
-@proof_option
-@result_option(required=False)
-def distance(
-    first: str, second: str, count: int, limit: int | None, repair: bool, target: Path | None, proof: Path | None
-) -> None:
-    """Measure the spectral distance of two surfaces, with a proved lower bound.
-
-    The signs of the eigenfunctions are printed too; --to writes the correspondence.
-    """
-    import numpy as np
-
-    from surfexp.io.written_maps import check_map_target
-    from surfexp.tasks.distances import distance as task
-
-    files = Inputs(first, second)
-    ready_proof(proof, files)
-    one, other = surface_of(first, repair), surface_of(second, repair)
-    if target is not None:
-        ready(target, files, check_map_target, hemisphere=other.hemisphere)
-    started = time.perf_counter()
-    with progress_line("distance") as progress:
-        found = task(one, other, count, limit=limit, progress=progress)
-    signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
-    bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
-    echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
-    save_proof(proof, found, one, other)
-    if target is not None:
-        facts = {
-            "value": found.value,
-            "lower_bound": found.lower_bound,
-            "optimal": found.optimal,
-            "signs": signs,
-            "seconds": time.perf_counter() - started,
-        }
-        partner = found.correspondence
-        if one.file is not None:
-            partner = np.where(partner < 0, partner, one.file.origin[partner])
-        read = notes_of(first, second, one.notes, other.notes)
-        maps = {"correspondence": partner.astype(float)}
-        finish(target, maps, other, found.method, {"n": count, "repair": repair}, files, facts, found.notes, read)
-
-
-@click.command(**shown("align", *EXAMPLES["align"]))
-@click.argument("first", type=click.Path())
-@click.argument("second", type=click.Path())
-@click.option("-k", "count", default=50, help="number of modes after the constant")
-@repair_option
-@result_option()
-def align(first: str, second: str, count: int, repair: bool, target: Path) -> None:
-    """Align the modes of one surface with those of another.
-
-    Signs, order and rotations of the modes of SECOND become those of FIRST.
-    """
-    from surfexp.io.written_maps import check_map_target
-    from surfexp.tasks.mode_alignment import align as task
-
-    files = Inputs(first, second)
-    if target.suffix.lower() != ".npz":
-        raise ValueError(f"{target} cannot hold the aligned modes and their basis, two arrays: choose .npz")
-    one, other = surface_of(first, repair), surface_of(second, repair)
-    ready(target, files, check_map_target, hemisphere=other.hemisphere)
-    started = time.perf_counter()
-    with progress_line("align") as progress:
-        found = task(one, other, count, progress=progress)
-    facts = {
-        "value": found.value,
-        "lower_bound": found.lower_bound,
-        "optimal": found.optimal,
-        "blocks": len(found.blocks),
-        "seconds": time.perf_counter() - started,
-    }
-    read = notes_of(first, second, one.notes, other.notes)
-    finish(target, found, other, "mode alignment", {"k": count, "repair": repair}, files, facts, found.notes, read)
 
 
 @click.command(**shown("convert", *EXAMPLES["convert"]))
