@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from surfexp.commands.certificate import Inputs
@@ -47,6 +48,20 @@ def surface_of(path: str, repair: bool, **given: Any) -> Surface:
     for note in surface.notes:
         echo(f"{path}: {note}", err=True)
     return surface
+
+
+def check_one_hemisphere(*paths: str) -> None:
+    """Refuse LEFT+RIGHT where one hemisphere is needed, naming the files to give.
+
+    Raises
+    ------
+    ValueError
+        If both hemispheres are given.
+    """
+    for path in paths:
+        pair = both_of(path)
+        if not isinstance(pair, str) and all(Path(one).is_file() for one in pair.values()):
+            raise ValueError(f"{path} is both hemispheres, one is needed: give {pair['left']} or {pair['right']}")
 
 
 def notes_of(first: str, second: str, *notes: tuple[str, ...]) -> tuple[str, ...]:

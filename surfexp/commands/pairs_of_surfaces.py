@@ -9,7 +9,7 @@ import click
 
 from surfexp.commands.certificate import Inputs
 from surfexp.commands.click_command import shown
-from surfexp.commands.given_surfaces import notes_of, surface_of
+from surfexp.commands.given_surfaces import check_one_hemisphere, notes_of, surface_of
 from surfexp.commands.proof_pages import ready_proof, save_proof
 from surfexp.commands.surface_options import proof_option, repair_option, result_option
 from surfexp.commands.surface_results import finish, ready
@@ -41,6 +41,7 @@ def distance(
     from surfexp.io.written_maps import check_map_target
     from surfexp.tasks.distances import distance as task
 
+    check_one_hemisphere(first, second)
     files = Inputs(first, second)
     ready_proof(proof, files)
     one, other = surface_of(first, repair), surface_of(second, repair)
@@ -83,6 +84,7 @@ def align(first: str, second: str, count: int, repair: bool, target: Path) -> No
     from surfexp.io.written_maps import check_map_target
     from surfexp.tasks.mode_alignment import align as task
 
+    check_one_hemisphere(first, second)
     files = Inputs(first, second)
     if target.suffix.lower() != ".npz":
         raise ValueError(f"{target} cannot hold the aligned modes and their basis, two arrays: choose .npz")

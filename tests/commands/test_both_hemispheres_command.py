@@ -92,6 +92,15 @@ def test_mistakes_are_told_in_one_line(
     assert line in said and len(said.splitlines()) == 1
 
 
+@pytest.mark.parametrize("command", ["distance", "align"])
+def test_what_needs_one_hemisphere_names_the_files_to_give(
+    folder: Path, command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([command, "lh.white.ply", PAIR, "--to", "compared.npz"]) == 2
+    said = capsys.readouterr().err.strip()
+    assert said.endswith(f"{PAIR} is both hemispheres, one is needed: give lh.white.ply or rh.white.ply")
+
+
 def test_inputs_are_not_overwritten_by_either_side(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = Path("rh.z.mgh").read_bytes()
     assert main(["smooth", PAIR, MAP, "--width", "0.5", "--to", "z.mgh"]) == 2
