@@ -71,6 +71,7 @@ def denoise(
     MAP is a file, or a map that the surface carries.
     """
     from surfexp.io.map_files import side_by_side
+    from surfexp.io.written_maps import check_names
     from surfexp.tasks.denoising import denoise as task
     from surfexp.tasks.noise_of_map import noise as noise_task
 
@@ -79,6 +80,7 @@ def denoise(
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
     ready_map(target, files, surface, values, channels=channels)
+    check_names(target, maps)
     ready_proof(proof, files)
     if proof is not None and method == "auto":
         raise ValueError("--proof with method auto, which proves no gap: choose method rof or tgv")
@@ -146,6 +148,7 @@ def smooth(path: str, map_name: str, width: tuple[float, str], target: Path, **g
     MAP is a file, or a map that the surface carries.
     """
     from surfexp.io.map_files import side_by_side
+    from surfexp.io.written_maps import check_names
     from surfexp.tasks.denoising import smooth as task
 
     surface, files = opened(path, **given)
@@ -153,6 +156,7 @@ def smooth(path: str, map_name: str, width: tuple[float, str], target: Path, **g
     values = side_by_side(maps, map_name)
     channels = 1 if values.ndim == 1 else values.shape[1]
     ready_map(target, files, surface, values, channels=channels)
+    check_names(target, maps)
     full_width = in_unit_of(surface, *width)
     started = time.perf_counter()
     smoothed = task(surface, values, full_width)

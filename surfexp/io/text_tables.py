@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -76,20 +76,34 @@ def _are_counted(rows: Sequence[Sequence[str]]) -> bool:
     return not top and len(rows[0]) > 1 and len(words) > 0 and words in counts
 
 
-def write_table(path: Path, maps: dict[str, Floats]) -> None:
-    """Write columns with all their digits: .csv with a header, else numbers alone; NaN is written nan.
+def check_column_names(path: Path, names: Iterable[str]) -> None:
+    """Refuse names of columns that a table cannot give back.
 
     Raises
     ------
     ValueError
         If the names in a header would be read as numbers or as a comment, or a name begins as one that is masked.
     """
-    named = path.suffix.lower() == ".csv"
-    if named and all(map(_is_number, maps)):
-        raise ValueError(f"map names {', '.join(maps)} are read as numbers in a table: rename the maps")
-    for number, name in enumerate(maps):
-        if named and (uncell(cell(name)) != name or (number == 0 and name.startswith("#"))):
+    if path.suffix.lower() != ".csv":
+        return
+    names = list(names)
+    if all(map(_is_number, names)):
+        raise ValueError(f"map names {', '.join(names)} are read as numbers in a table: rename the maps")
+    for number, name in enumerate(names):
+        if uncell(cell(name)) != name or (number == 0 and name.startswith("#")):
             raise ValueError(f"map name {name!r} is not read back from a table: rename the map")
+
+
+def write_table(path: Path, maps: dict[str, Floats]) -> None:
+    """Write columns with all their digits: .csv with a header, else numbers alone; NaN is written nan.
+
+    Raises
+    ------
+    ValueError
+        As `check_column_names`.
+    """
+    named = path.suffix.lower() == ".csv"
+    check_column_names(path, maps)
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, delimiter="," if named else " ", lineterminator="\n")
         if named:

@@ -18,7 +18,7 @@ from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.npz import write_arrays
 from surfexp.io.replacing import check_writable, replacing
 from surfexp.io.single_precision import check_single_precision_maps
-from surfexp.io.text_tables import write_table
+from surfexp.io.text_tables import check_column_names, write_table
 from surfexp.io.writing import FREESURFER
 from surfexp.mesh.surface import BOTH
 
@@ -83,7 +83,7 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str | NDAr
     check_map_target(path, len(maps), channels, hemisphere if isinstance(hemisphere, str) else BOTH)
     if not isinstance(hemisphere, str) and not holds_both(path):
         raise ValueError(f"{path} holds one hemisphere, the maps are of both: choose .dscalar.nii or .npz")
-    check_map_names(maps)
+    check_names(path, maps)
     lengths = {len(values) for values in maps.values()}
     # an archive also holds results whose arrays are no maps
     if len(lengths) != 1 and path.suffix.lower() != ".npz":
@@ -104,6 +104,19 @@ def write_maps(path: Path | str, maps: dict[str, Floats], hemisphere: str | NDAr
             freesurfer.write_volume_map(temporary, next(iter(check_single_precision_maps(maps).values())))
         else:
             freesurfer.write_curvature(temporary, next(iter(check_single_precision_maps(maps).values())))
+
+
+def check_names(path: Path | str, maps: dict[str, Floats]) -> None:
+    """Refuse names of maps that a file of maps cannot give back, before anything is computed.
+
+    Raises
+    ------
+    ValueError
+        Naming the first of them.
+    """
+    check_map_names(maps)
+    if Path(path).suffix.lower() in TEXT:
+        check_column_names(Path(path), scalar_channels(maps))
 
 
 def check_map_target(

@@ -142,3 +142,14 @@ def test_regions_of_a_part_are_refused_where_nothing_says_outside(
     np.save("mask.npy", BALL.mesh.vertices[:, 2] > 0)
     assert main([*COMMANDS["segment"], "--mask", "mask.npy", "--to", "lh.regions"]) == 2
     assert "lh.regions cannot say NaN" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["0123.npy", "nan.npy"])
+@pytest.mark.parametrize("command", [["denoise"], ["smooth", "--width", "0.5"]])
+def test_a_map_whose_name_a_table_cannot_give_back_is_refused_at_once(
+    folder: Path, name: str, command: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"surfexp.tasks.denoising.{command[0]}", lambda *_, **__: pytest.fail("something was computed"))
+    np.save(name, BALL.mesh.vertices[:, 2])
+    assert main([*command, "ball.ply", name, "--to", "result.csv"]) == 2
+    assert "are read as numbers in a table: rename the maps" in capsys.readouterr().err
