@@ -151,6 +151,7 @@ def found(name, package=None):
 importlib.util.find_spec = found
 """
 COMMANDS = """
+from pathlib import Path
 import surfexp as sx
 from surfexp.commands.command_line import main
 import numpy as np
@@ -174,6 +175,7 @@ for line in (
     "doctor",
 ):
     assert main(line.split()) == 0, line
+Path("results/store").mkdir(parents=True)
 for line in ("plot ball.ply --to ball.png", "run experiment=quickstart", "list", "table", "clean", "collect . --to x"):
     print(main(line.split()), line)
 """

@@ -93,7 +93,10 @@ def test_pandas_index_is_no_map(working_folder: Path) -> None:
     pd.DataFrame({"a": X, "b": Y}).to_csv("lh.csv")
     assert list(read_maps("lh.csv")) == ["a", "b"] and np.array_equal(read_maps("lh.csv")["b"], Y)
     pd.DataFrame({"a": X, "b": Y}, index=np.arange(1, COUNT + 1)).to_csv("lh.csv")
-    assert list(read_maps("lh.csv")) == ["", "a", "b"]
+    assert list(read_maps("lh.csv")) == ["a", "b"]
+    pd.DataFrame({"a": X, "b": Y}, index=np.arange(COUNT)[::-1]).to_csv("lh.csv")
+    with pytest.raises(ValueError, match="does not count the rows"):
+        read_maps("lh.csv")
 
 
 def test_vertices_behind_the_last_that_a_file_lists_are_unknown(working_folder: Path) -> None:
