@@ -26,7 +26,7 @@ def diff(first: str, second: str, results: Path) -> int:
     from rich.table import Table
 
     from surfexp.commands.console import Console
-    from surfexp.records.table import format_number
+    from surfexp.records.written_numbers import format_number
     from surfexp.report.row_difference import differing_options, numbers_beside
     from surfexp.report.words import word
 

@@ -46,7 +46,8 @@ def finish(path: Path, plan: Plan, arguments: Sequence[str] | None = None, compu
 
 def _dashboard(plan: Plan, results: Path) -> dict[str, str]:
     """Tags that let the dashboard open an experiment by its tables, and not as one of language models."""
-    from surfexp.records.table import comparisons, rows_of
+    from surfexp.records.comparison import comparisons
+    from surfexp.records.table import rows_of
     from surfexp.report.dashboard_view import TAG, dashboard_view
     from surfexp.report.declared import declared_by
 

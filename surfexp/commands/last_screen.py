@@ -11,7 +11,9 @@ from rich.text import Text
 from surfexp.commands.console import Console
 from surfexp.commands.verdict_lines import STYLES, statement
 from surfexp.commands.views import wrapped
-from surfexp.records.table import Comparison, Row, format_number, short_name
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.not_numbers import not_numbers
 from surfexp.report.verdict import Verdict
 from surfexp.report.words import word

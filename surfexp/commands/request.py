@@ -151,7 +151,8 @@ def _tell(plan: Plan, doubtful: list[str], arguments: list[str]) -> None:
     from surfexp.commands.last_screen import print_last_screen
     from surfexp.commands.verdict_lines import print_verdicts, verdicts_of
     from surfexp.commands.views import print_tables, wide_console
-    from surfexp.records.table import comparisons, rows_of
+    from surfexp.records.comparison import comparisons
+    from surfexp.records.table import rows_of
     from surfexp.report.convergence import unconverged
     from surfexp.report.search import search_of
 

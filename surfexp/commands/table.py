@@ -39,7 +39,8 @@ def table(experiments: tuple[str, ...], form: str, results: Path) -> None:
 def _print(plan: Plan, results: Path, form: str) -> None:
     from surfexp.commands.verdict_lines import print_verdicts
     from surfexp.commands.views import print_tables, wide_console
-    from surfexp.records.table import comparisons, rows_of, to_csv
+    from surfexp.records.comparison import comparisons
+    from surfexp.records.table import rows_of, to_csv
 
     rows = rows_of(plan, results)
     if form == "csv":

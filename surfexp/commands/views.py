@@ -9,7 +9,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from surfexp.commands.console import Console
-from surfexp.records.table import Comparison, Row, format_number, number_notes, short_name
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row, number_notes
+from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.not_numbers import not_numbers
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word

@@ -14,9 +14,11 @@ from surfexp.lab.plan.outcome import NOT_COMPUTED, Outcome
 from surfexp.lab.plan.plan import Leaf, Plan
 from surfexp.lab.registry.registry import plugin
 from surfexp.lab.store import store
+from surfexp.records.comparison import comparisons
 from surfexp.records.leaf_changes import LeafChange
 from surfexp.records.run_content import RunContent, RunDataset
-from surfexp.records.table import DATA, Row, comparisons, short_name
+from surfexp.records.table import DATA, Row
+from surfexp.records.written_numbers import short_name
 
 NOTE = "mlflow.note.content"
 

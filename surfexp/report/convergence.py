@@ -12,7 +12,8 @@ from surfexp.lab.plan.outcome import outcome
 from surfexp.lab.plan.plan import Node, Plan
 from surfexp.lab.registry.catalogue import catalogue
 from surfexp.lab.store.kinds import KINDS
-from surfexp.records.table import Comparison, comparisons, rows_of
+from surfexp.records.comparison import Comparison, comparisons
+from surfexp.records.table import rows_of
 from surfexp.report.declared import declared
 
 UNCONVERGED = 3

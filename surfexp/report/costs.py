@@ -8,7 +8,8 @@ import numpy as np
 
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.figures.figure import Figure
-from surfexp.records.table import Comparison, short_name
+from surfexp.records.comparison import Comparison
+from surfexp.records.written_numbers import short_name
 
 GAP, METHOD, TOLERANCE = "relative_gap", "solver.name", "solver.tolerance"
 

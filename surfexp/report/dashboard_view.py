@@ -9,7 +9,8 @@ import json
 from collections.abc import Sequence
 from typing import Any
 
-from surfexp.records.table import SECONDS, Comparison
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import SECONDS
 
 VIEW = "surfexp"
 TAG = f"mlflow.sharedViewState.{VIEW}"

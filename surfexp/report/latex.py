@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from surfexp.records.table import Comparison, Row, format_number, short_name
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word
 

@@ -10,7 +10,8 @@ from surfexp.contract.metric import Metric
 from surfexp.lab.errors import DamagedResult
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 
 OPEN = "unit of length"
 

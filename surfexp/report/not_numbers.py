@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from surfexp.records.table import Comparison
+from surfexp.records.comparison import Comparison
 
 
 def not_numbers(group: Comparison) -> list[str]:

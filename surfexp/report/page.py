@@ -16,10 +16,11 @@ from surfexp.lab.errors import DamagedResult
 from surfexp.lab.experiment.claim import read_claims
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
+from surfexp.records.comparison import Comparison, comparisons
 from surfexp.records.failures import failures_of
 from surfexp.records.origin import read_origin
 from surfexp.records.run_names import run_names
-from surfexp.records.table import Comparison, Row, comparisons, number_notes, rows_of, to_csv
+from surfexp.records.table import Row, number_notes, rows_of, to_csv
 from surfexp.report.costs import cost_figure
 from surfexp.report.declared import declared_by
 from surfexp.report.drawing import is_still

@@ -9,7 +9,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
-from surfexp.records.table import format_number, short_name
+from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.not_numbers import not_numbers
 from surfexp.report.words import duration, word
 from surfexp.viewer.page import asset, policy_of

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from statistics import fmean, stdev
 from typing import Any
 
-from surfexp.records.table import Comparison, Row, format_number
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number
 
 FEWEST = 3
 # decimals, or digits behind the first, that are shown at most

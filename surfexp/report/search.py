@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.lab.store import store
-from surfexp.records.table import Row, format_number
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number
 
 PICTURE = "search.svg"
 WIDTH, HEIGHT = 1000, 430

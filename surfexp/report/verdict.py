@@ -10,7 +10,9 @@ from typing import Any
 
 from surfexp.lab.experiment.claim import NOT_COMPARABLE, Claim, Interval
 from surfexp.lab.plan.outcome import NOT_COMPUTED
-from surfexp.records.table import Comparison, Row, format_number
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,9 @@ from surfexp.commands.request import dashboard_line
 from surfexp.commands.verdict_lines import verdicts_of
 from surfexp.commands.views import print_tables
 from surfexp.lab.plan.plan import Leaf, Plan
-from surfexp.records.table import Comparison, Row, format_number
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number
 from surfexp.report.verdict import Verdict
 
 TAIL = [

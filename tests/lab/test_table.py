@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 
 
 def row(metrics: dict[str, float] | None = None, **parameters: Any) -> Row:

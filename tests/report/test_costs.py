@@ -9,7 +9,8 @@ import pytest
 
 from surfexp.figures.cost_plot import cost_plot
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 from surfexp.report.costs import cost_figure
 
 

@@ -7,7 +7,8 @@ from typing import Any
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 from surfexp.report.dashboard_view import dashboard_view
 
 METRICS = {"rmse": Metric("", "mm", "lower"), "psnr": Metric("", "dB", "higher"), "area": Metric("")}

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 from surfexp.report.latex import WORDS, escape, latex_table, number
 
 DECLARED = {"rmse": Metric("root of the mean squared error", "mm", "lower"), "psnr": Metric("", "dB", "higher")}

@@ -19,16 +19,9 @@ from surfexp.figures.figure import whole
 from surfexp.lab.plan.outcome import Outcome, event_path
 from surfexp.lab.plan.plan import Leaf
 from surfexp.lab.store import store
-from surfexp.records.table import (
-    Comparison,
-    Row,
-    as_in_tables,
-    comparisons,
-    format_number,
-    number_notes,
-    rows_of,
-    to_csv,
-)
+from surfexp.records.comparison import Comparison, comparisons
+from surfexp.records.table import Row, number_notes, rows_of, to_csv
+from surfexp.records.written_numbers import as_in_tables, format_number
 from surfexp.report import page
 from surfexp.report.declared import declared_by
 from surfexp.report.page import write_report

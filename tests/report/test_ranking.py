@@ -15,7 +15,8 @@ from hypothesis.extra.numpy import arrays
 from audits.benchmarks.synthetic_results import fill, plan_of
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 from surfexp.report.page import write_report
 from surfexp.report.ranking.drawing import draw
 from surfexp.report.ranking.profile import has_profile, profiles

@@ -16,7 +16,8 @@ from audits.benchmarks.synthetic_results import fill, plan_of
 from surfexp.commands.views import print_tables
 from surfexp.contract.metric import Metric
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
 from surfexp.report.latex import latex_table
 from surfexp.report.page import write_report
 from surfexp.report.repeats import mean_and_deviation, repeats_of

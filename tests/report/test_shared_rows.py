@@ -11,8 +11,9 @@ from surfexp.lab.experiment.configuration import expand
 from surfexp.lab.plan.plan import read_plan
 from surfexp.lab.plan.resolution import make_plan
 from surfexp.lab.registry.loading import load_all
+from surfexp.records.comparison import comparisons
 from surfexp.records.leaf_run import names_of_runs
-from surfexp.records.table import comparisons, rows_of, to_csv
+from surfexp.records.table import rows_of, to_csv
 from surfexp.report.declared import check_names
 
 load_all(Path("/nonexistent"))

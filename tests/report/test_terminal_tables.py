@@ -9,7 +9,9 @@ from rich.console import Console
 
 from surfexp.commands.views import print_tables
 from surfexp.lab.plan.plan import Leaf
-from surfexp.records.table import Comparison, Row, format_number
+from surfexp.records.comparison import Comparison
+from surfexp.records.table import Row
+from surfexp.records.written_numbers import format_number
 
 NUMBERS = [9.4512e-5, -611.7, 3607872.0, 0.9891, 566211.0, 1.5e8, 20000.0]
 

@@ -12,7 +12,8 @@ from typing import Any
 
 from surfexp.commands.exporting.selection import upstream
 from surfexp.lab.plan.plan import Plan
-from surfexp.records.table import comparisons, rows_of
+from surfexp.records.comparison import comparisons
+from surfexp.records.table import rows_of
 
 TITLE, VALUE, STEM = 24, 28, 80
 

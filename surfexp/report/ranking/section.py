@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from surfexp.lab.store import store
-from surfexp.records.table import Comparison, format_number
+from surfexp.records.comparison import Comparison
+from surfexp.records.written_numbers import format_number
 from surfexp.report.ranking.trials import trials_of
 from surfexp.report.repeats import mean_and_deviation
 

@@ -14,7 +14,9 @@ import numpy as np
 
 from surfexp.contract.arrays import Floats
 from surfexp.contract.metric import Metric
-from surfexp.records.table import OF_ONE_PROBLEM, SECONDS, Comparison, Row, format_number, short_name
+from surfexp.records.comparison import OF_ONE_PROBLEM, Comparison
+from surfexp.records.table import SECONDS, Row
+from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.words import word
 
 # of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %
