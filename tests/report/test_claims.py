@@ -262,6 +262,7 @@ def test_the_ends_belong_to_the_interval(between: list[float | None], energy: fl
         ([None, 1e-6], 9.96e-7, "1.0e-6"),  # inside, as it is shown
         ([0.95, None], 0.95004, "0.95"),
         ([None, 20000.0], 20000.4, "20000.4"),
+        ([None, 1.234], 1.23401234567, "1.23401"),  # as few digits as say it
     ],
 )
 def test_no_number_is_rounded_over_an_end_of_its_interval(between: list[float], energy: float, shown: str) -> None:
