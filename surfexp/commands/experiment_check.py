@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from surfexp.commands.request import plan_and_act
+from surfexp.commands.terminal import counted
 from surfexp.lab.errors import UserError
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.registry.folders import experiments
@@ -39,6 +40,4 @@ def check_experiment(file: Path) -> str:
         ) from None
     (plan,) = plans
     counts = {"row": len(plan.leaves), "stage": len(plan.stored), "claim": len(plan.settings.claims)}
-    return f"{file}: nothing wrong; " + ", ".join(
-        f"{count} {word}{'s' * (count != 1)}" for word, count in counts.items()
-    )
+    return f"{file}: nothing wrong; " + ", ".join(counted(count, word) for word, count in counts.items())

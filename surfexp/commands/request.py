@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +17,7 @@ from surfexp.commands.console import Console
 from surfexp.commands.error_line import lacking
 from surfexp.commands.searching import is_search, joined, repeatable
 from surfexp.commands.several_experiments import apart, each
-from surfexp.commands.terminal import echo
+from surfexp.commands.terminal import counted, echo
 from surfexp.lab.errors import StageFailure, UserError
 from surfexp.lab.experiment.experiment_files import check_files, located
 from surfexp.lab.plan.remembered_plans import place, remember, remembered
@@ -31,7 +32,29 @@ ROWS_PRINTED = 200
 def carried_out(name: str, arguments: list[str]) -> int:
     """Run (or only plan) what the configuration asks for; 3 where a row did not converge."""
     check_arguments(arguments)
-    return each(partial(_one_experiment, name), apart(arguments))
+    return each(partial(_one_experiment, name), apart(arguments), _check)
+
+
+class _Enough(Exception):
+    """What a search asks for after its first plan depends on results that are not there."""
+
+
+def _only_planned(action: Callable[[Plan], None]) -> Callable[[Plan], None]:
+    """Return an action that ends a search after its first plan."""
+
+    def act(plan: Plan) -> None:
+        action(plan)
+        if plan.settings.objective is not None:
+            raise _Enough
+
+    return act
+
+
+def _check(arguments: list[str]) -> None:
+    """Plan a request and do nothing; flags would have Hydra answer twice, and what the system lacks is told by the run."""
+    if not any(text.startswith("-") for text in arguments):
+        with suppress(OSError):
+            plan_and_act(arguments, _only_planned(lambda plan: None))
 
 
 def _one_experiment(name: str, arguments: list[str]) -> int:
@@ -40,7 +63,7 @@ def _one_experiment(name: str, arguments: list[str]) -> int:
     search = name == "run" and is_search(arguments)
     action: Callable[[Plan], None] = partial(_trials if search else _run, doubtful, arguments)
     try:
-        plans = plan_and_act(arguments, _show if name == "plan" else action)
+        plans = plan_and_act(arguments, _only_planned(_show) if name == "plan" else action)
         if search and plans:
             _tell(plans[-1], doubtful, arguments)
     except OSError as error:
@@ -60,7 +83,8 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
     """
     kept_at = place(arguments)
     if (known := remembered(kept_at)) is not None:
-        action(known)
+        with suppress(_Enough):
+            action(known)
         return [known]
     check_files(arguments)
     from hydra.errors import HydraException
@@ -89,6 +113,8 @@ def plan_and_act(arguments: list[str], action: Callable[[Plan], None]) -> list[P
 
     try:
         launch(arguments, check_and_act)
+    except _Enough:
+        return plans
     except (HydraException, OmegaConfBaseException) as error:
         raise UserError(located(" ".join(str(error).split()), arguments)) from error
     except UserError as error:
@@ -135,7 +161,8 @@ def _run(doubtful: list[str], arguments: list[str], plan: Plan) -> None:
     missing = unfinished(plan, results)
     console = wide_console()
     state = f"{len(missing)} to compute" if missing else "nothing to compute"
-    console.print(f"{plan.settings.experiment}: {len(plan.leaves)} configurations, {len(plan.stored)} stages, {state}")
+    rows, stages = counted(len(plan.leaves), "configuration"), counted(len(plan.stored), "stage")
+    console.print(f"{plan.settings.experiment}: {rows}, {stages}, {state}")
     failure = None
     try:
         run(plan, arguments)
@@ -200,7 +227,8 @@ def _show(plan: Plan) -> None:
     console = Console(highlight=False)
     console.print(table)
     total = sum(unique.values())
-    console.print(f"{len(plan.leaves)} configurations: {plan.requested} stages without sharing, {total} with sharing,")
+    rows = counted(len(plan.leaves), "configuration")
+    console.print(f"{rows}: {counted(plan.requested, 'stage')} without sharing, {total} with sharing,")
     console.print(f"{sum(missing.values())} to compute, {total - sum(missing.values())} done")
 
 

@@ -35,18 +35,31 @@ def _can_be_a_name(text: str) -> bool:
     return re.fullmatch(NAME, text) is not None
 
 
-def each(run: Callable[[list[str]], int], requests: list[list[str]]) -> int:
-    """Run all requests, also after one that failed; return the worst exit code."""
+def each(run: Callable[[list[str]], int], requests: list[list[str]], check: Callable[[list[str]], None]) -> int:
+    """Run all requests, also after one that failed; return the worst exit code.
+
+    What is wrong in any of them is told before the first begins; the others run.
+    """
     if len(requests) == 1:
         return run(requests[0])
-    codes = []
-    for arguments in requests:
+    codes = {place: tell(error) for place, arguments in enumerate(requests) if (error := _mistake(check, arguments))}
+    for place, arguments in enumerate(requests):
+        if place in codes:
+            continue
         try:
-            codes.append(run(arguments))
+            codes[place] = run(arguments)
         except (UserError, StageFailure, MissingExtra) as error:
-            codes.append(tell(error))
-    failed = [arguments for arguments, code in zip(requests, codes, strict=True) if code in (1, 2)]
+            codes[place] = tell(error)
+    failed = [arguments for place, arguments in enumerate(requests) if codes[place] in (1, 2)]
     if failed:
         names = ", ".join(text.partition("=")[2] for arguments in failed for text in arguments if "experiment=" in text)
         echo(f"surfexp: {len(failed)} of {len(requests)} experiments did not end: {names}", err=True)
-    return next((code for code in WORST_FIRST if code in codes), 0)
+    return next((code for code in WORST_FIRST if code in codes.values()), 0)
+
+
+def _mistake(check: Callable[[list[str]], None], arguments: list[str]) -> UserError | MissingExtra | None:
+    try:
+        check(arguments)
+    except (UserError, MissingExtra) as error:
+        return error
+    return None

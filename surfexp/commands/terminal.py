@@ -27,6 +27,17 @@ def plain_text(text: str) -> str:
     return STEERING.sub(lambda found: found[0] if found[0] == "\x1b[K" else ascii(found[0])[1:-1], text)
 
 
+def counted(count: int, noun: str) -> str:
+    """Return a number with its noun.
+
+    Examples
+    --------
+    >>> counted(1, "stage"), counted(0, "stage")
+    ('1 stage', '0 stages')
+    """
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
 def echo(message: object = "", nl: bool = True, err: bool = False) -> None:
     """Print a message, of which names and words of others may be a part."""
     click.echo(plain_text(str(message)), nl=nl, err=err)

@@ -158,7 +158,7 @@ def test_several_experiments_have_a_page_each_and_one_that_fails_stops_no_other(
     assert "surfexp: 1 of 3 experiments did not end: without_path" in done.stderr
     for name in ("chain", "second"):
         page = (laboratory / "results" / name / "report.html").read_text()
-        assert f"{name}: 1 configurations" in done.stdout and "toy_distance" in page
+        assert f"{name}: 1 configuration, " in done.stdout and "toy_distance" in page
     assert not (laboratory / "results" / "without_path").exists()
     planned = surfexp("plan", "experiment=chain,second").stdout
     assert "plan of chain" in planned and "plan of second" in planned and planned.count("0 to compute") == 2

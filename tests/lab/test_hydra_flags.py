@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import logging
+import re
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +15,7 @@ from hydra._internal.utils import get_args_parser
 from hydra.core.config_store import ConfigStore
 
 from surfexp.commands.command_line import main
-from surfexp.lab.composition.launch import prepare_hydra
+from surfexp.lab.composition.hydra_plugins import prepare_hydra
 from surfexp.lab.errors import UserError
 from surfexp.lab.experiment.hydra_flags import FLAGS, WITH_VALUE, parted
 
@@ -55,7 +56,7 @@ def told(capsys: pytest.CaptureFixture[str], *arguments: str, code: int = 0) -> 
 def rows(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[str]:
     """Numbers of configurations of each plan that is shown."""
     said = told(capsys, "plan", "experiment=own", *arguments)
-    return [line.partition(" ")[0] for line in said.splitlines() if " configurations: " in line]
+    return [line.partition(" ")[0] for line in said.splitlines() if re.search(" configurations?: ", line)]
 
 
 def test_flags_and_their_values_are_those_of_hydra() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from surfexp.commands import arguments
-from surfexp.lab.composition.launch import ConfigurationFolders
+from surfexp.lab.composition.hydra_plugins import ConfigurationFolders
 from surfexp.lab.plan import remembered_plans
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.plan.resolution import make_plan
