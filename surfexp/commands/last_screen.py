@@ -14,7 +14,7 @@ from surfexp.commands.views import wrapped
 from surfexp.records.comparison import Comparison
 from surfexp.records.table import Row
 from surfexp.records.written_numbers import format_number, short_name
-from surfexp.report.not_numbers import not_numbers
+from surfexp.report.metric_remarks import metric_remarks
 from surfexp.report.verdict import Verdict
 from surfexp.report.words import word
 
@@ -66,7 +66,7 @@ def print_last_screen(
     console : Console
     """
     width = console.width
-    unknown = [line for group in groups for line in not_numbers(group)]
+    unknown = [line for group in groups for line in metric_remarks(group)]
     head = [*_verdict_lines(verdicts, width), *_warning_lines(warnings, "rows", width)]
     head += _warning_lines(unknown, "metrics", width)
     end = [Text(line) for text in tail for line in wrapped(text, width, 11)]

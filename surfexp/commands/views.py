@@ -12,7 +12,7 @@ from surfexp.commands.console import Console
 from surfexp.records.comparison import Comparison
 from surfexp.records.table import Row, number_notes
 from surfexp.records.written_numbers import format_number, short_name
-from surfexp.report.not_numbers import not_numbers
+from surfexp.report.metric_remarks import metric_remarks
 from surfexp.report.repeats import Repeats, repeats_of
 from surfexp.report.words import word
 
@@ -51,7 +51,7 @@ def print_tables(groups: Sequence[Comparison], console: Console, limit: int | No
         rows = group.rows if limit is None else group.excerpt(limit)
         notes = number_notes(rows)
         _print(_table(group, rows, notes), console)
-        texts = [*not_numbers(group), *(f"[{number}] {note}" for note, number in notes.items())]
+        texts = [*metric_remarks(group), *(f"[{number}] {note}" for note, number in notes.items())]
         for line in (line for text in texts for line in lines_for(text, console, 4)):
             console.print(escape(line), soft_wrap=True)
         if len(rows) < len(group.rows):

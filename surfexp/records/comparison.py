@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -73,12 +74,17 @@ class Comparison:
     def meaning(self, name: str) -> Metric:
         """The declaration of a metric; an empty one where there is none.
 
-        Seconds have a good direction only in benchmark mode, where stages run one at a time.
+        Seconds have a good direction only in benchmark mode, where stages run one at a time, and on machines of one kind.
         """
         if name == SECONDS:
-            timed = all(row.leaf.settings.get("timing") for row in self.rows)
+            timed = all(row.leaf.settings.get("timing") for row in self.rows) and len(self.machines) < 2
             return Metric("processor seconds of the stage, without compilation", "s", "lower" if timed else "")
         return find_metric(name, self.metrics) or Metric("")
+
+    @cached_property
+    def machines(self) -> dict[str, int]:
+        """The kinds of machine that rows with seconds were measured on, with their number; unknown is one of them."""
+        return dict(Counter(row.machine or "unknown" for row in self.rows if row.seconds is not None))
 
     @cached_property
     def best(self) -> dict[tuple[str, frozenset[str]], float]:

@@ -29,7 +29,7 @@ ANSWERS = ("solver", "distance", "distance_matrix", "embedding", "classifier")
 class Row:
     """One leaf: its parameters, metrics, notes and whether its certificate was reached.
 
-    `seconds` is measured, not a part of the result: None where the event of the stage was lost. `data` are the keys of
+    `seconds` is measured on `machine`, not a part of the result: None where the event of the stage was lost. `data` are the keys of
     the surfaces and images that it starts from. `measured` says that the leaf is a measure of one solver's result.
     """
 
@@ -41,6 +41,7 @@ class Row:
     failure: str = ""
     data: frozenset[str] = frozenset()
     measured: bool = False
+    machine: str = ""
 
     def number(self, name: str) -> float | None:
         """A metric of the row, or its seconds; None where it has none."""
@@ -80,7 +81,8 @@ def rows_of(plan: Plan, results: Path) -> list[Row]:
         failure = found.failure
         if failure == NOT_COMPUTED:
             failure = cause(plan, results, leaf.key, causes) or failure
-        rows.append(Row(leaf, parameters, found.metrics, found.seconds, notes, failure, data, measured))
+        measurement = parameters, found.metrics, found.seconds, notes, failure
+        rows.append(Row(leaf, *measurement, data, measured, found.machine))
     return rows
 
 

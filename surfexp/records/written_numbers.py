@@ -10,7 +10,7 @@ LONG = re.compile(r"(?<![\w./,-])-?(?:\d{5,6}(?:\.\d+)?|\d{4}\.\d+)(?!\.?\w)")
 
 
 def format_number(value: float | None) -> str:
-    """Four significant digits, powers of ten only where they help, a dash for nothing."""
+    """Four significant digits; powers of ten with two, for errors and gaps, only below 1e-3 and from 1e6; a dash for nothing."""
     if value is None or value != value:
         return "–"
     if math.isinf(value):

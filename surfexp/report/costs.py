@@ -36,4 +36,5 @@ def _caption(group: Comparison) -> str:
     """What else differs between the rows of a method and tolerance is what its band goes over."""
     others = [short_name(name) for name in group.varying if name not in (METHOD, TOLERANCE)]
     band = f"; of each the median, and as a band the range, over {', '.join(others)}" if others else ""
-    return f"Measured, one run for each row{band}."
+    kinds = f" on {len(group.machines)} kinds of machine" if len(group.machines) > 1 else ""
+    return f"Measured{kinds}, one run for each row{band}."

@@ -10,7 +10,7 @@ from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
 from surfexp.records.written_numbers import format_number, short_name
-from surfexp.report.not_numbers import not_numbers
+from surfexp.report.metric_remarks import metric_remarks
 from surfexp.report.words import duration, word
 from surfexp.viewer.page import asset, policy_of
 
@@ -35,7 +35,7 @@ def render(template: str, scripts: Sequence[str] = (), **content: Any) -> str:
         word=word,
         heading=short_name,
         prose=prose,
-        not_numbers=not_numbers,
+        metric_remarks=metric_remarks,
     )
     style, tables = (loader.get_source(environment, name)[0] for name in ("style.css", "tables.js"))
     style += asset("viewer.css")

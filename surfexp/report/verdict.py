@@ -11,7 +11,7 @@ from typing import Any
 from surfexp.lab.experiment.claim import NOT_COMPARABLE, Claim, Interval
 from surfexp.lab.plan.outcome import NOT_COMPUTED
 from surfexp.records.comparison import Comparison
-from surfexp.records.table import Row
+from surfexp.records.table import SECONDS, Row
 from surfexp.records.written_numbers import format_number
 
 
@@ -104,6 +104,9 @@ def _judge(claim: Claim, rows: Sequence[Row]) -> Verdict:
     chosen = selections[0]
     try:
         values, *divisors = [_values(claim, those) for those in selections]
+        kinds = Comparison("", "", [row for those in selections for row in those], []).machines
+        if divisors and claim.metric == SECONDS and len(kinds) > 1:
+            raise _Obstacle(f"seconds of {len(kinds)} kinds of machine do not compare: {', '.join(sorted(kinds))}")
         value, low, high = _quantity(claim, values, divisors[0] if divisors else None)
     except _Obstacle as obstacle:
         return Verdict(claim, NOT_COMPUTED, len(chosen), obstacle=str(obstacle))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import platform
 import re
 import subprocess
@@ -21,6 +20,7 @@ from surfexp.lab.plan.source_facts import source_facts
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.folders import package_folder
 from surfexp.lab.registry.loading import load_all
+from surfexp.lab.running.machine import machine
 from surfexp.reproduction.pages import CHAPTERS_FOLDER, INDEX, read_pages
 
 STATE = re.compile(r"^State: .*$", re.MULTILINE)
@@ -61,7 +61,8 @@ def cost(plans: Mapping[str, Plan], results: Path) -> str:
     moments = [event.stat().st_mtime for event in events if event.exists()] or [0.0]
     span = (max(moments) - min(moments)) / 3600.0
     return (
-        f"{datetime.now(UTC):%Y-%m-%d}, {_machine()}; {len(nodes)} stages, {failed} without result, "
+        f"{datetime.now(UTC):%Y-%m-%d}, {machine()}, Python {platform.python_version()}; "
+        f"{len(nodes)} stages, {failed} without result, "
         f"{hours:.2f} processor hours in methods, {span:.1f} hours from the end of the first to that of the last, "
         f"peak memory of a stage {memory:.1f} GB."
     )
@@ -136,12 +137,6 @@ def commit_of_page() -> str:
 
 def _experiment_files() -> list[Path]:
     return sorted(package_folder("surfexp.conf").rglob("*.yaml"))
-
-
-def _machine() -> str:
-    """Kind of processor and number of cores; nothing that names the machine."""
-    kinds = re.findall(r"^model name\s*: (.*)$", _read(Path("/proc/cpuinfo")), re.MULTILINE)
-    return f"{kinds[0] if kinds else platform.machine()}, {os.cpu_count()} cores, Python {platform.python_version()}"
 
 
 def _read(path: Path) -> str:

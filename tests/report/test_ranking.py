@@ -21,7 +21,7 @@ from surfexp.report.page import write_report
 from surfexp.report.ranking.drawing import draw
 from surfexp.report.ranking.profile import has_profile, profiles
 from surfexp.report.ranking.ranking import _interval, rank
-from surfexp.report.ranking.trials import FEWEST_PROBLEMS, Trials, _names, trials_of
+from surfexp.report.ranking.trials import FEWEST_DATA, Trials, _names, trials_of
 
 METRICS = {"rmse": Metric("error", "mm", "lower"), "dice": Metric("overlap", "", "higher"), "area": Metric("area")}
 
@@ -162,22 +162,40 @@ def test_methods_and_problems_are_found_in_a_table() -> None:
     assert rank(found["rmse"]).methods[0] == "tv l1" and rank(found["dice"]).methods[0] == "tv l1"
 
 
-def test_a_tolerance_is_a_part_of_the_problem() -> None:
+def test_a_tolerance_is_a_part_of_the_problem_and_no_sample() -> None:
     rows = [
         row(name, k, 1.0 + k + tolerance, tolerance=tolerance)
-        for k in range(3)
+        for k in range(6)
         for tolerance in (0.1, 0.2)
         for name in ("rof", "tv_l1")
     ]
     rows[0].metrics["rmse"] = 0.5
     (found, _) = trials_of(group(rows))
-    assert found.methods == ("rof", "tv l1") and found.values.shape == (6, 2)
+    assert found.methods == ("rof", "tv l1") and found.values.shape == (12, 2)
+    assert found.samples.tolist() == np.repeat(range(6), 2).tolist()
+    assert not trials_of(group(rows[:-4]))  # ten problems, five data
+
+
+def test_tests_take_what_is_of_the_same_data_as_one_sample() -> None:
+    random = np.random.default_rng(5)
+    table = random.normal([0.0, 0.4, 0.5], 1.0, (7, 3))
+    thrice = np.repeat(table, 3, axis=0)
+    alone, found = rank(trials(table)), rank(dataclasses.replace(trials(thrice), data=tuple(np.repeat(range(7), 3))))
+    assert np.allclose(found.p, alone.p) and found.p_friedman == pytest.approx(alone.p_friedman)
+    assert np.allclose([found.low, found.high], [alone.low, alone.high], equal_nan=True)
+    assert rank(trials(thrice)).p_friedman < 0.5 * alone.p_friedman  # as if each tolerance were a sample
+
+
+def test_a_method_that_solves_one_tolerance_of_each_is_no_better_than_one_that_solves_the_other() -> None:
+    table = np.array([[1.0, np.nan], [np.nan, 1.0]] * 7)
+    found = rank(dataclasses.replace(trials(table), data=tuple(np.repeat(range(7), 2))))
+    assert found.p[0, 1] == 1.0 and np.isnan(found.difference[1])
 
 
 def test_what_is_not_a_comparison_of_methods_has_no_ranking() -> None:
     rows = [row(name, k, 1.0 + k + len(name)) for k in range(7) for name in ("rof", "tv_l1")]
     assert trials_of(group(rows))
-    assert not trials_of(group(rows[: 2 * (FEWEST_PROBLEMS - 1)]))
+    assert not trials_of(group(rows[: 2 * (FEWEST_DATA - 1)]))
     assert not trials_of(group([item for item in rows if item.parameters["solver.name"] == "rof"]))
     assert not trials_of(group([*rows, row("rof", 0, 3.0)]))  # the same method twice on a problem
     statistic = [

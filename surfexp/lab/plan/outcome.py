@@ -19,8 +19,8 @@ NOT_COMPUTED = "not computed"
 class Outcome:
     """The numbers of one stage.
 
-    Metrics and notes are part of the result. Processor seconds and peak memory are measurements of the run that made it;
-    they are None where its event was lost. `failure` says why there is no result, and is empty where there is one.
+    Metrics and notes are part of the result. Processor seconds, peak memory and the kind of machine belong to the run that
+    made it, and are None or empty where its event was lost. `failure` says why there is no result, and is empty where there is one.
     """
 
     metrics: dict[str, float] = field(default_factory=dict)
@@ -28,6 +28,7 @@ class Outcome:
     seconds: float | None = None
     peak_memory_mb: float | None = None
     failure: str = ""
+    machine: str = ""
 
 
 def event_path(results: Path, kind: str, key: str) -> Path:
@@ -54,7 +55,8 @@ def outcome(results: Path, node: Node) -> Outcome:
     metrics = {name: float(value) for name, value in fields.get("metrics", {"map": {}})["map"].items()}
     notes = fields.get("notes", [])
     notes = tuple(notes["tuple"] if isinstance(notes, dict) else notes)
-    return Outcome(metrics, notes, _number(event.get("seconds")), _number(event.get("peak_memory_mb")))
+    seconds, memory = _number(event.get("seconds")), _number(event.get("peak_memory_mb"))
+    return Outcome(metrics, notes, seconds, memory, machine=str(event.get("machine") or ""))
 
 
 def _number(value: Any) -> float | None:

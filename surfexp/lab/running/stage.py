@@ -27,6 +27,7 @@ from surfexp.lab.registry import registry  # noqa: E402
 from surfexp.lab.registry.option_files import file_named  # noqa: E402
 from surfexp.lab.running import compiled_code  # noqa: E402
 from surfexp.lab.running.clock import clocked  # noqa: E402
+from surfexp.lab.running.machine import machine  # noqa: E402
 from surfexp.lab.running.planned_code import loaded_methods, read_code  # noqa: E402
 from surfexp.lab.store import store  # noqa: E402
 from surfexp.lab.store.kinds import KINDS  # noqa: E402
@@ -75,6 +76,7 @@ def run_stage(plan_path: Path, key: str, plan: Plan | None = None) -> int:
         _progress["path"].unlink(missing_ok=True)
     event: dict[str, Any] = {"kind": node.kind, "plugin": node.plugin, "failure": failure}
     event |= {"seconds": _progress["seconds"], "alone": plan.settings.timing, "warnings": compiled_code.complaints()}
+    event["machine"] = machine()
     event["peak_memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     store.write_text(event_path(results, node.kind, key), json.dumps(event, indent=1))
     return 1 if failure else 0

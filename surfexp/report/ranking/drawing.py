@@ -44,9 +44,8 @@ def _draw_ranks(figure: Any, ranking: Ranking, bottom: float, height: float) -> 
     axes.yaxis.set_visible(False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    title = (
-        f"Mean rank by {ranking.trials.metric.replace('_', ' ')} on {len(ranking.trials.values)} problems, 1 is best"
-    )
+    metric, count = ranking.trials.metric.replace("_", " "), len(ranking.trials.values)
+    title = f"Mean rank by {metric} on {count} problems, 1 is best"
     axes.set_title(title, fontsize=points(1.1 * em), fontweight="bold", pad=points(0.9 * em))
     for place, (name, mean) in enumerate(zip(ranking.methods, ranking.ranks, strict=True), 1):
         axes.plot([1.0, m], [place, place], color="#e6e6e6", linewidth=0.8, zorder=1)

@@ -37,8 +37,8 @@ class Ranking:
     mean, deviation : (m,) float64
         Of the metric over the solved problems.
     difference, low, high : (m,) float64
-        Mean of method less best over the problems that both solved, and its 95 % interval by Student's t; NaN for the
-        best itself and for under two such problems.
+        Mean of method less best, and its 95 % interval by Student's t, over the data with a problem that both solved;
+        NaN for the best itself and for under two such data.
     p : (m, m) float64
         Of the signed-rank tests, corrected by Holm. A problem that one of two methods did not solve has the largest of
         their differences; 1 where all are zero.
@@ -46,6 +46,10 @@ class Ranking:
         That all methods rank alike; NaN for two methods.
     groups : tuple of (int, int)
         First and last place of each longest run of methods no two of which differ at 5 %.
+
+    Notes
+    -----
+    Tests and intervals take the mean over the problems of the same data as one sample.
     """
 
     trials: Trials
@@ -93,15 +97,25 @@ def rank(trials: Trials) -> Ranking:
     each = stats.rankdata(worst, axis=1)
     order = np.argsort(each.mean(axis=0), kind="stable")
     each, values = each[:, order], trials.values[:, order]
-    p = _pairwise(worst[:, order])
-    p_friedman = _friedman(each) if len(order) > 2 else float("nan")
+    samples = trials.samples
+    p = _pairwise(worst[:, order], samples)
+    p_friedman = _friedman(_of_samples(each, samples)) if len(order) > 2 else float("nan")
     solved = [column[~np.isnan(column)] for column in values.T]
     mean = np.array([column.mean() if len(column) else np.nan for column in solved])
     deviation = np.array([column.std(ddof=1) if len(column) > 1 else np.nan for column in solved])
-    difference, low, high = np.array([_interval(column - values[:, 0]) for column in values.T]).T
+    apart = _of_samples(values - values[:, :1], samples)
+    difference, low, high = np.array([_interval(column) for column in apart.T]).T
     difference[0] = low[0] = high[0] = np.nan
     groups = tuple(_alike(p > LEVEL))
     return Ranking(trials, order, each.mean(axis=0), mean, deviation, difference, low, high, p, p_friedman, groups)
+
+
+def _of_samples(values: Floats, samples: Integers) -> Floats:
+    """Means over the problems of each sample, without those that have no number: (s, m) of (n, m)."""
+    count, total = np.zeros((2, samples.max() + 1, values.shape[1]))
+    np.add.at(count, samples, ~np.isnan(values))
+    np.add.at(total, samples, np.nan_to_num(values, nan=0.0, posinf=np.inf, neginf=-np.inf))
+    return np.divide(total, count, out=np.full(total.shape, np.nan), where=count > 0)
 
 
 def _friedman(ranks: Floats) -> float:
@@ -109,20 +123,23 @@ def _friedman(ranks: Floats) -> float:
     return 1.0 if not np.ptp(ranks, axis=1).any() else float(stats.friedmanchisquare(*ranks.T).pvalue)
 
 
-def _pairwise(worst: Floats) -> Floats:
+def _pairwise(worst: Floats, samples: Integers) -> Floats:
     from statsmodels.stats.multitest import multipletests
 
     pairs = list(combinations(range(worst.shape[1]), 2))
-    corrected = multipletests([_signed_ranks(worst[:, i], worst[:, j]) for i, j in pairs], method="holm")[1]
+    corrected = multipletests([_signed_ranks(worst[:, i], worst[:, j], samples) for i, j in pairs], method="holm")[1]
     p = np.ones((worst.shape[1],) * 2)
     for (i, j), value in zip(pairs, corrected, strict=True):
         p[i, j] = p[j, i] = value
     return p
 
 
-def _signed_ranks(one: Floats, other: Floats) -> float:
-    differ = one != other
-    return float(stats.wilcoxon(one[differ] - other[differ]).pvalue) if differ.any() else 1.0
+def _signed_ranks(one: Floats, other: Floats, samples: Integers) -> float:
+    with np.errstate(invalid="ignore"):
+        differences = np.where(one == other, 0.0, one - other)
+        found = _of_samples(differences[:, None], samples)[:, 0]
+    found = found[~np.isnan(found) & (found != 0.0)]  # each solved what the other did not: neither is better
+    return float(stats.wilcoxon(found).pvalue) if len(found) else 1.0
 
 
 def _interval(differences: Floats) -> tuple[float, float, float]:

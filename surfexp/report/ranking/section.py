@@ -38,6 +38,7 @@ class RankingShown:
     unit: str
     file: str
     problems: int
+    data: int
     lines: list[RankingLine]
     friedman: str
     left_out: tuple[str, ...]
@@ -58,8 +59,8 @@ def write_rankings(group: Comparison, folder: Path, number: int) -> list[Ranking
         store.write_text(folder / name, draw(ranking))
         friedman = "" if ranking.p_friedman != ranking.p_friedman else format_number(ranking.p_friedman)
         metric = trials.metric.replace("_", " ")
-        count = len(trials.values)
-        shown.append(RankingShown(metric, trials.unit, name, count, _lines(ranking), friedman, trials.left_out))
+        count, data = len(trials.values), len(set(trials.samples.tolist()))
+        shown.append(RankingShown(metric, trials.unit, name, count, data, _lines(ranking), friedman, trials.left_out))
     return shown
 
 

@@ -1,6 +1,7 @@
 """Rows of a table as trials: methods on problems that they share.
 
-A problem is the data and the tolerance that was asked for; all else that differs between rows is the method.
+A problem is the data and the tolerance that was asked for; all else that differs between rows is the method. Tests count
+data: one image at three tolerances is three problems and one sample.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.metric import Metric
 from surfexp.records.comparison import OF_ONE_PROBLEM, Comparison
 from surfexp.records.table import SECONDS, Row
@@ -20,7 +21,7 @@ from surfexp.records.written_numbers import format_number, short_name
 from surfexp.report.words import word
 
 # of n differences alike in sign the signed-rank test gives 2^(1 - n): under six no test can reach 5 %
-FEWEST_PROBLEMS, MOST_METHODS = 6, 12
+FEWEST_DATA, MOST_METHODS = 6, 12
 
 # the data, and the values of the options that belong to the task
 Problem = tuple[frozenset[str], tuple[str, ...]]
@@ -41,6 +42,9 @@ class Trials:
         A row a problem, a column a method; NaN where it failed or did not converge.
     left_out : tuple of str
         Methods with rows on other problems only, or on fewer than half of them.
+    data : tuple of int
+        Number of each problem's data; problems of the same data differ by their tolerance. Empty: every problem has its
+        own.
     """
 
     metric: str
@@ -49,6 +53,12 @@ class Trials:
     methods: tuple[str, ...]
     values: Floats
     left_out: tuple[str, ...] = ()
+    data: tuple[int, ...] = ()
+
+    @property
+    def samples(self) -> Integers:
+        """Number of each problem's data, from 0."""
+        return np.unique(self.data or range(len(self.values)), return_inverse=True)[1].astype(np.int64)
 
     @property
     def failed(self) -> tuple[int, ...]:
@@ -57,7 +67,7 @@ class Trials:
 
 
 def trials_of(group: Comparison) -> list[Trials]:
-    """The trials of each metric with a good direction; none where fewer than two methods share six problems.
+    """The trials of each metric with a good direction; none where fewer than two methods share six data.
 
     Numbers that tell where a method stopped, such as its gap, are no merit and have none, nor have energies of several
     models. Solvers that are certified to minimise the same energy are ranked by seconds alone: what else differs between
@@ -78,19 +88,20 @@ def trials_of(group: Comparison) -> list[Trials]:
             return []  # two rows of one method on one problem: something else differs than a method
         places[method, problem] = row
     kept, shared = _complete(places)
-    if not 2 <= len(kept) <= MOST_METHODS or len(shared) < FEWEST_PROBLEMS:
+    numbers = {data: number for number, data in enumerate(dict.fromkeys(data for data, _ in shared))}
+    if not 2 <= len(kept) <= MOST_METHODS or len(numbers) < FEWEST_DATA:
         return []
     left_out = tuple(method for method in dict.fromkeys(methods) if method not in kept)
     no_merit = {*OF_ONE_PROBLEM, *(["energy"] if any("model." in name for name in of_method) else [])}
     if _only_stop_elsewhere(of_method, rows):
         no_merit.update(group.metric_names)
-    by_clock = [SECONDS] if all(_timed(row) for row in places.values()) else []
-    found = []
+    by_clock = [SECONDS] if group.meaning(SECONDS).better and all(row.seconds is not None for row in rows) else []
+    found, of_data = [], tuple(numbers[data] for data, _ in shared)
     for metric in [*(name for name in group.metric_names if name != SECONDS), *by_clock]:
         meaning = group.meaning(metric) if metric != SECONDS else Metric("", "s", "lower")
         values = np.array([[_value(places[method, problem], metric) for method in kept] for problem in shared])
         if meaning.better and metric not in no_merit and len(set(values[~np.isnan(values)].tolist())) > 1:
-            found.append(Trials(metric, meaning.better, meaning.unit, tuple(kept), values, left_out))
+            found.append(Trials(metric, meaning.better, meaning.unit, tuple(kept), values, left_out, of_data))
     return found
 
 
@@ -152,10 +163,6 @@ def _complete(places: Mapping[tuple[str, Problem], Row]) -> tuple[list[str], lis
     problems = dict.fromkeys(problem for _, problem in places)
     kept = [method for method, count in counts.items() if 2 * count > len(problems)]
     return kept, [problem for problem in problems if all((method, problem) in places for method in kept)]
-
-
-def _timed(row: Row) -> bool:
-    return bool(row.leaf.settings.get("timing")) and row.seconds is not None
 
 
 def _value(row: Row, metric: str) -> float:
