@@ -12,7 +12,7 @@ import click
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import given_maps, map_of
 from surfexp.commands.given_surfaces import opened
-from surfexp.commands.proof_pages import ready_proof, save_proof
+from surfexp.commands.proof_pages import ready_proof_of, save_proof
 from surfexp.commands.surface_options import proof_option, result_option, surface_options
 from surfexp.commands.surface_results import finish, named_as, ready_map
 from surfexp.commands.terminal import progress_line
@@ -81,7 +81,8 @@ def denoise(
     channels = 1 if values.ndim == 1 else values.shape[1]
     ready_map(target, files, surface, values, channels=channels)
     check_names(target, maps)
-    ready_proof(proof, files)
+    # the map before and after, and a vector in each face; of tgv more
+    ready_proof_of(proof, files, surface, values, columns=2 * channels, of_faces=2 * channels)
     if proof is not None and method == "auto":
         raise ValueError("--proof with method auto, which proves no gap: choose method rof or tgv")
     if noise is not None and second_name:
@@ -93,9 +94,10 @@ def denoise(
         options: dict[str, Any] = {"method": method, "weight": weight, "ratio": ratio, "tolerance": tolerance}
         clean = task(surface, values, noise=known, threads=threads, progress=progress, **options)
     facts = clean.certificate | {"seconds": time.perf_counter() - started}
-    save_proof(proof, clean)
     chosen = {name: value for name, value in options.items() if name != "method" and value is not None}
-    return finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
+    code = finish(target, named_as(maps, clean.values, target), surface, method, chosen, files, facts, clean.notes)
+    save_proof(proof, clean)
+    return code
 
 
 def width_and_unit(text: str) -> tuple[float, str]:

@@ -53,7 +53,6 @@ def distance(
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
-    save_proof(proof, found, one, other)
     if target is not None:
         facts = {
             "value": found.value,
@@ -68,6 +67,7 @@ def distance(
         read = notes_of(first, second, one.notes, other.notes)
         maps = {"correspondence": partner.astype(float)}
         finish(target, maps, other, found.method, {"n": count, "repair": repair}, files, facts, found.notes, read)
+    save_proof(proof, found, one, other)
 
 
 @click.command(**shown("align", *EXAMPLES["align"]))

@@ -21,9 +21,7 @@ class Claim:
     Parameters
     ----------
     kind : {"duality gap", "spectrum", "signs"}
-        Which check computes it.
-    heading, sentence : str
-        What is claimed, for a reader.
+        Which check computes it, and says it to a reader.
     arrays : dict of str to array
         Integers are kept as int32, all other numbers as float64.
     numbers : dict
@@ -33,8 +31,6 @@ class Claim:
     """
 
     kind: Kind
-    heading: str
-    sentence: str
     arrays: Mapping[str, NDArray[Any]]
     numbers: Mapping[str, Any]
     stated: Mapping[str, Any]

@@ -27,7 +27,9 @@ SCRIPTS = (
 LARGEST = 5_000_000
 NOT_PROVED = (
     "That the arrays are those of your data. Compare the SHA-256 of vertices, faces and map, which stands under each claim, "
-    "with the one of your own arrays: float64 and int32, little-endian, row after row.",
+    "with the one of your own arrays: float64 and int32, little-endian, row after row. Where a claim has an array rows, its "
+    "vertices and its map are these rows of yours, and its faces are those among them, by their new numbers. Coordinates above "
+    "1e25 or all below 1e-25 are divided by a power of two.",
     "That the mesh, the map and the parameters suit the question. The page computes what follows from them.",
     "That the scripts of the page are right. They are plain text in the source of the page. Who changes them can make any page "
     "green: compare them with those of the package, or trust the place where you got the page.",
@@ -61,9 +63,7 @@ def claims_page(claims: Sequence[Claim], title: str) -> str:
     """
     described = json.dumps([claim.described() for claim in claims]).replace("<", "\\u003c").replace(">", "\\u003e")
     style, scripts = asset("page.css"), [*map(asset, SCRIPTS)]
-    size = len(described) + len(style) + sum(map(len, scripts))
-    if size > LARGEST:
-        raise ValueError(f"the page would take {size / 1e6:.1f} MB, at most 5: take fewer eigenpairs or a coarser mesh")
+    check_size(len(described) + len(style) + sum(map(len, scripts)))
     sections = "\n".join(_section(claim) for claim in claims)
     run = "\n".join(f"<script>{script}</script>" for script in scripts)
     limits = "\n".join(f"<li>{limit}</li>" for limit in NOT_PROVED)
@@ -81,8 +81,9 @@ def claims_page(claims: Sequence[Claim], title: str) -> str:
 <h1>{escape(title)}</h1>
 <p id="verdict" class="verdict" role="status">Nothing is computed yet.</p>
 <noscript><p class="verdict fails">Nothing is proved: the page computes where scripts may run.</p></noscript>
-<p>This browser assembles the operator from vertices and faces and computes each number again. A number of the
-page that does not come out fails. <a href="#limits">It does not prove that the arrays are those of your data.</a></p>
+<p>This browser assembles the operator from vertices and faces and computes each number again. It writes what each claim
+says from these numbers; one that does not come out fails.
+<a href="#limits">It does not prove that the arrays are those of your data.</a></p>
 {sections}
 <section>
 <h2 id="limits">What this page does not prove</h2>
@@ -99,10 +100,22 @@ page that does not come out fails. <a href="#limits">It does not prove that the 
 """
 
 
+def check_size(size: int) -> None:
+    """Refuse a page of more bytes than browsers read at ease.
+
+    Raises
+    ------
+    ValueError
+        Naming both sizes.
+    """
+    if size > LARGEST:
+        raise ValueError(f"the page would take {size / 1e6:.1f} MB, at most 5: take fewer eigenpairs or a coarser mesh")
+
+
 def _section(claim: Claim) -> str:
     return f"""<section class="claim">
-<h2>{escape(claim.heading)}</h2>
-<p>{escape(claim.sentence)}</p>
+<h2>{escape(claim.kind.capitalize())}</h2>
+<p></p>
 <p class="verdict">Not computed yet.</p>
 <table><thead><tr><th></th><th>what</th><th>computed here</th><th>stated</th><th>may differ by</th></tr></thead>
 <tbody></tbody></table>

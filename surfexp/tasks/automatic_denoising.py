@@ -55,7 +55,8 @@ def automatically_denoised(
         )
     ends = [one.at_the_end for one, share in zip(mixture.members, mixture.shares, strict=True) if share > NAMED]
     notes += (AT_THE_END,) if any(ends) and read.measurements == 1 else ()
-    return DenoisedMap(image.on_whole(mixture.values), "auto", facts, notes, outliers=part.vertices[read.outliers])
+    values, outliers = image.on_whole(mixture.values), part.vertices[read.outliers]
+    return DenoisedMap(values, "auto", facts, notes, outliers=outliers, given=image.on_whole(image.values))
 
 
 def _choice(found: FittedSmoothing, length: float) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import numpy as np
 from surfexp.contract.arrays import Floats, Integers
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
-from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.variational.solution import Solution
 
 
@@ -20,7 +20,8 @@ class Evidence:
 
     Parameters
     ----------
-    mesh : TriangleMesh
+    part : SurfacePart
+        Vertices and faces inside the mask.
     map : (p,) or (p, c) float64
         Before denoising.
     solution : Solution
@@ -31,7 +32,7 @@ class Evidence:
         Largest relative gap that was asked for.
     """
 
-    mesh: TriangleMesh
+    part: SurfacePart
     map: Floats
     solution: Solution
     slopes: Floats
@@ -57,6 +58,8 @@ class DenoisedMap(Drawable):
         Vertices whose values "auto" replaced before, far from those of all their neighbours.
     evidence : Evidence, optional
         Of "rof" and "tgv": what `proof_page` shows.
+    given : (n,) or (n, c) float64, optional
+        The map before; NaN outside the mask.
     """
 
     values: Floats
@@ -66,6 +69,7 @@ class DenoisedMap(Drawable):
     name: str = "map"
     outliers: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     evidence: Evidence | None = None
+    given: Floats | None = None
 
     def _summary(self) -> Summary:
         known = np.isfinite(self.values)

@@ -140,9 +140,12 @@ def denoise(
     data = rof(operator.mass, image.values, image.data_weight(weight, sigma))
     solution, slopes = _minimised(method, data, operator, ratio, tolerance, progress)
     notes += solution.notes + said
-    evidence = Evidence(part.mesh, image.values, solution, slopes, tolerance)
+    evidence = Evidence(part, image.values, solution, slopes, tolerance)
     facts |= _proof(solution, operator)
-    return DenoisedMap(image.on_whole(solution.values), method, facts, notes, image.name, evidence=evidence)
+    given = image.on_whole(image.values)
+    return DenoisedMap(
+        image.on_whole(solution.values), method, facts, notes, image.name, evidence=evidence, given=given
+    )
 
 
 def _no_foreign(method: str, weight: float | None, ratio: float | None) -> None:
@@ -236,7 +239,8 @@ def smooth(surface: SurfaceLike, values: MapLike, width: float, *, method: Liter
         certificate["steps"] = SMALL_STEPS
     smoothed = own.restored(smoothed)
     certificate["change_of_mean"] = _change_of_mean(operator, part, rough, smoothed)
-    return DenoisedMap(part.extend(smoothed), method, certificate, (*part.notes, *_wide(part, width)), name_of(values))
+    notes = (*part.notes, *_wide(part, width))
+    return DenoisedMap(part.extend(smoothed), method, certificate, notes, name_of(values), given=part.extend(inside))
 
 
 def _wide(part: SurfacePart, width: float) -> Iterator[str]:

@@ -82,7 +82,8 @@ class DenoisingPath(Drawable):
         error = float((solution.error_bound or 0.0) / np.sqrt(self._path.operator.mass.sum()))
         facts = {"noise": self.certificate["noise"], "weight": weight}
         facts |= {"relative_gap": solution.relative_gap, "error_bound": error}
-        return DenoisedMap(self._image.on_whole(solution.values), "rof", facts, self.notes, self.name)
+        values = self._image.on_whole(solution.values)
+        return DenoisedMap(values, "rof", facts, self.notes, self.name, given=self.given)
 
     def risk(self, weights: ArrayLike | None = None) -> RiskCurve:
         """Estimate the risk at some weights, by Stein's unbiased estimate with one probe drawn from the fitted noise.

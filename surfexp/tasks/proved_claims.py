@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_embedding import Weighting
 from surfexp.linalg.ldlt_ordering import nested_dissection
 from surfexp.mesh.surface import Surface
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.operators.fem import fem
 from surfexp.proof.claim import Claim
@@ -24,6 +26,8 @@ from surfexp.tasks.part_of_task import part_for
 
 # a shift lies where neighbouring eigenvalues differ by more, relatively; stated numbers are refused that differ by more
 CLEAR_GAP, OTHER_OPERATOR = 1e-6, 1e-6
+# pairs of points for all bounds of a search over signs, of which a browser compares some ten million a second
+MOST_COMPARISONS = 6e8
 
 
 def gap_claim(result: DenoisedMap) -> Claim:
@@ -46,8 +50,7 @@ def gap_claim(result: DenoisedMap) -> Claim:
         )
     solution, dual, facts = proof.solution, proof.solution.dual, result.certificate
     arrays: dict[str, NDArray[Any]] = {
-        "vertices": proof.mesh.vertices,
-        "faces": proof.mesh.faces,
+        **_mesh_of(proof.part),
         "map": proof.map,
         "values": solution.values,
         "dual": np.asarray(dual),
@@ -55,12 +58,8 @@ def gap_claim(result: DenoisedMap) -> Claim:
     tgv = result.method == "tgv"
     if tgv:
         arrays["slopes"] = proof.slopes
-    model = "TGV" if tgv else "TV"
-    bound = f"no field has an energy below {solution.lower_bound:.10g}, and this one has {solution.energy:.10g}"
     return Claim(
         "duality gap",
-        f"The map is within a relative gap of {proof.tolerance:g} of the minimum of {model}(u) + mu/2 |u - f|^2",
-        f"On {len(proof.mesh.vertices)} vertices and {len(proof.mesh.faces)} faces {bound}. The dual field proves it.",
         arrays,
         {
             "model": "TGV" if tgv else "ROF",
@@ -108,12 +107,8 @@ def spectrum_claim(
     pattern = elements.stiffness
     return Claim(
         "spectrum",
-        f"The first {certified} of {len(system.values)} eigenpairs are the lowest ones, and none is missing",
-        f"On {len(part.mesh.vertices)} vertices exactly {certified} eigenvalues lie below {shift:.10g}: so many pivots of "
-        f"L D L^T are negative. Mass: {mass}; boundary: {boundary}.",
         {
-            "vertices": part.mesh.vertices,
-            "faces": part.mesh.faces,
+            **_mesh_of(part),
             "values": system.values,
             "vectors": vectors.T,
             "residuals": found.residuals,
@@ -132,11 +127,17 @@ def sign_claims(
     Raises
     ------
     ValueError
-        If the distance is not that of the two surfaces, or has no search over signs.
+        If the distance is not that of the two surfaces, or has no search over signs, or one that takes a browser minutes.
     """
     if weighting not in ("biharmonic", "global_point") or not len(found.closed):
         raise ValueError(
             f"weighting {weighting!r} with {len(found.closed)} closed nodes: choose biharmonic or global_point"
+        )
+    comparisons = len(found.source_points) * len(found.target_points) * len(found.closed)
+    if comparisons > MOST_COMPARISONS:
+        raise ValueError(
+            f"{len(found.closed)} bounds over {len(found.source_points)} times {len(found.target_points)} points would take a "
+            f"browser minutes, at most {MOST_COMPARISONS:.0e} comparisons: take coarser surfaces or fewer eigenfunctions"
         )
     dimension = len(found.basis)
     pairs = [embedded_pairs(one, dimension, weighting) for one in (source, target)]
@@ -149,20 +150,14 @@ def sign_claims(
                 f"the distance is not that of these surfaces with weighting {weighting}: give the ones it is of"
             )
     spectra = []
-    for (_, system, part), one in zip(pairs, ("source", "target"), strict=True):
+    for _, system, part in pairs:
         claim = spectrum_claim(system, (part.mesh.vertices, part.mesh.faces))
-        spectra.append(
-            Claim(claim.kind, f"{one}: {claim.heading}", claim.sentence, claim.arrays, claim.numbers, claim.stated)
-        )
+        spectra.append(replace(claim, arrays={**claim.arrays, **_mesh_of(part)}))
     first, second = pairs[0][2], pairs[1][2]
     number = np.full(first.whole_count, -1, dtype=np.int64)
     number[first.vertices] = np.arange(len(first.vertices))
-    proved = "no other signs give less" if found.optimal else f"no signs give less than {found.lower_bound:.10g}"
     claim = Claim(
         "signs",
-        f"The distance is {found.value:.10g}, and {proved}",
-        f"{len(found.closed)} bounds decide all {2**dimension} choices of signs of {dimension} eigenfunctions. The label of each "
-        "vertex of the target is its nearest vertex of the source.",
         {
             "signs": signs.astype(np.int64),
             "closed": found.closed,
@@ -172,6 +167,12 @@ def sign_claims(
         {"value": found.value, "lower_bound": found.lower_bound, "optimal": found.optimal},
     )
     return spectra[0], spectra[1], claim
+
+
+def _mesh_of(part: SurfacePart) -> dict[str, NDArray[Any]]:
+    """The arrays of a part: its mesh, and which rows of the whole its vertices are where it is a part."""
+    arrays = {"vertices": part.mesh.vertices, "faces": part.mesh.faces}
+    return arrays if part.is_whole else {**arrays, "rows": part.vertices}
 
 
 def _same(points: Floats, others: Floats) -> bool:

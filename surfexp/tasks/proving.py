@@ -5,15 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from surfexp.contract.arrays import Floats
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.spectral_embedding import Weighting
 from surfexp.io.replacing import check_writable, replacing
+from surfexp.mesh.surface import Surface
 from surfexp.operators.elements_surface import Boundary, Mass
 from surfexp.proof.claim import Claim
-from surfexp.proof.page import claims_page
+from surfexp.proof.page import check_size, claims_page
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.tasks.denoised_map import DenoisedMap
 from surfexp.tasks.given_surface import SurfaceLike
+from surfexp.tasks.part_of_task import part_for
 from surfexp.tasks.proved_claims import gap_claim, sign_claims, spectrum_claim
 
 
@@ -129,6 +132,27 @@ def proof_page(
     return ProofPage(
         sign_claims(result, surfaces[0], surfaces[1], weighting), title or "A spectral distance, and its proof"
     )
+
+
+def check_proof_size(surface: Surface, *maps: Floats, columns: int, of_faces: int = 0) -> None:
+    """Refuse a surface with which a page would be too large, by the least that its arrays take.
+
+    Parameters
+    ----------
+    surface : Surface
+    *maps : (n,) or (n, c) float64
+        Outside of which nothing is computed.
+    columns, of_faces : int
+        How many numbers the page has for each vertex, beside its position, and for each face, beside its corners.
+
+    Raises
+    ------
+    ValueError
+        As `claims_page`.
+    """
+    mesh = part_for(surface, *maps).mesh
+    # in base64
+    check_size((len(mesh.vertices) * (24 + 8 * columns) + len(mesh.faces) * (12 + 8 * of_faces)) * 4 // 3)
 
 
 def check_proof_target(target: Path) -> None:

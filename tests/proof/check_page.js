@@ -9,10 +9,18 @@ vm.runInThisContext(scripts.slice(0, -1).join("\n").replaceAll('"use strict";', 
 const text = page.match(/<script type="application\/json" id="claims"[^>]*>([\s\S]*?)<\/script>/)[1];
 const changes = JSON.parse(fs.readFileSync(0, "utf8") || "[]");
 
-// {claim, array, index, value} or {claim, part, name, value}
-function changed({ claim, array, index, part, name, value }) {
-  const claims = JSON.parse(text);
+// {claim, array, index, value} or {claim, array, rows}, a number of rows that are kept, or {claim, part, name, value}; or several
+function changed(change, claims = JSON.parse(text)) {
+  if (Array.isArray(change)) return change.reduce((made, one) => changed(one, made), claims);
+  const { claim, array, index, part, name, value, rows } = change;
   if (part) claims[claim][part][name] = value;
+  else if (rows !== undefined) {
+    const held = claims[claim].arrays[array];
+    const bytes = Buffer.from(held.data, "base64");
+    held.data = bytes.subarray(0, (bytes.length / held.shape[0]) * rows).toString("base64");
+    held.shape[0] = rows;
+    held.sha256 = require("crypto").createHash("sha256").update(Buffer.from(held.data, "base64")).digest("hex");
+  }
   else {
     const held = claims[claim].arrays[array];
     const bytes = Buffer.from(held.data, "base64");
@@ -23,8 +31,11 @@ function changed({ claim, array, index, part, name, value }) {
   return claims;
 }
 
-const all = (claims) => claims.map((_, place) => rowsOf(claims, place));
+const computed = (claims) => claims.map((_, place) => computedClaim(claims, place));
+const all = (claims) => computed(claims).map(({ rows }) => rows);
 const started = performance.now();
-const unchanged = all(JSON.parse(text));
+const claims = computed(JSON.parse(text));
+const unchanged = claims.map(({ rows }) => rows);
+const said = claims.map(({ heading, sentence }) => [heading, sentence]);
 const seconds = (performance.now() - started) / 1000;
-console.log(JSON.stringify({ unchanged, seconds, changed: changes.map((change) => all(changed(change))) }));
+console.log(JSON.stringify({ unchanged, said, seconds, changed: changes.map((change) => all(changed(change))) }));

@@ -200,10 +200,67 @@ def test_a_missing_pair_is_counted(tmp_path: Path) -> None:
         for name, array in claim.arrays.items()
     }
     forged = type(claim)(
-        claim.kind, "", "", arrays, {**claim.numbers, "certified": claim.numbers["certified"] - 1}, claim.stated
+        claim.kind, arrays, {**claim.numbers, "certified": claim.numbers["certified"] - 1}, claim.stated
     )
     seen = failing(computed(type(page)((forged,), ""), tmp_path)["unchanged"])
     assert any("by inertia" in row["what"] for row in seen)
+
+
+@needs_node
+def test_an_order_of_some_rows_proves_nothing_and_no_more_pairs_are_certified_than_there_are(
+    pages: dict[str, Any], tmp_path: Path
+) -> None:
+    """A principal submatrix has every smaller number of negative pivots at some size: the count would come out."""
+    claim = pages["modes"].claims[0]
+    count, certified = len(claim.arrays["order"]), claim.numbers["certified"]
+    changes: list[Any] = [{"claim": 0, "array": "order", "rows": rows} for rows in (count - 1, count // 2, 1)]
+    fewer = [{"claim": 0, "array": name, "rows": certified - 1} for name in ("values", "vectors", "residuals")]
+    *cut, short = computed(pages["modes"], tmp_path, [*changes, fewer])["changed"]
+    assert all(any("the order has" in str(row["computed"]) for row in failing(rows, BYTES)) for rows in cut)
+    assert [row["what"] for row in failing(short, BYTES) if "of those that are given" in row["what"]]
+
+
+@needs_node
+def test_a_distance_of_more_eigenfunctions_than_there_are_or_of_other_signs_does_not_hold(
+    pages: dict[str, Any], tmp_path: Path
+) -> None:
+    changes = [
+        {"claim": 2, "part": "numbers", "name": "dimension", "value": 7},
+        {"claim": 2, "array": "signs", "index": 1, "value": 0},
+        {"claim": 2, "array": "signs", "index": 1, "value": 2},
+    ]
+    unproved, none, two = computed(pages["distance"], tmp_path, changes)["changed"]
+    assert failing(unproved, BYTES)
+    assert all(any("sign of 1 or -1" in row["what"] for row in failing(rows, BYTES)) for rows in (none, two))
+
+
+@needs_node
+def test_what_a_page_says_is_written_from_the_numbers_that_its_checks_decide(
+    pages: dict[str, Any], tmp_path: Path
+) -> None:
+    claim, change = pages["rof"].claims[0], {"claim": 0, "part": "numbers", "name": "tolerance", "value": 1e-12}
+    assert "relative gap" not in pages["rof"].html().partition("<script")[0]
+    found = computed(pages["rof"], tmp_path, [change])
+    ((heading, sentence),) = found["said"]
+    assert heading == "The map is within a relative gap of 0.0001 of the minimum of TV(u) + mu/2 |u - f|^2"
+    assert f"{claim.stated['energy']:.10g}" in sentence and f"noise {claim.numbers['noise']:.10g}" in sentence
+    assert failing(found["changed"][0], BYTES)
+    ((heading, sentence),) = computed(pages["modes"], tmp_path)["said"]
+    certified = pages["modes"].claims[0].numbers["certified"]
+    assert heading == f"The first {certified} of 12 eigenpairs are the lowest ones, and none is missing"
+    assert f"exactly {certified} eigenvalues lie below" in sentence and "boundary: neumann" in sentence
+
+
+@needs_node
+def test_a_part_of_a_surface_says_which_rows_it_has(tmp_path: Path) -> None:
+    sphere, values = noisy()
+    mask = sphere.mesh.vertices[:, 2] > -0.3
+    page = sx.proof_page(sx.denoise(sx.Surface(sphere.mesh, mask=mask), values, method="rof"))
+    ((_, sentence),) = computed(page, tmp_path)["said"]
+    arrays = page.claims[0].arrays
+    assert "rows[k]" in sentence and np.array_equal(arrays["vertices"], sphere.mesh.vertices[arrays["rows"]])
+    assert np.array_equal(arrays["map"], values[arrays["rows"]])
+    assert "rows" not in sx.proof_page(sx.denoise(sphere, values, method="rof")).claims[0].arrays
 
 
 def test_a_page_says_what_it_does_not_prove_and_loads_nothing(pages: dict[str, Any]) -> None:
@@ -236,12 +293,36 @@ def test_a_pair_that_is_none_is_refused_however_right_its_value() -> None:
         sx.proof_page(replace(system, vectors=vectors), first)
 
 
-def test_a_distance_says_whether_other_signs_give_less() -> None:
+@needs_node
+def test_a_distance_says_whether_other_signs_give_less(tmp_path: Path) -> None:
     first, second = bodies()
     found = sx.distance(first, second, 6)
-    sure, open_ = (sx.proof_page(one, first, second).claims[-1] for one in (found, replace(found, optimal=False)))
-    assert sure.heading.endswith(", and no other signs give less")
-    assert f"no signs give less than {found.lower_bound:.10g}" in open_.heading
+    for one, said in ((found, "no other signs give less"), (replace(found, optimal=False), "no signs give less than ")):
+        told = computed(sx.proof_page(one, first, second), tmp_path)
+        assert failing(told["unchanged"]) == []
+        starts = [heading.partition(" ")[0] for heading, _ in told["said"]]
+        heading = told["said"][-1][0]
+        assert starts[:2] == ["source:", "target:"] and said in heading and f"{found.value:.10g}" in heading
+    assert f"{found.lower_bound:.10g}" in heading
+
+
+@needs_node
+def test_a_distance_that_cuts_a_cluster_says_how_many_eigenfunctions_are_proved_the_lowest(tmp_path: Path) -> None:
+    """Of a ball 3, 5 and 7 are alike: the fourth is one of five."""
+    ball, body = sx.shape("icosphere", levels=2), bodies()[0]
+    told = computed(sx.proof_page(sx.distance(ball, body, 4), ball, body), tmp_path)
+    assert failing(told["unchanged"]) == []
+    assert "the first 3 of these are proved to be the lowest ones" in told["said"][-1][1]
+    told = computed(sx.proof_page(sx.distance(ball, body, 3), ball, body), tmp_path)
+    assert "all of these are proved to be the lowest ones" in told["said"][-1][1]
+
+
+def test_a_distance_that_takes_a_browser_minutes_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = bodies()
+    found = sx.distance(first, second, 3)
+    monkeypatch.setattr("surfexp.tasks.proved_claims.MOST_COMPARISONS", 100.0)
+    with pytest.raises(ValueError, match="a browser minutes"):
+        sx.proof_page(found, first, second)
 
 
 def test_a_page_above_five_megabytes_is_refused(pages: dict[str, Any]) -> None:
@@ -270,6 +351,31 @@ def test_commands_write_the_page_beside_the_result(tmp_path: Path) -> None:
         surfexp, ["denoise", surface, noise, "--method", "auto", "--to", result, "--proof", str(page)]
     )
     assert refused.exit_code != 0 and "choose method rof or tgv" in str(refused.exception or refused.output)
+
+
+def test_a_page_that_is_refused_leaves_the_result_and_one_that_must_be_refused_is_so_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sphere, values = noisy()
+    surface, noise, page = str(tmp_path / "a.ply"), str(tmp_path / "map.csv"), tmp_path / "proof.html"
+    sx.write(surface, sphere)
+    np.savetxt(noise, values)
+    for command, limit in (
+        (["denoise", surface, noise, "--method", "rof"], 30_000),
+        (["modes", surface, "-k", "12"], 35_000),
+        (["distance", surface, surface, "-n", "3"], 50_000),
+    ):
+        target = tmp_path / f"{command[0]}.csv" if command[0] == "distance" else tmp_path / f"{command[0]}.npz"
+        whole = [*command, "--to", str(target), "--proof", str(page)]
+        # above the least that its arrays take, below the page
+        monkeypatch.setattr("surfexp.proof.page.LARGEST", limit)
+        refused = CliRunner().invoke(surfexp, whole)
+        assert "MB, at most" in str(refused.exception) and target.exists() and not page.exists(), refused.output
+        target.unlink()
+        if command[0] != "distance":
+            monkeypatch.setattr("surfexp.proof.page.LARGEST", 5_000)
+            refused = CliRunner().invoke(surfexp, whole)
+            assert "MB, at most" in str(refused.exception) and not target.exists()
 
 
 def test_a_window_above_the_lowest_pairs_is_no_proof_of_these() -> None:

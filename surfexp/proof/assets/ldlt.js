@@ -12,7 +12,8 @@ function inverseOrder(order) {
 
 // How many pivots are negative, and the largest row sum of |E| where L D L^T = matrix + E.
 function inertia(matrix, order) {
-  const n = order.length;
+  const n = matrix.starts.length - 1;
+  if (order.length !== n) throw new Error(`the order has ${order.length} of ${n} rows`);
   const place = inverseOrder(order);
   const [parent, flag, counts] = [new Int32Array(n).fill(-1), new Int32Array(n).fill(-1), new Int32Array(n)];
   const climb = (k, visit) => {

@@ -49,7 +49,10 @@ async function prove() {
     say(told, null, "computing");
     await new Promise((done) => setTimeout(done, 30));
     const started = performance.now();
-    const rows = place < claims.length ? rowsOf(claims, place) : [{ what: "claim is missing", holds: false }];
+    const { heading, sentence, rows } =
+      place < claims.length ? computedClaim(claims, place) : { heading: "", sentence: "", rows: [{ what: "claim is missing", holds: false }] };
+    section.querySelector("h2").textContent = heading;
+    section.querySelector("p").textContent = sentence;
     const seconds = ((performance.now() - started) / 1000).toFixed(2);
     const wrong = rows.filter((row) => row.holds !== true).length;
     const [numbers, fingerprints] = section.querySelectorAll("tbody");
