@@ -14,7 +14,7 @@ from surfexp.io.hemisphere import check_same_side
 from surfexp.io.label_colours import read_coloured_labels
 from surfexp.io.map_files import LABEL_FILES
 from surfexp.mesh.both_hemispheres import vertices_of
-from surfexp.mesh.coloured_labels import ColouredLabels
+from surfexp.mesh.coloured_labels import Colour, ColouredLabels
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.tasks.given_labels import are_labels, as_labels, labels_on
@@ -53,14 +53,26 @@ def _map_apart(owner: Surface, given: Any) -> list[Any]:
     return [as_map(owner, getattr(given, "values", given))[own] for own in rows]
 
 
-def drawn_labels(owner: Surface, given: Any) -> Labelling | None:
-    """Return labels where they are given: a `LabelMap`, a result that has one, a name, or whole numbers as integers."""
+def _table(owner: Surface, given: Any) -> Any:
+    """Return the table of labels that is given by name, as a file or in a result; anything else as it is."""
     given = labels_on(owner, given) if are_labels(given) else getattr(given, "label_map", given)
     if isinstance(given, str) and given in owner.labels and given not in owner.scalars:
         given = owner.labels[given]
     if isinstance(given, str | Path) and str(given).lower().endswith(LABEL_FILES) and Path(given).is_file():
         check_same_side("labels", given, owner.hemisphere)
         given = read_coloured_labels(given, owner.hemisphere)
+    return given
+
+
+def own_label_colors(owner: Surface, given: Any) -> dict[str, Colour]:
+    """Return the colours that labels have of their own, as those of an atlas have, by name."""
+    table = _table(owner, given)
+    return table.by_name if isinstance(table, ColouredLabels) else {}
+
+
+def drawn_labels(owner: Surface, given: Any) -> Labelling | None:
+    """Return labels where they are given: a `LabelMap`, a result that has one, a name, or whole numbers as integers."""
+    given = _table(owner, given)
     if isinstance(given, LabelMap):
         found = labelling(as_labels(owner, given.keys), given.names)
         own = given.by_name if isinstance(given, ColouredLabels) else {}

@@ -56,7 +56,8 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
     if isinstance(result, MapComparison):
         return _of_result(result.surrogates, surface)
     if isinstance(result, NullMaps):
-        return [MapRow(f"null map {k}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
+        count = result.values.shape[1]
+        return [MapRow(f"null map {k} of {count}", [one]) for k, one in enumerate(result.values.T[:NULLS], 1)]
     if isinstance(result, PermutationTest):
         return _tested(result)
     if isinstance(result, Parcels) and result.means.ndim > 1:
@@ -65,7 +66,7 @@ def _of_result(result: Drawable, surface: Surface) -> list[MapRow]:
     if isinstance(result, DenoisingPath):
         return _along(result)
     if isinstance(result, DenoisedMap):
-        return _before_and_after(result, surface)
+        return _before_and_after(result)
     if isinstance(result, ModeAlignment):
         aligned = zip(mode_numbers(result), result.vectors.T[:MODES], strict=False)
         return [_mode(f"aligned mode {k}", one) for k, one in aligned]
@@ -96,9 +97,9 @@ def _tested(result: PermutationTest) -> list[MapRow]:
     ]
 
 
-def _before_and_after(result: DenoisedMap, surface: Surface) -> list[MapRow]:
-    """The map before, where the surface carries it, after, and what was taken away; the first two in the same colours."""
-    before, method = surface.scalars.get(result.name), str(result.certificate.get("chosen", result.method))
+def _before_and_after(result: DenoisedMap) -> list[MapRow]:
+    """The map before, after, and what was taken away; the first two in the same colours."""
+    before, method = result.given, str(result.certificate.get("chosen", result.method))
     if before is None or before.shape != result.values.shape or before.ndim > 1:
         return [MapRow(f"{result.name}, {method.replace('_', ' ')}", [result.values])]
     known = np.isfinite(result.values) & np.isfinite(before)

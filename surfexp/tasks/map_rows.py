@@ -57,6 +57,12 @@ def rows_of_maps(values: Any, surfaces: Sequence[Surface], most_columns: int = M
     return [MapRow("", _of_each(values, count))]
 
 
+def as_columns(surface: Surface, values: Any) -> Any:
+    """Return the maps of a file, or of one for each hemisphere, as columns where they are a series; anything else as it is."""
+    found = values if isinstance(values, MapsOfFile) else maps_of_file(surface, values)
+    return side_by_side(found, "map") if len(found) > 1 and not have_own_names(found) else values
+
+
 def _rows_by_name(maps: Mapping[str, Floats]) -> list[MapRow]:
     """Return a row for each map of a file; those that are shares, as p-values, have one colour bar from 0 to 1."""
     shares = [name for name, values in maps.items() if _are_shares(values)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,19 +16,20 @@ from surfexp.extras import require_installed
 from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View, viewing_direction
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.labelling import Labelling, border_lines
+from surfexp.figures.labelling import Labelling, border_lines, label_colors
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
+from surfexp.mesh.coloured_labels import Colour
 from surfexp.mesh.given_numbers import one_of, real_number, real_pair
 from surfexp.mesh.length_scale import length_scale
 from surfexp.mesh.surface import HEMISPHERES, Surface
-from surfexp.mesh.surface_part import surface_part
+from surfexp.mesh.surface_part import Mask
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.mesh.vertex_colours import as_shares
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.default_view import standing
-from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart
+from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart, own_label_colors
 from surfexp.tasks.given_map import as_map, name_of
 from surfexp.tasks.given_surface import as_surface, is_mesh, sides_of
 from surfexp.tasks.map_colours import CENTRAL, usual_colormap
@@ -90,6 +91,7 @@ def shown_surfaces(
         skeleton = None if skeleton is None else skeleton.in_length(1.0 / scale)
     rows: Rows = []
     told: dict[ColorScale, str | None] = {}
+    own: dict[str, Colour] = {}
     given_rows = rows_of_maps(values, surfaces, most_columns)
     in_one = skeleton is not None or any(made.skeleton is not None for made in given_rows)
     shown = surfaces if in_one else apart(surfaces)
@@ -99,6 +101,8 @@ def shown_surfaces(
         if not in_one:
             maps, outlined = maps_apart(surfaces, maps), maps_apart(surfaces, outlined)
         bases = [_coloured(owner, one) for owner, one in zip(shown, maps, strict=True)]
+        for owner, one in zip(shown, maps, strict=True):
+            own = own_label_colors(owner, one) | own
         ends = limits or made.limits or _whole_range([base.values for base in bases if base.is_scalar])
         for owner, one, base, border in zip(shown, maps, bases, outlined, strict=True):
             called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
@@ -115,7 +119,7 @@ def shown_surfaces(
             alone = len(row) == 1
             row[0] = replace(row[0], title=made.name if alone else f"{made.name}: {row[0].title}")
         rows.append(row)
-    rows = _in_shared_colors(rows, told)
+    rows = _labels_in_shared_colors(_in_shared_colors(rows, told), own)
     if len(rows) == 1 and len(rows[0]) == 1:
         rows = [[replace(rows[0][0], title="")]]
     of_brain = any(one.hemisphere for one in shown)
@@ -144,26 +148,36 @@ def is_several(given: Any) -> bool:
     return len(given) != 2 or isinstance(first, str | Path) or is_mesh(first) or sides_of(first, "mesh") is not None
 
 
+def _drawable(mesh: TriangleMesh) -> tuple[TriangleMesh, Mask]:
+    """Return a mesh in which every vertex has its number and a place, and which of them are corners of whole faces.
+
+    One that is none has the place of another.
+    """
+    usable = usable_vertices(mesh)
+    if usable.all():
+        return mesh, usable
+    faces = mesh.faces[usable[mesh.faces].all(axis=1)]
+    corners = np.zeros_like(usable)
+    corners[faces] = True
+    return TriangleMesh(np.where(corners[:, None], mesh.vertices, mesh.vertices[np.argmax(corners)]), faces), corners
+
+
 def _coloured(owner: Surface, given: Any) -> SurfaceView:
-    """Return the surface with its map, or labels, without a scale."""
-    part = surface_part(owner.mesh, usable_vertices(owner.mesh))
-    inside = None if owner.mask is None else np.asarray(part.restrict(owner.mask), dtype=np.bool_)
+    """Return the surface with its map, or labels, without a scale; nothing stands where there is no face."""
+    mesh, inside = _drawable(owner.mesh)
+    inside = inside if owner.mask is None else inside & owner.mask
     found = drawn_labels(owner, given)
     given = own_colors(owner) if given is None else given
     if found is None and given is None and owner.mask is not None:
         found = Labelling(np.where(owner.mask, 0, -1), (INSIDE,), np.array([CLAY]))
     if found is not None:
-        index = np.asarray(part.restrict(found.index), dtype=np.int64)
-        index = index if inside is None else np.where(inside, index, -1)
-        return SurfaceView(part.mesh, labels=replace(found, index=index))
+        return SurfaceView(mesh, labels=replace(found, index=np.where(inside, found.index, -1)))
     if given is None:
-        return SurfaceView(part.mesh)
+        return SurfaceView(mesh)
     field = as_map(owner, getattr(given, "values", given))
     field = field[:, 0] if field.shape[1:] == (1,) else field
-    field = np.asarray(part.restrict(field), dtype=np.float64)
-    if inside is not None:
-        field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
-    return SurfaceView(part.mesh, as_shares(field) if field.ndim > 1 else field)
+    field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
+    return SurfaceView(mesh, as_shares(field) if field.ndim > 1 else field)
 
 
 def _scale(owner: Surface, name: str, unit: str, limits: tuple[float, float] | None) -> ColorScale:
@@ -182,6 +196,19 @@ def _in_shared_colors(rows: Rows, told: dict[ColorScale, str | None]) -> Rows:
         scale: replace(scale, colormap=told[scale] or usual_colormap(fields[scale], scale.limits)) for scale in told
     }
     return [[replace(view, scale=scales[view.scale]) if view.is_scalar else view for view in row] for row in rows]
+
+
+def _labels_in_shared_colors(rows: Rows, own: Mapping[str, Colour]) -> Rows:
+    """Return rows in which labels of one name have one colour: the first that one has of its own, else one of ours."""
+    names = dict.fromkeys(name for row in rows for view in row if view.labels for name in view.labels.names)
+    free = [name for name in names if name not in own and name != INSIDE]
+    chosen = {INSIDE: CLAY, **own, **dict(zip(free, label_colors(len(free)), strict=True))}
+
+    def recoloured(labels: Labelling) -> Labelling:
+        colors = [chosen[name] for name in labels.names]
+        return replace(labels, colors=np.array(colors, dtype=np.float64).reshape(-1, 3))
+
+    return [[replace(view, labels=recoloured(view.labels)) if view.labels else view for view in row] for row in rows]
 
 
 def _whole_range(fields: Sequence[Floats | None]) -> tuple[float, float] | None:
@@ -211,8 +238,7 @@ def _lines(
         regions = drawn_labels(owner, outlined)
         if regions is None:
             raise ValueError(f"borders = {outlined!r}: give labels by name, a LabelMap, whole numbers or texts")
-        part = surface_part(owner.mesh, usable_vertices(owner.mesh))
-        found.append(border_lines(base.mesh, np.asarray(part.restrict(regions.index), dtype=np.int64)))
+        found.append(border_lines(base.mesh, regions.index))
     if levels:
         if not base.is_scalar or base.values is None:
             raise ValueError("contours are levels of a map of one channel: give one")

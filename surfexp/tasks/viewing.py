@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -10,17 +10,21 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from surfexp.contract.arrays import Integers
+from surfexp.contract.drawable import Drawable
 from surfexp.figures.camera import View, viewing_direction
 from surfexp.figures.color_bar import fitted_scales
+from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
 from surfexp.figures.render import SurfaceView
 from surfexp.io.replacing import check_writable, replacing
-from surfexp.mesh.surface import HEMISPHERES
+from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.skeleton.skeleton import Skeleton
 from surfexp.tasks.denoising_path import DenoisingPath
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.map_columns import MOST_COLUMNS, columns_of, flat_colors, is_color, spread_over
+from surfexp.tasks.map_rows import as_columns
 from surfexp.tasks.path_scene import path_columns, path_scene
 from surfexp.tasks.pictures import SUFFIXES, check_picture_target, picture_of
 from surfexp.tasks.shown import apart, is_several, shown_surfaces, sides
@@ -108,7 +112,8 @@ def view(
 ) -> TurningView:
     """Show a surface that turns, coloured by a map or by labels; the pointer tells the value at a vertex.
 
-    The page rounds a map to a 65,534th of its range, and the pointer tells the rounded value.
+    The page rounds a map to a 65,534th of its range, and the pointer tells the rounded value; where one value lies far from all
+    others, it keeps all digits. Vertices have the numbers that the file gives them.
 
     Parameters
     ----------
@@ -160,7 +165,9 @@ def view(
     owners = given if in_one else apart(given)
     hemispheres = all(owner.hemisphere in HEMISPHERES for owner in owners)
     usual = "lateral" if hemispheres else "oblique" if any(owner.hemisphere for owner in owners) else None
-    columns = [] if several else columns_of(values)
+    if not several:
+        values = as_columns(given[0], values)
+    columns = [] if several or isinstance(values, Drawable) else columns_of(values)
     rows = shown_surfaces(
         given if several else given[0],
         values,
@@ -176,10 +183,12 @@ def view(
     )
     scene = _scene(rows[:1] if columns else rows, owners)
     if columns:
-        looks = len(rows[0]) // len(owners)
+        looks, scales = len(rows[0]) // len(owners), fitted_scales([one for row in rows for one in row])
+        # the first panel of a row has its name, before what it shows
+        names = [row[0].title.partition(":")[0] for row in rows]
         for k, drawn in enumerate(scene.surfaces):
-            drawn.fields[0] = _series(drawn, [row[k * looks] for row in rows])
-        scene.titles[:] = [title.partition(": ")[2] for title in scene.titles]
+            drawn.fields[0] = _series(drawn, [row[k * looks] for row in rows], names, scales)
+        scene.titles[:] = [title.removeprefix(names[0]).removeprefix(": ") for title in scene.titles]
     return TurningView(scene, tuple(tuple(rows[k]) for k in spread_over(len(rows), MOST_COLUMNS)), title)
 
 
@@ -212,7 +221,9 @@ def _scene(rows: list[list[SurfaceView]], owners: Sequence[Any]) -> Scene:
     everything = [one for row in rows for one in row]
     scales = fitted_scales(everything)
     looks = len(rows[0]) // len(owners)
-    surfaces = [Drawn(owner.name, rows[0][k * looks].mesh, [], sides(owner)) for k, owner in enumerate(owners)]
+    surfaces = [
+        Drawn(owner.name, rows[0][k * looks].mesh, [], sides(owner), _origin(owner)) for k, owner in enumerate(owners)
+    ]
     panels, eyes, titles = [], [], []
     for row in rows:
         for k, drawn in enumerate(surfaces):
@@ -227,14 +238,21 @@ def _scene(rows: list[list[SurfaceView]], owners: Sequence[Any]) -> Scene:
     return Scene(surfaces, panels, eyes[0], eyes, titles)
 
 
-def _series(drawn: Drawn, shown: list[SurfaceView]) -> Field:
-    """Return the columns of a map as steps of one field, with its slider, in colours that they share."""
+def _origin(owner: Surface) -> Integers | None:
+    """The vertices of its file, of which repair has made copies."""
+    if owner.file is None or len(owner.file.origin) == len(owner.file.standing):
+        return None
+    return owner.file.origin
+
+
+def _series(drawn: Drawn, shown: list[SurfaceView], names: list[str], scales: Mapping[ColorScale, ColorScale]) -> Field:
+    """Return the columns of a map as steps of one field, with its slider, in colours that all columns and surfaces share."""
     first = drawn.fields[0]
     steps = [
-        replace(_fields(one, first.scale, drawn.mesh)[0].steps[0], name=one.title.partition(":")[0]) for one in shown
+        replace(_fields(one, first.scale, drawn.mesh)[0].steps[0], name=name)
+        for one, name in zip(shown, names, strict=True)
     ]
-    scale = fitted_scales(shown).get(shown[0].scale, first.scale)
-    return Field(first.name, tuple(steps), scale, start=0)
+    return Field(first.name, tuple(steps), scales.get(shown[0].scale, first.scale), start=0)
 
 
 def _fields(shown: SurfaceView, scale: Any, mesh: TriangleMesh) -> list[Field]:

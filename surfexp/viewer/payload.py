@@ -8,16 +8,19 @@ from typing import Any
 
 import numpy as np
 
+from surfexp.contract.arrays import Floats
 from surfexp.figures.camera import VIEWS
 from surfexp.figures.colormap import MISSING
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, CLAY_SHADING, VALUE_SHADING
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.viewer.quantised import Codes, packed, quantised
+from surfexp.viewer.quantised import LAST, Codes, exact_codes, packed, quantised
 from surfexp.viewer.scene import Drawn, Field, Scene
 
 # a page is to be 12 MB at most: this, the library (0.6 MB), and tables
 BUDGET = 9_000_000
+# steps of a colour scale that a code is to tell apart; labels that a code of 16 bits does
+COLOR_STEPS, MOST_LABELS = 1000, LAST
 
 
 @dataclass
@@ -60,34 +63,40 @@ class Payload:
         }
 
     def _surface(self, drawn: Drawn) -> dict[str, Any]:
-        small = np.uint16 if len(drawn.mesh.vertices) <= 1 << 16 else np.uint32
+        small = np.uint16 if len(drawn.mesh.vertices) <= LAST else np.uint32  # that number itself ends a strip
         return {
             "name": drawn.name,
             "outside": _shows_its_outside(drawn.mesh),
             "positions": self._numbers(drawn.mesh.vertices),
             "faces": self._codes(drawn.mesh.faces.astype(small)),
+            **({} if drawn.origin is None else {"origin": self._codes(drawn.origin.astype(np.uint32)[:, None])}),
             "fields": [self._field(one) for one in drawn.fields],
             "sides": {name: list(direction) for name, direction in drawn.sides.items()},
         }
 
     def _field(self, one: Field) -> dict[str, Any]:
+        numbers = [step.values for step in one.steps if step.values is not None]
+        values = np.concatenate([np.empty(0), *numbers])
+        scale = one.scale if one.labels is not None or not numbers else one.scale.fitted(values)
+        limits = None if one.labels is not None else scale.limits
         steps = [
             {
                 "name": step.name,
-                "values": None if step.values is None else self._numbers(step.values),
+                "values": None if step.values is None else self._values(step.values, limits),
                 "lines": [stroke for line in step.lines for stroke in self._strokes(line)],
             }
             for step in one.steps
         ]
         if one.labels is not None:
+            if len(one.labels.names) > MOST_LABELS:
+                raise ValueError(
+                    f"{len(one.labels.names)} labels, a page tells {MOST_LABELS} apart: give the numbers as floats to see a map"
+                )
             table, names = self._table(one.labels.colors), list(one.labels.names)
             found = {"name": one.name, "labels": names, "table": table, "shading": VALUE_SHADING, "steps": steps}
             return found if one.legend else {**found, "legend": False}
-        numbers = [step.values for step in one.steps if step.values is not None]
         if not numbers:
             return {"name": one.name, "table": self._table(np.array([CLAY])), "shading": CLAY_SHADING, "steps": steps}
-        values = np.concatenate(numbers)
-        scale = one.scale.fitted(values)
         stops = {"stops": [{"place": stop.place, "name": stop.name} for stop in one.stops]} if one.stops else {}
         return {
             "name": one.name,
@@ -111,6 +120,16 @@ class Payload:
     def _table(self, colors: Any) -> dict[str, Any]:
         """Colours from the lower limit to the upper, then that of NaN."""
         return self._codes(np.rint(255.0 * np.concatenate([colors, [MISSING]])).astype(np.uint8))
+
+    def _values(self, values: Floats, limits: tuple[float, float] | None) -> dict[str, Any]:
+        """Numbers in steps of their range; as they are where one far away would leave few steps between the limits."""
+        finite = values[np.isfinite(values)]
+        if limits is not None and finite.size:
+            with np.errstate(over="ignore"):
+                coarse = np.ptp(finite) / LAST * COLOR_STEPS > limits[1] - limits[0]
+            if coarse:
+                return {**self._codes(exact_codes(np.where(np.isfinite(values), values, np.nan))), "exact": True}
+        return self._numbers(values)
 
     def _numbers(self, values: Any) -> dict[str, Any]:
         found = quantised(values)

@@ -65,6 +65,11 @@ def quantised(values: Floats) -> Quantised:
     return Quantised(codes, tuple(low.tolist()), tuple(step.tolist()), gaps)
 
 
+def exact_codes(values: Floats) -> Codes:
+    """Return (n,) numbers as (n, 2) words of 32 bits, the low one first: where equal steps are too coarse."""
+    return np.ascontiguousarray(values, dtype="<f8").view("<u4").reshape(-1, 2).astype(np.uint32)
+
+
 def packed(codes: Codes) -> str:
     """Text of (n, c) codes: column after column as differences, low bytes before high ones, deflated, in base64.
 

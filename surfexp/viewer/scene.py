@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from surfexp.contract.arrays import Floats
+from surfexp.contract.arrays import Floats, Integers
 from surfexp.figures.camera import VIEWS
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.labelling import Labelling
@@ -89,12 +89,15 @@ class Drawn:
         At least one.
     sides : dict of str to (float, float)
         Its own views by name, in degrees: "lateral" and "medial" of a hemisphere.
+    origin : (n,) int64, optional
+        The number under which each vertex is known, where it is another one than its place.
     """
 
     name: str
     mesh: TriangleMesh
     fields: list[Field]
     sides: Mapping[str, Direction] = field(default_factory=dict)
+    origin: Integers | None = None
 
 
 @dataclass(frozen=True, eq=False)

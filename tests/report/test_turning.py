@@ -16,6 +16,8 @@ from hypothesis.extra import numpy as arrays
 from turning_page import results_of, torus, turning_page, turning_plan
 
 import surfexp.figures.shading as shading
+from surfexp.figures.colormap import ColorScale
+from surfexp.figures.labelling import Labelling
 from surfexp.lab.composition.launch import launch
 from surfexp.lab.plan.plan import Plan
 from surfexp.lab.store import store
@@ -33,7 +35,7 @@ from surfexp.viewer import page as page_module
 from surfexp.viewer.page import SCRIPTS
 from surfexp.viewer.payload import Payload
 from surfexp.viewer.quantised import packed, quantised, unpacked
-from surfexp.viewer.scene import Drawn, Scene
+from surfexp.viewer.scene import Drawn, Field, Scene, Step
 
 ASSETS = Path(page_module.__file__).parent / "assets"
 VIEWER = Path(__file__).resolve().parents[2] / "viewer"
@@ -76,7 +78,7 @@ def read(payload: Payload, described: dict[str, Any]) -> np.ndarray:
     return np.where(described["gaps"] & (codes == 65535), np.nan, values)
 
 
-@pytest.mark.parametrize("count", [12, 70000])
+@pytest.mark.parametrize("count", [12, 65535, 65536, 70000])
 def test_faces_are_exact_and_positions_within_half_a_step(count: int) -> None:
     vertices = np.random.default_rng(0).normal(size=(count, 3)) * (1.0, 100.0, 1e-3)
     mesh = TriangleMesh(vertices, np.random.default_rng(1).integers(0, count, (500, 3)))
@@ -85,6 +87,34 @@ def test_faces_are_exact_and_positions_within_half_a_step(count: int) -> None:
     assert (read(payload, described["faces"]) == mesh.faces).all()
     error = np.abs(read(payload, described["positions"]) - vertices).max(axis=0)
     assert (error <= 0.5 * np.ptp(vertices, axis=0) / 65535 * (1 + 1e-9)).all() and error.max() > 0.0
+
+
+def test_the_last_corner_of_16_bits_names_no_vertex() -> None:
+    """WebGL 2 takes it as the end of a strip: the face with it would be lost, and all after it joined otherwise."""
+    for count, kind in ((65535, "uint16"), (65536, "uint32")):
+        mesh = TriangleMesh(np.zeros((count, 3)), np.array([[0, 1, count - 1]]))
+        assert Payload().add(Scene([Drawn("any", mesh, [])], []))["surfaces"][0]["faces"]["type"] == kind
+
+
+def test_one_value_far_from_all_others_leaves_them_as_they_are() -> None:
+    values = np.random.default_rng(0).uniform(1.0, 4.0, len(MESH.vertices))
+    for far, exact in ((5.0, False), (1e6, True), (3.4e38, True)):
+        values[7], values[9] = far, np.nan
+        payload = Payload()
+        fields = [Field("thickness", (Step(values),), ColorScale("thickness"))]
+        described = payload.add(Scene([Drawn("any", MESH, fields)], [(0, 0)]))["surfaces"][0]["fields"][0]
+        found = described["steps"][0]["values"]
+        assert found.get("exact", False) == exact and 3.0 < described["limits"][1] < 4.1
+        if exact:
+            codes = unpacked(payload.arrays[found["array"]], np.dtype(np.uint32), 2)
+            assert np.array_equal(np.ascontiguousarray(codes).view(np.float64).ravel(), values, equal_nan=True)
+
+
+def test_more_labels_than_codes_are_refused_with_the_way_out() -> None:
+    names = tuple(map(str, range(65536)))
+    labels = Labelling(np.zeros(len(MESH.vertices), np.int64), names, np.zeros((65536, 3)))
+    with pytest.raises(ValueError, match="65536 labels, a page tells 65535 apart: give the numbers as floats"):
+        Payload().add(Scene([Drawn("any", MESH, [Field("labels", (Step(labels.values),), labels=labels)])], [(0, 0)]))
 
 
 def scenes(tmp_path: Path, made: dict[str, Any], **changes: Any) -> tuple[list[Scene], Turning, list[dict[str, Any]]]:

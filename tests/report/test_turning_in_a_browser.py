@@ -13,6 +13,7 @@ from turning_page import STILL, results_of, torus, turning_page
 
 from surfexp.figures.camera import VIEWS, view_axes
 from surfexp.figures.encode import encode_png
+from surfexp.figures.labelling import Labelling
 from surfexp.viewer.page import viewer_page
 from surfexp.viewer.scene import Drawn, Field, Scene, Step
 
@@ -228,3 +229,90 @@ def test_keys_zoom_and_a_slow_machine_turns_fewer_faces(tab: Browser) -> None:
     tab.run("turning[0].panels[0].canvas.focus()")
     tab.call("Input.dispatchKeyEvent", type="keyDown", key="+", text="+")
     assert tab.run("turning[0].view.zoom") == pytest.approx(1.2)
+    larger = "[...turning[0].views.querySelectorAll('button')].find((one) => one.textContent === 'larger').click()"
+    tab.run(larger)
+    assert tab.run("turning[0].view.zoom") == pytest.approx(1.44)
+
+
+def test_enter_tells_the_value_in_the_middle_of_the_canvas(tab: Browser) -> None:
+    turn(tab)
+    _, _, width, height = box(tab, "turning[0].panels[0].canvas")
+    tab.run("turning[0].panels[0].canvas.focus()")
+    tab.call("Input.dispatchKeyEvent", type="keyDown", key="Enter")
+    assert [int(one["vertex"]) for one in tab.run(TOLD)] == [seen_at(width / 2, height / 2, width, height)] * 3
+
+
+def test_numbers_have_the_digits_that_tell_neighbours_apart(tab: Browser) -> None:
+    for value, step, text in (
+        (1234.5, 0.333, "1234.5"),
+        (1000.1, 0.008, "1000.1"),
+        (2.5, 0.03, "2.5"),
+        (0.0, 1.0, "0"),
+        (1e-30, 1e-32, "1e−30"),
+        (2.5e-30, 1e-32, "2.5e−30"),
+        (-1.25e12, 1e9, "−1.25e12"),
+    ):
+        assert tab.run(f"digits({value!r}, {step!r})") == text
+    for value, text in ((163841.0, "163841"), (2.345678, "2.3457"), (-0.00012345, "−0.00012345"), (1e-30, "1e−30")):
+        assert tab.run(f"significant({value!r}, 5)") == text
+
+
+def test_of_two_requests_the_later_one_colours_the_surface(tab: Browser) -> None:
+    """The first waits for its numbers until the second is drawn."""
+    turn(tab)
+    tab.run("""(async () => {
+      const [panel] = turning[0].panels, read = numbersOf;
+      let free, called;
+      const held = new Promise((done) => (free = done)), asked = new Promise((done) => (called = done));
+      numbersOf = async (described) => (called(), await held, read(described));
+      panel.fields.value = 1;
+      const first = panel.show(0);
+      await asked;
+      numbersOf = read;
+      panel.fields.value = 0;
+      await panel.show(0);
+      const shade = () => [...panel.mesh.geometry.attributes.shade.array];
+      const before = shade();
+      free();
+      await first;
+      window.kept = shade().every((one, k) => one === before[k]) && panel.field.name === "image";
+    })()""")
+    assert tab.run("window.kept") is True
+
+
+def test_labels_over_a_map_wait_for_their_turn(tab: Browser) -> None:
+    """Lines of labels that come late leave no surface without colours over the map that was chosen meanwhile."""
+    turn(tab)
+    tab.run("""(async () => {
+      const [panel] = turning[0].panels, { described } = panel, read = lineMesh;
+      described.fields.push({ ...described.fields[0], name: "labels", labels: ["a"], limits: null,
+        steps: [{ ...described.fields[0].steps[0], lines: [1] }] });
+      panel.fields.append(new Option("labels", described.fields.length - 1));
+      let free;
+      lineMesh = () => new Promise((done) => (free = () => done(new THREE.Mesh())));
+      panel.fields.value = described.fields.length - 1;
+      const first = panel.show(0);
+      lineMesh = read;
+      panel.fields.value = 0;
+      await panel.show(0);
+      free();
+      await first;
+      window.bare = panel.flat === undefined && panel.mesh.visible;
+    })()""")
+    assert tab.run("window.bare") is True
+
+
+def test_each_of_many_labels_has_its_own_colour(tab: Browser, tmp_path: Path) -> None:
+    """Label 2000 is red, all others are black: a texture has 1024 colours a row."""
+    colors = np.zeros((3000, 3))
+    colors[2000, 0] = 1.0
+    labels = Labelling(np.full(len(MESH.vertices), 2000), tuple(map(str, range(3000))), colors)
+    field = Field("labels", (Step(labels.values),), labels=labels)
+    (tmp_path / "labels.html").write_text(viewer_page(Scene([Drawn("torus", MESH, [field])], [(0, 0)])))
+    tab.open(tmp_path / "labels.html")
+    tab.wait("turning[0].panels.length === 1 && !waiting.size && !moving.size && !turning[0].button.disabled")
+    red, green = tab.run("""(() => { const { canvas: c } = turning[0].panels[0];
+      const { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
+      return [0, 1].map((channel) => data.filter((value, i) => i % 4 === channel).reduce((a, b) => Math.max(a, b))); })()""")
+    assert red > 100 and green < 20
+    assert tab.run("turning[0].panels[0].names.children.length") == 201 and errors(tab) == []

@@ -366,6 +366,16 @@ def test_pictures_show_the_sides_apart() -> None:
     np.testing.assert_array_equal(four.figure.pixels, pairwise.figure.pixels)
     seen = sx.view(BRAIN, np.concatenate(list(NOISY.values())))
     assert len(seen.scene.panels) == 2 and [one.name for one in seen.scene.surfaces]
+    columns = (
+        np.outer(np.concatenate(list(NOISY.values())), [1.0, 2.0, 3.0, 4.0])
+        + 5.0 * np.repeat([0, 1], [N, len(RIGHT.vertices)])[:, None]
+    )
+    series = sx.view(BRAIN, columns, views=["lateral", "medial"]).scene
+    left, right = (one.fields[0] for one in series.surfaces)
+    assert left.scale == right.scale and left.scale.limits is not None
+    names = [f"column {k} of 4" for k in (1, 2, 3, 4)]
+    assert [step.name for step in left.steps] == [step.name for step in right.steps] == names
+    assert series.titles == ["left, lateral", "left, medial", "right, lateral", "right, medial"]
     labels = LabelMap(np.r_[np.ones(N, int), np.full(len(RIGHT.vertices), 2)], {1: "l", 2: "r"})
     for shown in (labels, labels.keys, BRAIN.right, sx.segment(BRAIN, NOISY), sx.smooth(BRAIN, NOISY, 0.3)):
         assert len(sx.plot(BRAIN, shown, borders=labels, width=400).views[0]) == 4

@@ -48,7 +48,13 @@ def test_a_map_is_shown_before_and_after_in_the_same_colours_with_what_was_remov
     assert before.scale.limits == after.scale.limits and removed.scale.limits != before.scale.limits
     np.testing.assert_allclose(before.values - after.values, removed.values, atol=1e-14)
     np.testing.assert_array_equal(before.values, surface.scalars["height"])
-    assert len(shown_surfaces(BODY, clean)) == 1  # the surface does not carry the map
+    # what was given counts, whatever the surface carries under its name
+    other = replace(surface, scalars={"height": np.zeros(len(BODY.mesh.vertices))})
+    for one in (BODY, other):
+        np.testing.assert_array_equal(shown_surfaces(one, clean)[0][0].values, surface.scalars["height"])
+    path = sx.denoise_path(surface, "height", weights=(0.5, 2.0), tolerance=1e-2).at(1.0)
+    for made in (path, sx.smooth(surface, "height", 0.3), sx.denoise(surface, "height")):
+        np.testing.assert_allclose(made.given, surface.scalars["height"], rtol=1e-15)
 
 
 def test_a_correspondence_carries_the_colours_of_the_source() -> None:

@@ -14,6 +14,7 @@ from surfexp.figures.camera import fit_camera
 from surfexp.figures.contours import Contours
 from surfexp.figures.labelling import border_lines, label_colors, labelling
 from surfexp.figures.render import SurfaceView, draw
+from surfexp.mesh.coloured_labels import ColouredLabels
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
@@ -155,6 +156,65 @@ def test_columns_of_a_map_are_a_slider_and_six_of_them_a_picture() -> None:
     assert names == [f"column {k} of 24" for k in (1, 6, 10, 15, 19, 24)]
     # one bar for all, from the least to the greatest
     assert len({one.scale for row in picture.views for one in row}) == 1 and len(picture.views) == 2
+
+
+def test_a_vertex_has_its_number_in_the_page_whatever_lies_before_it() -> None:
+    faces = BALL.mesh.faces
+    # two points without a face before and one not finite behind
+    points = np.r_[[[0.0, 0.0, 0.0], [9.0, 9.0, 9.0]], BALL.mesh.vertices, [[np.nan, 0.0, 0.0]]]
+    shown = sx.view((points, faces + 2), np.r_[5.0, 6.0, Z, 7.0])
+    ((drawn,), (field,)) = shown.scene.surfaces, shown.scene.surfaces[0].fields
+    assert np.array_equal(drawn.mesh.faces, faces + 2) and np.array_equal(drawn.mesh.vertices[2:-1], BALL.mesh.vertices)
+    assert np.abs(drawn.mesh.vertices).max() <= 1.0  # the box is that of the ball
+    values = field.steps[0].values
+    assert values is not None and np.array_equal(values, np.r_[np.nan, np.nan, Z, np.nan], equal_nan=True)
+    assert field.scale.limits is None or field.scale.limits[1] <= 1.0
+    labels = sx.view((points, faces + 2), np.r_[8, 8, (Z > 0).astype(int), 8]).scene.surfaces[0].fields[0].labels
+    assert labels is not None and labels.index[:2].tolist() == [-1, -1]
+
+
+def test_a_copy_that_repair_made_tells_the_vertex_of_the_file(tmp_path: Path) -> None:
+    lower = sx.shape("icosphere", levels=1).mesh
+    # two balls that share a vertex: repair splits it
+    opposite, count = int(np.argmin(lower.vertices @ lower.vertices[0])), len(lower.vertices)
+    points = np.r_[lower.vertices, np.delete(lower.vertices + 2.0 * lower.vertices[0], opposite, axis=0)]
+    number = np.insert(np.arange(count, len(points)), opposite, 0)
+    sx.write(tmp_path / "two.ply", (points, np.r_[lower.faces, number[lower.faces]]))
+    scan = sx.read(tmp_path / "two.ply", repair=True)
+    (drawn,) = sx.view(scan, scan.mesh.vertices[:, 2]).scene.surfaces
+    assert scan.file is not None and len(scan.mesh.vertices) > len(points)
+    assert drawn.origin is not None and drawn.origin.max() < len(points)
+    assert sx.view(BALL, Z).scene.surfaces[0].origin is None
+
+
+def test_a_label_has_one_colour_on_all_surfaces_of_a_picture() -> None:
+    keys = 1 + np.arange(len(Z)) % 3
+    few = np.where(keys == 1, 2, keys)
+    picture = sx.plot([BALL, BALL], [keys, few], width=400)
+    first, second = (view.labels for view in picture.views[0])
+    assert first is not None and second is not None and second.names == ("2", "3")
+    assert np.array_equal(first.colors[1:], second.colors)
+    brain = sx.Surface(BALL.mesh, hemisphere="left"), sx.Surface(BALL.mesh, hemisphere="right")
+    seen = sx.view(list(brain), [keys, few]).scene.surfaces
+    colors = [one.fields[0].labels.colors for one in seen if one.fields[0].labels is not None]
+    assert np.array_equal(colors[0][1:], colors[1])
+    # a colour of an atlas counts for all
+    atlas = ColouredLabels(few, {2: "2", 3: "3"}, {3: (0.25, 0.5, 0.75)})
+    first, second = (view.labels for view in sx.plot([BALL, BALL], [keys, atlas], width=400).views[0])
+    assert first is not None and second is not None
+    assert first.colors[2].tolist() == second.colors[1].tolist() == [0.25, 0.5, 0.75]
+    assert np.array_equal(first.colors[1], second.colors[0])
+
+
+def test_a_series_in_a_file_is_a_slider_and_maps_with_names_are_panels(tmp_path: Path) -> None:
+    series = np.outer(Z, np.arange(1.0, 9.0))
+    np.savetxt(tmp_path / "series.csv", series, delimiter=",")
+    (drawn,) = sx.view(BALL, str(tmp_path / "series.csv")).scene.surfaces
+    assert [step.name for step in drawn.fields[0].steps] == [f"column {k} of 8" for k in range(1, 9)]
+    labels = (Z > 0).astype(int)
+    parcels = sx.parcels(BALL, series[:, :2], labels)
+    seen = sx.view(BALL, parcels).scene
+    assert len(seen.panels) == 2 and len({one.scale.limits for one in seen.surfaces[0].fields}) == 2
 
 
 def test_three_columns_are_colours_only_where_they_can_be() -> None:

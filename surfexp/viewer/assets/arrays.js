@@ -32,9 +32,13 @@ function codesOf(described) {
   return unpacked.get(described.array);
 }
 
-// The number in a row and column; NaN in a gap.
+// The number in a row and column; NaN in a gap. Exact numbers are two words each.
 async function numbersOf(described) {
   const codes = await codesOf(described), { columns, low, step, gaps } = described;
+  if (described.exact) {
+    const exact = new Float64Array(codes.buffer);
+    return Object.assign((row) => exact[row], { rows: exact.length });
+  }
   const at = (row, column = 0) => {
     const code = codes[row * columns + column];
     return gaps && code === GAP ? NaN : low[column] + step[column] * code;

@@ -73,8 +73,8 @@ class Curve {
     const frame = { x: left, y: top, width: right - left, height: bottom - top };
     const svg = drawn("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "img" },
       ...this.ticks[1].map((tick) => drawn("path", { class: "grid", d: `M${left} ${this.y(tick)}H${right}` })),
-      ...this.ticks[1].map((tick) => text(digits(tick, 3), left - 7, this.y(tick) + 5, "end")),
-      ...this.ticks[0].map((tick) => text(digits(tick, 3), this.x(tick), bottom + 20, "middle")),
+      ...this.ticks[1].map((tick) => text(significant(tick, 3), left - 7, this.y(tick) + 5, "end")),
+      ...this.ticks[0].map((tick) => text(significant(tick, 3), this.x(tick), bottom + 20, "middle")),
       ...this.solved.map((place) => drawn("path", { class: "solved", d: `M${this.x(place)} ${bottom}v-5` })),
       drawn("clipPath", { id: "within" }, drawn("rect", frame)),
       drawn("path", { ...within, class: "band", d: `M${path(1)}L${path(2, back)}Z` }),
@@ -87,7 +87,7 @@ class Curve {
       text(across, 0.5 * (left + right), HIGH - 8, "middle"),
       text(up, 4, 18, "start"),
     );
-    svg.setAttribute("aria-label", `${up} by ${across}, least at ${digits(best, 3)}`);
+    svg.setAttribute("aria-label", `${up} by ${across}, least at ${significant(best, 3)}`);
     return svg;
   }
 }

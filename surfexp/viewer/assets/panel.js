@@ -10,8 +10,21 @@ function element(name, properties = {}, ...children) {
   return made;
 }
 
-const digits = (value, count) =>
-  value.toLocaleString("en", { maximumSignificantDigits: count, useGrouping: false }).replace("-", "−");
+// The digits that tell steps of a size apart; a power of ten where a number is very small or large.
+function digits(value, step) {
+  const place = Math.floor(Math.log10(step) + 1e-9), size = Math.abs(value);
+  const count = Math.max(0, Math.min(Math.floor(Math.log10(size || step)) - place, 15));
+  if (size < 0.5 * 10 ** place) return "0";
+  const text = size < 1e-4 || size >= 1e9
+    ? value.toExponential(count).replace(/\.?0*e\+?/, "e")
+    : value.toLocaleString("en", { maximumFractionDigits: Math.max(0, Math.min(-place, 20)), useGrouping: false });
+  return text.replaceAll("-", "−");
+}
+
+// of a number alone
+const significant = (value, count) => digits(value, 10 ** Math.min(0, Math.floor(Math.log10(Math.abs(value) || 1)) - count + 1));
+// names of labels that are listed
+const MOST_NAMES = 200;
 
 // What a field shows at a position of its slider.
 function stepAt({ steps, stops }, at) {
@@ -27,7 +40,8 @@ class Panel {
     this.mesh = surfaceMesh(surface);
     this.scene.add(this.mesh);
     this.canvas = element("canvas", { tabIndex: 0 });
-    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("role", "application");
+    this.canvas.setAttribute("aria-roledescription", "surface that turns");
     this.bar = element("canvas", { height: 1 });
     this.names = element("ul", { className: "names" });
     this.ends = ["below", "above"].map((end) => element("i", { className: end, hidden: true }));
@@ -62,10 +76,10 @@ class Panel {
   async show(at) {
     const field = this.field, step = stepAt(field, at), turn = ++this.turn;
     const lines = await Promise.all((step?.lines ?? []).map((one, k) => lineMesh(one, this.surface.middle, k)));
-    if (field.labels && !this.flat) this.scene.add((this.flat = flatMesh(this.surface)));
-    const drawn = field.labels ? this.flat : this.mesh;
-    const { values, pixels } = await colour(drawn, field, step, this.surface.geometry.index.array);
+    const [pixels, values] = await Promise.all([readTable(field.table), step?.values && numbersAt(step)]);
     if (turn !== this.turn) return lines.forEach(release);
+    if (field.labels && !this.flat) this.scene.add((this.flat = flatMesh(this.surface)));
+    paint(field.labels ? this.flat : this.mesh, field, values, pixels, this.surface.geometry.index.array);
     this.mesh.visible = !field.labels;
     if (this.flat) this.flat.visible = !!field.labels;
     this.values = values;
@@ -78,7 +92,7 @@ class Panel {
     this.slider.value = at;
     this.slider.setAttribute("aria-label", field.name);
     this.step.textContent = step?.name ?? "";
-    const shown = `${this.described.name}: ${step?.name || field.name}, turns with the arrow keys`;
+    const shown = `${this.described.name}: ${step?.name || field.name}, turns with the arrow keys, Enter tells the value in the middle`;
     this.canvas.setAttribute("aria-label", shown);
     this.legend(field, pixels);
     redraw([this.figure]);
@@ -86,23 +100,25 @@ class Panel {
 
   legend(field, pixels) {
     this.colours.hidden = !field.limits;
-    this.names.replaceChildren(...(field.legend === false ? [] : field.labels ?? []).map((name, k) => {
+    const names = field.legend === false ? [] : field.labels ?? [];
+    this.names.replaceChildren(...names.slice(0, MOST_NAMES).map((name, k) => {
       const swatch = element("i"), color = [...pixels.subarray(4 * k, 4 * k + 3)];
       swatch.style.background = `rgb(${color})`;
       return element("li", {}, swatch, name);
     }));
+    if (names.length > MOST_NAMES) this.names.append(element("li", { textContent: `and ${names.length - MOST_NAMES} more` }));
     if (!field.limits) return;
     const [low, high] = field.limits, width = pixels.length / 4 - 1;
     this.bar.width = width;
     this.bar.getContext("2d").putImageData(new ImageData(pixels.slice(0, 4 * width), width, 1), 0, 0);
-    const marks = [low, 0.5 * (low + high), high].map((value) => element("span", { textContent: digits(value, 3) }));
+    const marks = [low, 0.5 * (low + high), high].map((value) => element("span", { textContent: digits(value, (high - low) / 100) }));
     this.ticks.replaceChildren(...marks);
     const beyond = field.beyond ?? [0, 0], part = 100 * (beyond[0] + beyond[1]), [first, last] = [0, 4 * (width - 1)];
     this.ends.forEach((end, k) => {
       end.hidden = !beyond[k];
       end.style.background = `rgb(${[...pixels.subarray([first, last][k], [first, last][k] + 3)]})`;
     });
-    const said = part ? `${digits(part, 2)} % of the values lie beyond` : "";
+    const said = part ? `${significant(part, 2)} % of the values lie beyond` : "";
     this.label.textContent = [field.label, said].filter(Boolean).join("\n");
   }
 
@@ -164,10 +180,11 @@ class Panel {
 
   tell(vertex) {
     const value = this.values?.(vertex), { unit, labels } = this.field;
-    const name = (known) => (labels ? labels[Math.round(known)] : `${digits(known, 5)} ${unit}`);
+    const name = (known) => (labels ? labels[Math.round(known)] : `${significant(known, 5)} ${unit}`);
     const text = value === undefined ? "" : Number.isNaN(value) ? `: no ${labels ? "label" : "value"}` : `: ${name(value)}`;
-    this.told.textContent = vertex < 0 ? " " : `vertex ${vertex}${text}`.trim();
-    Object.assign(this.told.dataset, { vertex, value: vertex < 0 ? "" : String(value ?? "") });
+    const number = vertex < 0 ? vertex : (this.surface.known?.[vertex] ?? vertex);
+    this.told.textContent = vertex < 0 ? " " : `vertex ${number}${text}`.trim();
+    Object.assign(this.told.dataset, { vertex: number, value: vertex < 0 ? "" : String(value ?? "") });
   }
 
   end() {

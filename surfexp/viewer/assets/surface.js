@@ -10,8 +10,11 @@ const VERTEX = `
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   }`;
 // x of `shaded` is the place between the limits, y is 0 where all corners have a value
+const TABLE_WIDTH = 1024, FAR = 1e6;
 const FRAGMENT = `
+  const int TABLE_WIDTH = ${TABLE_WIDTH};
   uniform highp sampler2D table;
+  uniform int missing;
   uniform float shading;
   varying vec2 shaded;
   varying vec3 turned;
@@ -25,9 +28,8 @@ const FRAGMENT = `
     return light * (1.0 - RIM_DARKENING * rim * rim * rim);
   }
   void main() {
-    int missing = textureSize(table, 0).x - 1;
-    int entry = shaded.y > 0.0 ? missing : clamp(int(floor(shaded.x * float(missing))), 0, missing - 1);
-    vec3 color = texelFetch(table, ivec2(entry, 0), 0).rgb;
+    int entry = shaded.y > 0.0 ? missing : int(clamp(floor(shaded.x * float(missing)), 0.0, float(missing - 1)));
+    vec3 color = texelFetch(table, ivec2(entry % TABLE_WIDTH, entry / TABLE_WIDTH), 0).rgb;
     float received = 1.0 + shading * (illumination(normalize(turned) * (gl_FrontFacing ? 1.0 : -1.0)) - 1.0);
     color = received * mix(color, BACK_TINT, gl_FrontFacing ? 0.0 : BACK_SHARE);
     gl_FragColor = vec4(pow(clamp(color, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
@@ -53,8 +55,8 @@ const FLAT_FRAGMENT = FRAGMENT.replace("varying vec2 shaded;", "flat varying vec
 );
 
 // What panels share of a surface: positions about the middle of its box, normals, faces.
-async function readSurface({ positions, faces, outside }) {
-  const [at, corners] = await Promise.all([numbersOf(positions), codesOf(faces)]);
+async function readSurface({ positions, faces, outside, origin }) {
+  const [at, corners, known] = await Promise.all([numbersOf(positions), codesOf(faces), origin && codesOf(origin)]);
   const middle = positions.low.map((low, k) => low + 0.5 * positions.step[k] * (GAP - positions.gaps));
   const geometry = new THREE.BufferGeometry(), places = new Float32Array(3 * at.rows);
   let radius = 0;
@@ -67,7 +69,7 @@ async function readSurface({ positions, faces, outside }) {
   geometry.setIndex(new THREE.BufferAttribute(corners, 1));
   geometry.computeVertexNormals();
   const side = outside ? THREE.FrontSide : THREE.DoubleSide;
-  return { geometry, middle, radius, side };
+  return { geometry, middle, radius, side, known };
 }
 
 // Faces between representatives of the cells of a grid, some ten thousand: what turns where drawing all is too slow.
@@ -108,7 +110,7 @@ function surfaceMaterial(vertexShader, fragmentShader, side) {
   return new THREE.ShaderMaterial({
     vertexShader,
     fragmentShader,
-    uniforms: { table: { value: null }, shading: { value: 1 } },
+    uniforms: { table: { value: null }, missing: { value: 0 }, shading: { value: 1 } },
     side,
     polygonOffset: true,
     polygonOffsetFactor: 1,
@@ -123,22 +125,28 @@ async function readTable(described) {
   return pixels;
 }
 
-async function colour(mesh, field, step, corners) {
+// Rows of so many colours, since a texture has a largest width.
+function tableTexture(pixels) {
+  const count = pixels.length / 4, rows = Math.ceil(count / TABLE_WIDTH), linear = new Float32Array(4 * TABLE_WIDTH * rows);
+  pixels.forEach((channel, k) => (linear[k] = (channel / 255) ** 2.2));
+  return new THREE.DataTexture(linear, TABLE_WIDTH, rows, THREE.RGBAFormat, THREE.FloatType);
+}
+
+function paint(mesh, field, values, pixels, corners) {
   const shade = mesh.geometry.attributes.shade, { uniforms } = mesh.material;
-  const pixels = await readTable(field.table), values = step?.values && (await numbersAt(step));
   const [low, high] = field.limits ?? [0, 1];
   for (let row = 0; shade && row < shade.count; row++) {
     const value = values ? values(row) : low, missing = Number.isNaN(value);
-    shade.setXY(row, missing ? 0 : (value - low) / (high - low), missing ? 1 : 0);
+    // far beyond the limits a number of 32 bits would be infinite
+    shade.setXY(row, missing ? 0 : Math.max(-FAR, Math.min(FAR, (value - low) / (high - low))), missing ? 1 : 0);
   }
   if (shade) shade.needsUpdate = true;
   else labelFaces(mesh.geometry.attributes.labels, corners, values);
   uniforms.table.value?.dispose();
-  const linear = Float32Array.from(pixels, (channel) => (channel / 255) ** 2.2);
-  uniforms.table.value = new THREE.DataTexture(linear, pixels.length / 4, 1, THREE.RGBAFormat, THREE.FloatType);
+  uniforms.table.value = tableTexture(pixels);
   uniforms.table.value.needsUpdate = true;
+  uniforms.missing.value = pixels.length / 4 - 1;
   uniforms.shading.value = field.shading;
-  return { values, pixels };
 }
 
 function labelFaces(labels, corners, values) {

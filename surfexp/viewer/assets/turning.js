@@ -37,7 +37,7 @@ class TurningFigure {
   constructor(element_, linked) {
     Object.assign(this, { element: element_, linked, panels: [], cost: 0 });
     this.scene = JSON.parse(element_.querySelector("script.scene").textContent);
-    const number = [...document.querySelectorAll("figure:has(> script.scene)")].indexOf(element_) + 1;
+    const number = figuresIn(document).indexOf(element_) + 1;
     this.name = `figure ${number}: ${element_.querySelector("img")?.alt ?? "surface"}`;
     this.button = element("button", { type: "button", textContent: "Turn", ariaLabel: `Turn ${this.name}` });
     this.note = element("span", { className: "note" });
@@ -48,6 +48,11 @@ class TurningFigure {
       if (name !== "reset" && !(name in this.scene.views) && !own.includes(name)) continue;
       const button = element("button", { type: "button", textContent: name, ariaLabel: `${name} view of ${this.name}` });
       button.addEventListener("click", () => this.face(name));
+      this.views.append(button);
+    }
+    for (const [name, zoom] of [["larger", 1.2], ["smaller", 1 / 1.2]]) {
+      const button = element("button", { type: "button", textContent: name, ariaLabel: `${name}: ${this.name}` });
+      button.addEventListener("click", () => this.move({ zoom }));
       this.views.append(button);
     }
     this.tools = element("div", { className: "tools" }, this.button, this.views, this.note);
@@ -172,13 +177,17 @@ class TurningFigure {
   listen(panel) {
     const { canvas } = panel, across = () => this.panels.filter(({ surface }) => surface === panel.surface);
     let asked = 0;
+    const tell = (event) => {
+      const vertex = panel.under(event);
+      across().forEach((one) => one.tell(vertex));
+    };
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
       const { movementX, movementY, buttons, shiftKey } = event;
       if (buttons && shiftKey) this.move({ x: movementX, y: movementY });
       else if (buttons) this.move({ azimuth: -0.5 * movementX, elevation: 0.5 * movementY });
       cancelAnimationFrame(asked);
-      if (!buttons) asked = requestAnimationFrame(() => across().forEach((one) => one.tell(panel.under(event))));
+      if (!buttons) asked = requestAnimationFrame(() => tell(event));
     });
     canvas.addEventListener("pointerleave", () => across().forEach((one) => one.tell(-1)));
     // a wheel alone scrolls the page
@@ -195,6 +204,10 @@ class TurningFigure {
       else if (key === "-") this.move({ zoom: 1 / 1.2 });
       else if (key === "0" || key === "Home") this.face("reset");
       else if (key in KEYS) this.face(KEYS[key]);
+      else if (key === "Enter") {
+        const { left, top, width, height } = canvas.getBoundingClientRect();
+        tell({ clientX: left + width / 2, clientY: top + height / 2 });
+      }
       else return;
       event.preventDefault();
     });
@@ -210,13 +223,18 @@ function startRenderer() {
     renderer = null;
     for (const figure of turning.filter(({ panels }) => panels.length)) {
       figure.still();
+      figure.button.hidden = false;
       figure.note.textContent = "Stays still: the browser took the graphics away; turn it again.";
     }
   });
 }
 
+function figuresIn(part) {
+  return [...part.querySelectorAll("figure > script.scene")].map((scene) => scene.parentElement);
+}
+
 const turning = [...document.querySelectorAll("section")].flatMap((section) => {
   const linked = new Set();
-  return [...section.querySelectorAll("figure:has(> script.scene)")].map((figure) => new TurningFigure(figure, linked));
+  return figuresIn(section).map((figure) => new TurningFigure(figure, linked));
 });
 for (const figure of turning) if (figure.element.classList.contains("live")) figure.turn();
