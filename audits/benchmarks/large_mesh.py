@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import time
@@ -27,6 +26,17 @@ UNIT_OF_MEMORY = 1024 if sys.platform.startswith("linux") else 1
 FINISHED = (0, 3)
 Call = Callable[[Surface, Floats], object]
 # the words of a command, and the call of the face that is its mathematics
+# a process begins with the peak memory of the one that starts it: so one that is small stands between
+WATCH = """
+import os, sys
+pid = os.fork()
+if not pid:
+    null = os.open(os.devnull, os.O_RDWR)
+    os.dup2(null, 1), os.dup2(null, 2)
+    os.execv(sys.argv[1], sys.argv[1:])
+_, status, usage = os.wait4(pid, 0)
+print(os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.ru_maxrss)
+"""
 CALLS: tuple[tuple[str, Call], ...] = (
     ("noise {mesh} {map}", sx.noise),
     ("smooth {mesh} {map} --width 0.1 --to out.npy", lambda surface, values: sx.smooth(surface, values, 0.1)),
@@ -89,9 +99,10 @@ def _line(words: str, files: dict[str, str], folder: str, call: Call, surface: S
 
 def _command(words: list[str], folder: str) -> tuple[float, float]:
     """Processor seconds and peak bytes of one command, compiled code read from its cache."""
-    process = subprocess.Popen((*COMMAND, *words), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode not in FINISHED:
-        raise RuntimeError(f"surfexp {' '.join(words)} ended with {process.returncode}")
-    return usage.ru_utime + usage.ru_stime, float(usage.ru_maxrss * UNIT_OF_MEMORY)
+    done = subprocess.run(
+        (sys.executable, "-I", "-c", WATCH, *COMMAND, *words), cwd=folder, capture_output=True, text=True, check=True
+    )
+    code, seconds, memory = done.stdout.split()
+    if int(code) not in FINISHED:
+        raise RuntimeError(f"surfexp {' '.join(words)} ended with {code}")
+    return float(seconds), float(memory) * UNIT_OF_MEMORY

@@ -11,7 +11,7 @@ import click
 from surfexp.commands.click_command import shown
 from surfexp.commands.given_maps import label_of_bar, shown_borders, shown_map
 from surfexp.commands.given_surfaces import opened
-from surfexp.commands.proof_pages import ready_proof, save_proof
+from surfexp.commands.proof_pages import ready_proof_of, save_proof
 from surfexp.commands.surface_options import picture_options, proof_option, result_option, surface_options
 from surfexp.commands.surface_results import files_made, finish, ready, ready_map
 from surfexp.commands.terminal import echo, progress_line
@@ -46,7 +46,7 @@ def modes(
 
     surface, files = opened(path, **given)
     ready_map(target, files, surface, count=count)
-    ready_proof(proof, files)
+    ready_proof_of(proof, files, surface, columns=count)
     started = time.perf_counter()
     with progress_line("modes") as progress:
         system = eigenpairs(surface, count, tolerance=tolerance, progress=progress, threads=threads)
@@ -55,10 +55,10 @@ def modes(
         "residual": float(system.residuals.max()),
         "seconds": time.perf_counter() - started,
     }
+    chosen = {"k": count, "tolerance": tolerance}
+    code = finish(target, system, surface, "eigenpairs", chosen, files, facts, system.notes)
     save_proof(proof, system, surface)
-    return finish(
-        target, system, surface, "eigenpairs", {"k": count, "tolerance": tolerance}, files, facts, system.notes
-    )
+    return code
 
 
 @click.command(**shown("geodesic", *EXAMPLES["geodesic"]))
@@ -71,9 +71,10 @@ def geodesic(path: str, sources: tuple[int, ...], target: Path, **given: Any) ->
     import numpy as np
 
     from surfexp.tasks.skeletons import geodesic as task
+    from surfexp.tasks.skeletons import where_reached
 
     surface, files = opened(path, **given)
-    ready_map(target, files, surface)
+    ready_map(target, files, surface, where_reached(surface, sources))
     started = time.perf_counter()
     with progress_line("geodesic") as progress:
         values, lower = task(surface, sources, bounds=True, progress=progress)

@@ -159,7 +159,7 @@ def check_map_target(
     as_curvature = suffix not in (".npz", ".npy", *TEXT, *VOLUMES) and not is_cifti(path) and not is_gifti(path)
     if unknown and as_curvature:
         raise ValueError(
-            f"{path} cannot say NaN, which the map has outside of its mask: choose .mgh, .shape.gii or .npz"
+            f"{path} cannot say NaN, which the map has where nothing is known: choose .mgh, .shape.gii or .npz"
         )
     if hemisphere is not None:
         check_named_side(path, hemisphere)

@@ -12,6 +12,7 @@ from surfexp.contract.arrays import Floats, Integers
 from surfexp.mesh.given_arrays import index_array, mask_array
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
 from surfexp.mesh.length_scale import scaled
+from surfexp.mesh.surface import Surface
 from surfexp.mesh.surface_part import SurfacePart
 from surfexp.mesh.thin_faces import zero_area_faces
 from surfexp.operators.mean_curvature import mean_curvature as mesh_mean_curvature
@@ -157,6 +158,25 @@ def geodesic(
     """
     owner = as_surface(surface)
     part = part_for(owner)
+    starts = _sources_in_part(owner, part, sources)
+    if not bounds:
+        return part.extend(part.length * geodesic_distance(part.mesh, starts, progress))
+    # where no path leads, infinite less infinite
+    with np.errstate(invalid="ignore"):
+        upper, lower = geodesic_bounds(part.mesh, starts, progress)
+    return part.extend(part.length * upper), part.extend(part.length * lower)
+
+
+def where_reached(surface: SurfaceLike, sources: ArrayLike) -> Floats:
+    """Return 0 where a path leads to one of the sources, NaN elsewhere, as (n,) float64; sources are refused as in `geodesic`."""
+    owner = as_surface(surface)
+    part = part_for(owner)
+    labels = part.mesh.component_labels
+    return part.extend(np.where(np.isin(labels, labels[_sources_in_part(owner, part, sources)]), 0.0, np.nan))
+
+
+def _sources_in_part(owner: Surface, part: SurfacePart, sources: ArrayLike) -> Integers:
+    """Return the numbers of the sources in the part of a surface on which paths run."""
     wanted = _source_vertices(sources, part.whole_count)
     number = np.full(part.whole_count, -1, dtype=np.int64)
     number[part.vertices] = np.arange(len(part.vertices))
@@ -171,12 +191,7 @@ def geodesic(
         raise ValueError(
             f"source {outside} lies outside the mask of {len(part.vertices)} vertices: give one inside, or widen the mask"
         )
-    if not bounds:
-        return part.extend(part.length * geodesic_distance(part.mesh, number[wanted], progress))
-    # where no path leads, infinite less infinite
-    with np.errstate(invalid="ignore"):
-        upper, lower = geodesic_bounds(part.mesh, number[wanted], progress)
-    return part.extend(part.length * upper), part.extend(part.length * lower)
+    return number[wanted]
 
 
 def _source_vertices(given: ArrayLike, count: int) -> Integers:

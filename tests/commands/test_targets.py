@@ -68,6 +68,21 @@ def test_a_target_that_cannot_be_written_is_refused_at_once(
     assert sorted(path.name for path in folder.iterdir()) == ["ball.ply", "map.csv"]
 
 
+def test_distances_to_a_component_without_a_source_are_no_curvature_file_and_nothing_is_computed(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    faces, n = BALL.mesh.faces, len(BALL.mesh.vertices)
+    sx.write("two.ply", (np.r_[BALL.mesh.vertices, BALL.mesh.vertices + 5.0], np.r_[faces, faces + n]))
+    # with a source on each there is no NaN to write
+    assert main(["geodesic", "two.ply", "0", str(n), "--to", "lh.far.curv"]) == 0
+    monkeypatch.setattr("surfexp.tasks.skeletons.geodesic", None)
+    for sources in (["0"], ["0", "1"], [str(n)]):
+        assert main(["geodesic", "two.ply", *sources, "--to", "lh.near.curv"]) == 2
+        assert "NaN" in capsys.readouterr().err and not Path("lh.near.curv").exists()
+    assert main(["geodesic", "two.ply", "0", str(2 * n), "--to", "lh.near.curv"]) == 2
+    assert f"vertex {2 * n}" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("name", "target"),
     [

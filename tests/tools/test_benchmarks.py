@@ -12,6 +12,7 @@ import pytest
 
 from audits.benchmarks.__main__ import SECTIONS
 from audits.benchmarks.convex_problem import Excess, Recorded
+from audits.benchmarks.large_mesh import _command
 from audits.benchmarks.line import Line, race
 from audits.benchmarks.measurement import Cost, IterationClock, least_count, measure, measure_both
 from audits.benchmarks.record import Record, load, save
@@ -151,6 +152,11 @@ def test_excess_of_a_half_sphere_on_every_scale() -> None:
     assert excess.of(nothing) == pytest.approx(-solution.lower_bound / total, rel=1e-2)
     words = excess.scales(nothing)
     assert "1.0e+00 of the least energy" in words and "1.0e+00 of the spread" in words
+
+
+def test_the_peak_memory_of_a_command_is_its_own(tmp_path: Path) -> None:
+    held = np.ones(80_000_000)
+    assert _command(["--version"], str(tmp_path))[1] < 0.5 * held.nbytes
 
 
 @pytest.mark.slow
