@@ -171,8 +171,9 @@ def test_an_object_that_has_no_class_to_tell_is_passed_over(monkeypatch: pytest.
     library = ModuleType("wrapped_library")
     vars(library)["cvar"] = Variables()
     monkeypatch.setitem(sys.modules, "wrapped_library", library)
-    with pytest.raises(AttributeError, match="__class__"):
-        isinstance(vars(library)["cvar"], Dispatcher)
+    if sys.version_info < (3, 13):  # from then on such an object is an instance of nothing
+        with pytest.raises(AttributeError, match="__class__"):
+            isinstance(vars(library)["cvar"], Dispatcher)
     assert "wrapped_library" in Recall().modules
 
 
