@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from surfexp.contract.arrays import Floats
 from surfexp.drawings.skeleton_drawing import skeleton_lines
 from surfexp.extras import require_installed
 from surfexp.figures.camera import HEMISPHERE_VIEWS, VIEWS, View, viewing_direction
 from surfexp.figures.colormap import ColorScale
 from surfexp.figures.contours import Contours
-from surfexp.figures.labelling import Labelling, border_lines, label_colors
+from surfexp.figures.labelling import Labelling, border_lines
 from surfexp.figures.lines import Lines
 from surfexp.figures.render import CLAY, SurfaceView
 from surfexp.figures.typography import INK
@@ -32,22 +31,18 @@ from surfexp.tasks.default_view import standing
 from surfexp.tasks.drawn_labels import drawn_labels, known_labels, maps_apart, own_label_colors
 from surfexp.tasks.given_map import as_map, name_of
 from surfexp.tasks.given_surface import as_surface, is_mesh, sides_of
-from surfexp.tasks.map_colours import CENTRAL, usual_colormap
 from surfexp.tasks.map_columns import MOST_COLUMNS, own_colors
 from surfexp.tasks.map_rows import rows_of_maps
+from surfexp.tasks.shown_colors import (
+    INSIDE,
+    Rows,
+    in_shared_colors,
+    labels_in_shared_colors,
+    scale_of,
+    unit_of,
+    whole_range,
+)
 from surfexp.tasks.soundness import usable_vertices
-
-# FreeSurfer's maps by the end of their names: what they are called, and the power of the length in their unit
-FREESURFER = {
-    "curv": ("curv (FreeSurfer, + in sulci)", -1),
-    "sulc": ("sulc (FreeSurfer, + in sulci)", 0),
-    "thickness": ("", 1),
-    "area": ("", 2),
-}
-POWERS = {-1: "1/{}", 0: "", 1: "{}", 2: "{}²"}
-INSIDE = "inside the mask"
-# percentiles between which the colours of a map lie
-Rows = list[list[SurfaceView]]
 
 
 def shown_surfaces(
@@ -103,12 +98,12 @@ def shown_surfaces(
         bases = [_coloured(owner, one) for owner, one in zip(shown, maps, strict=True)]
         for owner, one in zip(shown, maps, strict=True):
             own = own_label_colors(owner, one) | own
-        ends = limits or made.limits or _whole_range([base.values for base in bases if base.is_scalar])
+        ends = limits or made.limits or whole_range([base.values for base in bases if base.is_scalar])
         for owner, one, base, border in zip(shown, maps, bases, outlined, strict=True):
             called = label or made.bar.strip() or ("" if made.bar else made.name) or _called(one)
             if base.is_scalar:
-                known = unit or (_unit(owner, made.quantity) if made.quantity else "")
-                base = replace(base, scale=_scale(owner, called, known, ends))
+                known = unit or (unit_of(owner, made.quantity) if made.quantity else "")
+                base = replace(base, scale=scale_of(owner, called, known, ends))
                 told[base.scale] = colormap or made.colormap
             drawn = _lines(owner, base, levels or made.levels, border, skeleton or made.skeleton)
             row += [
@@ -119,7 +114,7 @@ def shown_surfaces(
             alone = len(row) == 1
             row[0] = replace(row[0], title=made.name if alone else f"{made.name}: {row[0].title}")
         rows.append(row)
-    rows = _labels_in_shared_colors(_in_shared_colors(rows, told), own)
+    rows = labels_in_shared_colors(in_shared_colors(rows, told), own)
     if len(rows) == 1 and len(rows[0]) == 1:
         rows = [[replace(rows[0][0], title="")]]
     of_brain = any(one.hemisphere for one in shown)
@@ -178,53 +173,6 @@ def _coloured(owner: Surface, given: Any) -> SurfaceView:
     field = field[:, 0] if field.shape[1:] == (1,) else field
     field = np.where(np.reshape(inside, (-1, *[1] * (field.ndim - 1))), field, np.nan)
     return SurfaceView(mesh, as_shares(field) if field.ndim > 1 else field)
-
-
-def _scale(owner: Surface, name: str, unit: str, limits: tuple[float, float] | None) -> ColorScale:
-    """Return the scale of a map; FreeSurfer's are named with their sign, in the unit of the surface."""
-    called, _ = FREESURFER.get(name.rpartition(".")[2], ("", None))
-    return ColorScale(called or name, unit or _unit(owner, name), limits=limits)
-
-
-def _in_shared_colors(rows: Rows, told: dict[ColorScale, str | None]) -> Rows:
-    """Return rows in which all maps of one scale have the same colours: those that were told, or what suits all of them."""
-    fields: dict[ColorScale, list[Floats]] = {scale: [] for scale in told}
-    for view in (view for row in rows for view in row if view.is_scalar):
-        if view.values is not None:
-            fields[view.scale].append(view.values)
-    scales = {
-        scale: replace(scale, colormap=told[scale] or usual_colormap(fields[scale], scale.limits)) for scale in told
-    }
-    return [[replace(view, scale=scales[view.scale]) if view.is_scalar else view for view in row] for row in rows]
-
-
-def _labels_in_shared_colors(rows: Rows, own: Mapping[str, Colour]) -> Rows:
-    """Return rows in which labels of one name have one colour: the first that one has of its own, else one of ours."""
-    names = dict.fromkeys(name for row in rows for view in row if view.labels for name in view.labels.names)
-    free = [name for name in names if name not in own and name != INSIDE]
-    chosen = {INSIDE: CLAY, **own, **dict(zip(free, label_colors(len(free)), strict=True))}
-
-    def recoloured(labels: Labelling) -> Labelling:
-        colors = [chosen[name] for name in labels.names]
-        return replace(labels, colors=np.array(colors, dtype=np.float64).reshape(-1, 3))
-
-    return [[replace(view, labels=recoloured(view.labels)) if view.labels else view for view in row] for row in rows]
-
-
-def _whole_range(fields: Sequence[Floats | None]) -> tuple[float, float] | None:
-    """The least and the largest value of a map of which nearly all values are the same, as one of p-values."""
-    known = np.concatenate([np.empty(0), *(np.ravel(field) for field in fields if field is not None)])
-    known = known[np.isfinite(known)]
-    if not known.size or not known.min() < known.max():
-        return None
-    low, high = np.percentile(known, CENTRAL)
-    return None if low < high else (float(known.min()), float(known.max()))
-
-
-def _unit(owner: Surface, name: str) -> str:
-    """The unit of a map of FreeSurfer's, where that of the surface is known."""
-    _, power = FREESURFER.get(name.rpartition(".")[2], ("", None))
-    return POWERS[power].format(owner.unit) if power is not None and owner.unit else ""
 
 
 def _lines(
