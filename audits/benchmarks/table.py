@@ -37,7 +37,7 @@ side reached, and on which scale a gap is taken, stands below its table, and wha
 is excluded and listed at the end. Packages run on their own operators and factorisations; the methods as published, the
 conformal and the level-set methods were written here and run on ours. A rival that is not installed
 (`pip install 'surfexp[bench]'`) counts as not met. Beside what was seen stands what the run before gave on the same
-code: how far figures spread.
+code: how far figures spread. Why some are not met stands in docs/why_not_met.md.
 """
 WHEN = re.compile(r"^\| (\w+) \| (\d{4}-\d\d-\d\d \| .*)$", re.MULTILINE)
 COLUMNS = "| work | rival | asked | seen | run before | verdict | ours, CPU (wall) s | rival, CPU (wall) s | runs |"
