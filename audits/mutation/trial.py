@@ -40,7 +40,7 @@ OPTIONS = (
     "python_files=test_*.py",
 )
 MEMORY = 8 * 2**30
-TESTS_FAILED, INTERRUPTED, INTERNAL_ERROR, USAGE_ERROR = 1, 2, 3, 4
+TESTS_FAILED, INTERRUPTED, INTERNAL_ERROR, USAGE_ERROR, NO_TEST = 1, 2, 3, 4, 5
 STOPPED = {signal.SIGINT, signal.SIGTERM, signal.SIGKILL, signal.SIGHUP}
 
 
@@ -191,4 +191,6 @@ def _outcome(path: Path, status: int, cpu: float) -> Outcome:
         return Outcome("killed", failed or (f"{log[-1] if log else 'import'} (pytest ends with {code})",), seconds, cpu)
     if code == INTERNAL_ERROR:
         return Outcome("broken", (" ".join(log[-20:]),), seconds, cpu)
+    if code == NO_TEST:
+        return Outcome("broken", ("no test ran: those that are slow take no part",), seconds, cpu)
     return Outcome("survived", (), seconds, cpu)

@@ -178,7 +178,7 @@ VARIATIONAL_FAULTS = (
         "surfexp/variational/models/convex_chan_vese.py",
         "(image.values - mean) ** 2) / area",
         "(image.values - mean) ** 2)",
-        ("tests/variational/test_segmentation.py::test_scales_change_no_label",),
+        ("tests/variational/test_segmentation.py::test_the_weight_scales_as_one_over_a_length_and_two_units",),
     ),
     Fault(
         "the solver's field returned whatever its energy",

@@ -12,12 +12,15 @@ import pytest
 
 from audits.mutation import claims, claims_page
 from audits.mutation.change import Change, source_of
+from audits.mutation.geometry_faults import GEOMETRY_FAULTS
 from audits.mutation.import_graph import distances, imported_files, numeric_tests
+from audits.mutation.operator_faults import OPERATOR_FAULTS
 from audits.mutation.places import changes
 from audits.mutation.record import explanations, page
 from audits.mutation.sample import numerics, sample
 from audits.mutation.selection import selected
 from audits.mutation.stale_functions import stale_functions
+from audits.mutation.variational_faults import VARIATIONAL_FAULTS
 
 ROOT = Path(__file__).resolve().parents[2]
 MODULE = b'''"""Text with 1 + 2."""
@@ -175,6 +178,23 @@ def test_what_a_fault_did_to_each_claim(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setattr(claims_page, "faults", lambda words=(): [fault, elsewhere])
     assert claims_page.open_faults() == [elsewhere]
     assert claims_page.rows_of_page()["drums", "fast"][0] == "turned"  # by the earlier run, better than stopped
+
+
+def test_tests_of_planted_faults_exist_and_are_quick() -> None:
+    """Slow ones take no part, so that a fault would survive them all."""
+    named = [
+        test.partition("::")
+        for fault in OPERATOR_FAULTS + VARIATIONAL_FAULTS + GEOMETRY_FAULTS
+        for test in fault.tests
+        if "::" in test
+    ]
+    assert named
+    for file, _, name in named:
+        functions = [
+            node for node in ast.walk(ast.parse((ROOT / file).read_text())) if isinstance(node, ast.FunctionDef)
+        ]
+        (found,) = [node for node in functions if node.name == name.partition("[")[0]]
+        assert "pytest.mark.slow" not in map(ast.unparse, found.decorator_list), name
 
 
 @pytest.mark.slow

@@ -60,6 +60,17 @@ def test_scales_change_no_label(size: float, unit: float) -> None:
         assert second.metrics["c1"] == pytest.approx(unit * first.metrics["c1"], rel=1e-9)
 
 
+@given(size=FACTORS, unit=FACTORS)
+def test_the_weight_scales_as_one_over_a_length_and_two_units(size: float, unit: float) -> None:
+    """The perimeter over area times variance."""
+    surface = torus(12, 6)
+    image = heavy_tailed(surface)
+    weight = ConvexChanVese().weight(image, fem(surface.mesh))
+    larger = fem(TriangleMesh(size * surface.mesh.vertices, surface.mesh.faces))
+    scaled = ConvexChanVese().weight(replace(image, values=unit * image.values), larger)
+    assert scaled * size * unit**2 == pytest.approx(weight, rel=1e-9)
+
+
 def test_refinement_moves_the_boundary_by_less_than_an_edge() -> None:
     """The same function on finer spheres: the share converges, and so does the segmentation."""
     shares, widths = [], []
