@@ -25,9 +25,11 @@ def distance_to_triangles(points, mesh):
     return best
 
 
-def test_closest_points_are_exact_and_the_band_is_complete():
-    mesh = icosphere(1).mesh
-    band = narrow_band(mesh, 0.13, 2.5)
+@pytest.mark.parametrize(("levels", "step"), [(1, 0.13), (0, 0.08)])
+def test_closest_points_are_exact_and_the_band_is_complete(levels: int, step: float) -> None:
+    """Faces of a few steps, whose nodes are those of their neighbours too, and of many."""
+    mesh = icosphere(levels).mesh
+    band = narrow_band(mesh, step, 2.5)
     everything = np.arange(np.prod(band.shape))
     points = band.origin + band.step * np.stack(np.unravel_index(everything, band.shape), axis=1)
     distance = distance_to_triangles(points, mesh)

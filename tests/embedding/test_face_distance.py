@@ -83,8 +83,14 @@ def test_to_faces_a_mesh_anew_is_nearer_and_the_gap_closes_under_refinement() ->
 
 
 def test_unfit_surfaces_are_refused() -> None:
+    ball = icosphere(1)
+    elements = surface_elements(ball.mesh)
+    matrices, areas = (elements.stiffness, elements.mass), elements.mass.sum(axis=0)
     points, faces = np.zeros((2, 3)), np.array([[0, 1, 2]])
     with pytest.raises(ValueError, match="the same number of columns"):
         distance_to_faces(points, np.zeros((3, 2)), faces)
     with pytest.raises(ValueError, match="at least 1 face is needed"):
         distance_to_faces(points, np.zeros((2, 3)), faces)
+    one, other = (spectral_embedding(eigenpairs(*matrices, 9), areas, n) for n in (3, 5))
+    with pytest.raises(ValueError, match=r"3 dimensions, .* against 5 dimensions"):
+        distance_on_faces(one, other, ball.mesh.faces, ball.mesh.faces)

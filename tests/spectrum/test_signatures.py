@@ -9,6 +9,7 @@ import pytest
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
+from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.operators.elements_surface import surface_elements
 from surfexp.operators.fem import fem
@@ -17,6 +18,7 @@ from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensystem import EigenSystem
 from surfexp.spectrum.pointwise_signatures import global_point_signature, wave_kernel_signature
 from surfexp.spectrum.shape_dna import shape_dna
+from surfexp.spectrum.spectral_signature import spectral_signature
 from surfexp.spectrum.surface_spectrum import surface_spectrum
 
 
@@ -68,6 +70,15 @@ def test_published_point_signature_diverges_and_the_biharmonic_one_does_not() ->
     for power, growth in ((0.5, (0.05, 1.0)), (1.0, (0.0, 0.02))):
         norms = (global_point_signature(system, power) ** 2).cumsum(axis=1).mean(axis=0)
         assert growth[0] <= norms[-1] / norms[70] - 1.0 <= growth[1]
+
+
+def test_a_signature_has_each_kind_of_count_for_each_mode() -> None:
+    ball = icosphere(2)
+    stretched = Surface(TriangleMesh(ball.mesh.vertices * [1.3, 1.0, 0.7], ball.mesh.faces), "stretched")
+    parts = spectral_signature(stretched, fem(stretched.mesh), 12).parts
+    kinds = [parts[name] for name in ("nodal_raw", "nodal_soft", "nodal_counts", "shape_dna_raw")]
+    assert [len(kind) for kind in kinds] == [12, 12, 12, 12]
+    assert kinds[0][0] == kinds[2][0] == 2
 
 
 def test_a_missing_size_is_named() -> None:

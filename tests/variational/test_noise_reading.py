@@ -8,8 +8,10 @@ from scipy.spatial import cKDTree
 
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.operators.fem import fem
+from surfexp.variational.noise_correlation import WIDTHS, correlation, growth_of_noise
 from surfexp.variational.noise_level import noise_level
 from surfexp.variational.noise_reading import read_noise
+from surfexp.variational.noise_statistics import NoiseStatistics
 
 MESH = icosphere(4).mesh
 OPERATOR = fem(MESH)
@@ -36,6 +38,21 @@ def test_white_noise_raises_at_most_one_false_alarm_in_twenty(name: str, share: 
         alarms += bool(found.notes)
         assert found.level == pytest.approx(noise_level(OPERATOR, MAPS[name] + noise), rel=1e-12)
     assert alarms <= 1
+
+
+@pytest.mark.parametrize("width", [1.5, 2.0, 2.5])
+def test_levels_of_smooth_noise_alone_tell_its_width_and_level(width: float) -> None:
+    squares = growth_of_noise(OPERATOR)[WIDTHS.index(width)]
+    for noise_alone in (False, True):
+        found = correlation(NoiseStatistics(OPERATOR), squares, noise_alone)
+        assert found.width == width and found.level_ratio == pytest.approx(np.sqrt(squares[0]))
+
+
+def test_noise_of_no_other_kind_is_white() -> None:
+    values = SMOOTH + 0.3 * SMOOTH.std() * np.random.default_rng(0).standard_normal(len(X))
+    assert read_noise(OPERATOR, values).facts["kind"] == "white"
+    values[:40] += 20.0
+    assert read_noise(OPERATOR, values).facts["kind"].startswith("outliers")
 
 
 @pytest.mark.parametrize("name", MAPS)

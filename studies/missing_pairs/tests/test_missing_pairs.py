@@ -68,6 +68,14 @@ def test_runs_on_a_rough_sphere_are_complete_and_a_short_spectrum_is_refused() -
         missing_pairs(OPERATOR, CERTIFIED, (10, 40))
 
 
+def test_of_several_runs_the_worst_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    runs = iter([(0.0, 0.0, 1e-9, 0.1), (1.0, 0.0, 1e-3, 0.4), (0.0, 2.0, 1e-6, 0.2), (0.0, 0.0, 0.0, 0.3)])
+    monkeypatch.setattr("surfexp_studies.missing_pairs.missing_pairs.compared", lambda *_: next(runs))
+    told = missing_pairs(OPERATOR, CERTIFIED, (10, 20), 2).metrics
+    assert told["runs_with_missing"] == told["runs_with_surplus"] == told["missing"] == 1
+    assert told["value_error"] == 1e-3 and told["span_sine"] == 0.4
+
+
 def test_the_interval_of_no_event_and_of_some() -> None:
     names = ("runs_with_surplus", "runs_without_result", "missing", "value_error", "span_sine")
 
