@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from surfexp.mesh.flat_domain import is_flat
 from surfexp.mesh.shapes.cube import cube, rotation_matrix
 from surfexp.mesh.shapes.disk import disk
 from surfexp.mesh.shapes.ellipsoid import ellipsoid
@@ -125,6 +126,15 @@ def test_vertices_lie_on_their_shapes() -> None:
     assert np.hypot(np.hypot(x, y) - 2.0, z) == pytest.approx(0.5, abs=1e-14)
     assert np.abs(cube(4, 2.0).mesh.vertices).max(axis=1) == pytest.approx(1.0, abs=0)
     assert (ellipsoid(3, (1, 2, 3)).mesh.vertices ** 2 / [1, 4, 9]).sum(axis=1) == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+def test_flat_is_what_lies_in_a_plane_to_a_share_of_its_size(size: float) -> None:
+    flat = disk(4).mesh
+    turn = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0]
+    assert is_flat(TriangleMesh(size * flat.vertices @ turn + 3.0 * size, flat.faces))
+    bent = flat.vertices + 1e-7 * flat.vertices[:, :1] ** 2 * [0.0, 0.0, 1.0]
+    assert not is_flat(TriangleMesh(size * bent @ turn + 3.0 * size, flat.faces))
 
 
 def test_exact_areas_of_flat_shapes() -> None:

@@ -67,6 +67,15 @@ def test_slivers_and_faces_without_area_are_survived() -> None:
     assert off_diagonal_maximum(operator) <= 1e-6
 
 
+def test_a_face_without_area_that_cannot_be_flipped_is_opened() -> None:
+    """Sides 1, 1/2, 1/2, each lengthened alike, make an isosceles triangle."""
+    line = TriangleMesh(np.array([[0.0, 0, 0], [1, 0, 0], [0.5, 0, 0]]), np.array([[0, 1, 2]]))
+    operator = intrinsic_delaunay(line)
+    base, leg = 1.0 + operator.metrics["mollification"], 0.5 + operator.metrics["mollification"]
+    assert operator.areas[0] == pytest.approx(0.5 * base * np.sqrt(leg**2 - 0.25 * base**2), rel=1e-6, abs=0.0)
+    assert operator.areas[0] > 0
+
+
 def test_edges_that_are_not_manifold_or_oriented_are_kept() -> None:
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0.4, 1, 0], [0.4, -1, 0], [0.4, 0, 1]])
     fin = TriangleMesh(corners, np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]]))

@@ -42,6 +42,14 @@ def test_cap_shrinks_by_its_geodesic_curvature() -> None:
     assert errors[1] < 0.004 and errors[1] < 0.5 * errors[0]
 
 
+def test_a_curvature_flow_follows_the_units_of_map_and_surface() -> None:
+    mesh = icosphere(2).mesh
+    distance = 1.1 - np.arccos(np.clip(mesh.vertices[:, 2], -1, 1))
+    moved = geodesic_curvature_flow(fem(mesh), distance, 0.2, 5)
+    larger = fem(TriangleMesh(10.0 * mesh.vertices, mesh.faces))
+    np.testing.assert_allclose(geodesic_curvature_flow(larger, 300.0 * distance, 20.0, 5), 300.0 * moved, atol=1e-9)
+
+
 def test_equator_stays() -> None:
     operator = fem(SPHERE)
     moved = geodesic_curvature_flow(operator, np.arcsin(SPHERE.vertices[:, 2]), 0.2, 20)

@@ -14,6 +14,7 @@ from surfexp.operators.calculus import adjoint_gradient, total_variation
 from surfexp.operators.fem import fem
 from surfexp.variational.duality_gap import Iterate, certificate_of, certify, run_to_gap
 from surfexp.variational.generalised_variation import GeneralisedVariation
+from surfexp.variational.own_unit import own_unit
 from surfexp.variational.separable_quadratic import rof
 from surfexp.variational.solution import Solution
 from surfexp.variational.solvers.fista_dual import fista_dual
@@ -26,6 +27,15 @@ OPERATOR = fem(MESH)
 MAP = MESH.vertices[:, 2] + 0.1 * np.random.default_rng(0).standard_normal(len(MESH.vertices))
 MU = 0.9 / (0.1 * OPERATOR.edge_length)
 GENERAL = GeneralisedVariation(rof(OPERATOR.mass, MAP, MU), OPERATOR, 2.0 * OPERATOR.edge_length)
+
+
+def test_a_map_in_its_own_unit_goes_from_minus_one_to_one() -> None:
+    channels = np.array([[2.0, -1.0], [6.0, 0.0], [3.0, 5.0]])
+    for values, centre, unit in ((channels[:, 0], 4.0, 2.0), (channels, [4.0, 2.0], 3.0), (np.full(3, 7.0), 7.0, 1.0)):
+        own = own_unit(values)
+        assert own.unit == unit and np.array_equal(own.centre, centre)
+        assert np.array_equal(own.restored(own.normalised(values)), values)
+    assert own_unit(channels[:, 0]).normalised(channels[:, 0]).tolist() == [-1.0, 1.0, -0.5]
 
 
 def solved(name: str, scale: float, offset: float) -> Solution:

@@ -163,6 +163,7 @@ def test_the_gyrus_of_a_person_is_one_disc_that_looks_to_the_midline():
     assert (
         np.array_equal(mirrored.vertices * [-1, 1, 1], right.mesh.vertices) and (mirrored.face_normals[:, 0] > 0).all()
     )
+    assert len(donor_cingulate("9861", "left", 3.0).mesh.vertices) < 0.4 * len(left.mesh.vertices)
     with pytest.raises(ValueError, match=r"0\.2\.\.3"):
         donor_cingulate("9861", "left", 5.0)
     with pytest.raises(ValueError, match="9861"):

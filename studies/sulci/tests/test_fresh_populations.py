@@ -46,6 +46,14 @@ def test_populations_without_a_common_subject() -> None:
         fresh_tests(differences, 2)
 
 
+def test_one_test_alone_has_an_interval() -> None:
+    rng = np.random.default_rng(0)
+    single = {side: rng.normal(100.0, 5.0, (4, 1)) for side in ("left", "right")}
+    columns, metrics = fresh_study({"single": single}, [4])
+    assert metrics["tests, single, 4"] == 1
+    assert (columns["low"][0], columns["high"][0]) == (0.0, 1.0)
+
+
 @pytest.mark.slow
 def test_fresh_populations_leave_out_an_estimator_that_measures_too_few_pairs() -> None:
     rng = np.random.default_rng(0)
