@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from surfexp.mesh.face_repair import flip_zero_area_faces
 from surfexp.mesh.orientation import inside_out_components
 from surfexp.mesh.repair import repair
 from surfexp.mesh.shapes.disk import disk
@@ -159,6 +160,16 @@ def test_repair_of_a_face_without_area_keeps_the_surface() -> None:
     mesh = repair(*zero_area()).mesh
     assert mesh.is_closed and mesh.genus == 0
     assert mesh.area == pytest.approx(SPHERE.area, rel=1e-14)
+
+
+def test_of_two_flips_that_would_double_an_edge_one_is_made() -> None:
+    """Two flat faces whose middles are one vertex, under neighbours with one tip."""
+    vertices = np.array([[-1.0, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, 0], [0, 0, 1]])
+    faces = np.array([[0, 1, 4], [1, 0, 5], [2, 3, 4], [3, 2, 5]])
+    changes: list[str] = []
+    kept = TriangleMesh(vertices, flip_zero_area_faces(TriangleMesh(vertices, faces), changes))
+    assert kept.area == pytest.approx(2.0) and kept.edge_face_counts.max() == 2
+    assert [change.rpartition(": ")[2] for change in changes] == ["1 faces", "1 faces"]
 
 
 def test_repair_separates_touching_spheres() -> None:

@@ -15,6 +15,7 @@ from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.spectrum import components, dense, eigensolver
+from surfexp.spectrum.dense import dense_pairs
 from surfexp.spectrum.eigensolver import eigenpairs
 from surfexp.spectrum.eigensolver_error import EigensolverError
 from surfexp.spectrum.eigensystem import EigenSystem, measure
@@ -218,6 +219,12 @@ def test_indefinite_matrices_of_several_components_are_named() -> None:
     heavy[5, 6] = heavy[6, 5] = 10.0 * b[5, 5]
     with pytest.raises(EigensolverError, match="mass matrix is not positive definite"):
         eigenpairs(a, csr_array(heavy), 10)
+
+
+def test_by_how_much_a_small_mass_is_indefinite_is_said() -> None:
+    mass = np.array([[[4.0, 6.0], [6.0, 4.0]]])
+    with pytest.raises(EigensolverError, match=r"its least eigenvalue at unit diagonal is -5\.0e-01"):
+        dense_pairs(np.eye(2)[None], mass, 1e-8, 1.0)
 
 
 def test_an_isolated_row_with_a_mass_is_a_component_of_its_own() -> None:

