@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,14 @@ import pytest
 from surfexp.lab.registry import registry
 from surfexp.lab.registry.loading import load_all
 from surfexp.mesh.shapes.rectangle import rectangle
+from surfexp.mesh.shapes.torus import torus
 from surfexp.mesh.surface import Surface
 from surfexp.skeleton.contour_geometry import contour_lengths
 from surfexp.skeleton.exact_reeb_graph import exact_reeb_graph
 from surfexp.skeleton.feature import Feature
 from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.level_selection import area_below, choose_levels
+from surfexp.skeleton.polyline import trunk
 from surfexp.skeleton.reeb_graph import reeb_graph
 from surfexp.skeleton.skeleton_length import skeleton_lengths
 
@@ -72,6 +75,17 @@ def test_areas_on_both_sides_and_of_plateaus_are_the_whole(seed: int) -> None:
     plateau = [FLAT.areas[(corners == level).all(axis=1)].sum() for level in levels]
     above = area_below(FLAT, -values, -levels[::-1])[::-1]
     assert area_below(FLAT, values, levels) + above + plateau == pytest.approx(FLAT.area, rel=1e-13)
+
+
+def test_the_trunk_of_a_graph_with_a_loop_goes_from_lowest_to_highest() -> None:
+    ring = torus(40, 20)
+    graph = reeb_graph(ring.mesh, ring.mesh.vertices[:, 0], np.linspace(-1.27, 1.27, 12))
+    nodes = trunk(graph)
+    assert graph.metrics["b1"] == 1 and graph.values[nodes[0]] == graph.values.min()
+    assert graph.values[nodes[-1]] == graph.values.max()
+    joined = {tuple(sorted(arc)) for arc in graph.arcs.tolist()}
+    assert all(tuple(sorted(step)) in joined for step in pairwise(nodes.tolist()))
+    assert len(set(nodes.tolist())) == len(nodes) < len(graph.values)
 
 
 def test_critical_levels_separate_all_critical_values():

@@ -48,6 +48,13 @@ def test_levels_of_smooth_noise_alone_tell_its_width_and_level(width: float) -> 
         assert found.width == width and found.level_ratio == pytest.approx(np.sqrt(squares[0]))
 
 
+def test_levels_of_a_part_are_those_of_its_noise() -> None:
+    white = np.random.default_rng(0).standard_normal(len(X))
+    there = Z > 0
+    levels = NoiseStatistics(OPERATOR).ring_medians(np.where(there, 1.0, 50.0) * white, there & (Z > 0.5))
+    assert levels == pytest.approx(np.ones(5), rel=0.15)
+
+
 def test_noise_of_no_other_kind_is_white() -> None:
     values = SMOOTH + 0.3 * SMOOTH.std() * np.random.default_rng(0).standard_normal(len(X))
     assert read_noise(OPERATOR, values).facts["kind"] == "white"

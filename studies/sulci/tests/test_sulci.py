@@ -181,9 +181,11 @@ def test_a_strip_has_its_length() -> None:
 
 
 def test_regions_of_a_subject_are_named(template, cortex) -> None:
-    scores = name_regions(template, synthetic_subject(cortex, 3, "right"), (4,))
+    subject = synthetic_subject(cortex, 3, "right")
+    scores = name_regions(template, subject, (4,))
     assert scores["majority, ZoomOut"] > 0.97
     assert scores["published rule, n = 4"] > 0.85
+    assert scores["regions"] == len(np.setdiff1d(sulcal_regions(subject.mesh), [-1]))
 
 
 def test_a_ring_of_growth_and_shrinking_closes_a_gap_and_no_more() -> None:
