@@ -104,6 +104,13 @@ def test_the_band_gap_proves_the_band_energy():
     assert tight.metrics["band_gap"] <= 1e-6 < loose.metrics["band_gap"] <= 1e-2
 
 
+def test_steps_that_follow_the_strong_convexity_close_the_gap_as_the_square() -> None:
+    """A hundredth of the gap asks for at most some ten times the iterations."""
+    model = rof(OPERATOR.mass, NOISY, 20.0)
+    solved = [replace(closest_point(MESH, 0.15), tolerance=gap)(model, OPERATOR) for gap in (1e-2, 1e-4)]
+    assert all(one.converged for one in solved) and solved[1].iterations <= 15 * solved[0].iterations
+
+
 def test_a_limit_reached_is_told():
     for method in (replace(closest_point(MESH, 0.2), iteration_limit=3), replace(level_set(MESH, 0.2), step_limit=10)):
         solution = method(FIDELITY, OPERATOR)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from surfexp.embedding.functional_map import functional_map, nearest_orthogonal, spectral_icp
 from surfexp.embedding.geodesic_error import geodesic_errors, share_within
@@ -61,6 +62,18 @@ def test_signatures_of_a_copy_in_another_size_and_order_are_the_same(pair: Pair,
     found = signature_map(pair, signature)  # type: ignore[arg-type]
     assert found.metrics["label accuracy"] > 0.99 and found.metrics["origin error"] < 0.01
     assert found.method == f"{signature} kernel signature"
+
+
+def test_the_distance_in_a_fitted_basis_is_that_to_nearest_points_weighted_by_area(pair: Pair) -> None:
+    ball = ellipsoid(2, (1.0, 1.2, 0.8))
+    target = Surface(ball.mesh, "ball", truth=Truth(labels=np.ones(len(ball.mesh.vertices), dtype=np.int64)))
+    uneven = Pair(pair.source_surface, target, pair.source, system_of(target))
+    found = icp_map(uneven, 6)
+    forward = cKDTree(found.target_points).query(found.source_points)[0]
+    backward = cKDTree(found.source_points).query(found.target_points)[0]
+    first, second = (areas / areas.sum() for areas in uneven.areas)
+    assert found.value == pytest.approx(max(forward @ first, backward @ second), rel=1e-9)
+    assert len(found.bounds) == len(found.closed)
 
 
 def test_vertex_index_scores_as_chance(pair: Pair) -> None:

@@ -12,6 +12,7 @@ import pytest
 from surfexp.figures.ambient_occlusion import ambient_occlusion
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.colormap import MISSING
+from surfexp.figures.labelling import Labelling
 from surfexp.figures.rasterizer import rasterize
 from surfexp.figures.render import SurfaceView, draw, render
 from surfexp.figures.shading import illumination, shade, to_display
@@ -71,6 +72,15 @@ def test_coverage_of_a_picture_is_the_area_of_the_surface() -> None:
     shaded = shade(SPHERE, camera, raster, np.zeros((len(SPHERE.vertices), 1)), np.zeros((2, 3)), 1.0, 3)
     assert shaded.coverage.sum() == pytest.approx(np.pi * camera.scale**2, rel=5e-3)
     assert shaded.coverage.max() == pytest.approx(1.0)
+
+
+def test_each_label_has_its_colour() -> None:
+    x = DISK.vertices[:, 0]
+    index = np.where(x < -0.3, 0, np.where(x > 0.3, 1, 2)).astype(np.int64)
+    colors = np.array([[0.9, 0.1, 0.1], [0.1, 0.1, 0.9], [0.1, 0.8, 0.1]])
+    scene = SurfaceView(DISK, labels=Labelling(index, ("left", "right", "middle"), colors))
+    row = draw(scene, fit_camera(DISK, "top", SMALL))[25].astype(int)
+    assert [int(row[column].argmax()) for column in (14, 30, 45)] == [0, 1, 2]
 
 
 def test_background_is_white_and_missing_values_are_grey() -> None:

@@ -135,6 +135,12 @@ def test_what_is_compared_has_the_same_colours_and_white_means_zero(offset: floa
         assert not scales[0].diverging or limits is None or limits[0] == -limits[1]
 
 
+def test_colours_in_bytes_and_in_shares_are_the_same() -> None:
+    shares = np.tile([0.8, 0.2, 0.0], (len(BODY.mesh.vertices), 1))
+    drawn = [sx.plot(BODY, colors, **SIZES).figure.pixels for colors in (shares, np.rint(255.0 * shares))]
+    assert np.array_equal(*drawn) and drawn[0].reshape(-1, 3).min(axis=0)[2] == 0
+
+
 def test_limits_that_are_not_as_far_from_zero_on_both_sides_have_no_diverging_colours() -> None:
     ball = sx.shape("icosphere", levels=2)
     for limits, diverging in (((-1.0, 1.0), True), ((-0.5, 1.0), False), (None, True)):

@@ -134,6 +134,12 @@ def test_derivatives_and_damaged_volumes(working_folder: Path) -> None:
     assert not damaged.columns and "no volume that can be read" in damaged.refused["aseg.mgz"]
 
 
+def test_one_value_is_a_fingerprint(working_folder: Path) -> None:
+    sx.write("ball.ply", sx.shape("icosphere", levels=2))
+    alone, several = (sx.fingerprint(["ball.ply"], count=count).columns["ball"] for count in (1, 3))
+    assert len(several) == len(alone) + 2 and alone[2] == several[2]
+
+
 def test_fifty_values_are_the_default_as_in_brainprint(working_folder: Path) -> None:
     sx.write("body.ply", BODY)
     (values,) = sx.fingerprint("body.ply").columns.values()

@@ -14,6 +14,7 @@ import surfexp as sx
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.surface import Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
+from surfexp.tasks.written_targets import check_target
 from tests.tasks.test_stored_surface import VOLUME
 
 BALL = icosphere(2).mesh
@@ -25,6 +26,14 @@ def said(*given: Any) -> list[str]:
         warnings.simplefilter("always")
         sx.write(*given)
     return [str(one.message) for one in found]
+
+
+def test_a_file_that_cannot_hold_maps_is_refused_before_anything_is_computed(tmp_path: Path) -> None:
+    check_target(tmp_path / "map.npy")
+    with pytest.raises(ValueError, match=r"map\.xyz"):
+        check_target(tmp_path / "map.xyz")
+    with pytest.raises(ValueError, match="nowhere"):
+        check_target(tmp_path / "nowhere" / "map.npy")
 
 
 @pytest.mark.parametrize("volume", [{}, VOLUME])

@@ -27,6 +27,7 @@ def test_errors_are_of_second_order_and_grow_with_the_value(shape: str) -> None:
 
 def test_exact_values_are_those_of_the_shapes() -> None:
     assert eigenfunction_errors("sphere", 2, 8).values.tolist() == [2.0] * 3 + [6.0] * 5
+    assert eigenfunction_errors("sphere", 2, 5).values.tolist() == [2.0] * 3 + [6.0] * 2  # part of an eigenspace
     first = np.pi**2 * np.array([1.0 / 1.5**2, 1.0, 1.0 + 1.0 / 1.5**2])
     assert eigenfunction_errors("rectangle", 2, 3).values == pytest.approx(first)
 

@@ -208,6 +208,9 @@ def test_alignment_takes_out_motions_and_reversal():
     different = align(np.stack(copies) + 0.3 * rng.normal(size=(5, 20, 3)))
     again = np.stack([rigid_fit(one, different.mean(axis=0)) for one in different])
     assert different.std(axis=0).max() > 0.1 and np.abs(again - different).max() < 1e-7  # nothing moves any more
+    small = align(1e-6 * (np.stack(copies) + 0.3 * np.random.default_rng(2).normal(size=(5, 20, 3))))
+    still = np.stack([rigid_fit(one, small.mean(axis=0)) for one in small])
+    assert np.abs(still - small).max() < 1e-7 * np.abs(small).max()  # in any unit
     doubled = align(np.stack([copies[0], 2.0 * copies[0]]), scale=True)
     assert np.abs(doubled[0] - doubled[1]).max() < 1e-7
     mirrored = line * [1, 1, -1]

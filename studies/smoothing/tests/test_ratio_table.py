@@ -32,6 +32,8 @@ def test_what_failed_has_a_star_and_shapes_have_to_fit() -> None:
     sure = ratio_table(np.array([[0.5]]), np.array([[0.0]]), **words)
     failed = ratio_table(np.array([[0.5]]), np.array([[np.nan]]), **words)
     assert sure.svg != failed.svg
+    other = ratio_table(np.array([[0.5]]), np.array([[0.0]]), rows=["a"], columns=["another"])
+    assert not np.array_equal(sure.pixels, other.pixels)
     with pytest.raises(ValueError, match=r"ratios are \(1, 1\) and verdicts \(1, 1\) for 2 rows"):
         ratio_table(np.ones((1, 1)), np.ones((1, 1)), ["a", "b"], ["c"])
 

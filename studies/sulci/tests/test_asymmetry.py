@@ -21,3 +21,10 @@ def test_metrics_are_those_of_the_first_sulcus() -> None:
     assert metrics["p Wilcoxon, whole"] == pytest.approx(3 * wilcoxon.pvalue)
     assert metrics["least p elsewhere, whole"] == pytest.approx(columns["p_t_holm"][1:].min())
     assert metrics["p, whole"] < metrics["least p elsewhere, whole"] and metrics["pairs, whole"] == 12.0
+
+
+def test_one_sulcus_alone_has_none_elsewhere() -> None:
+    left = np.random.default_rng(0).normal(10.0, 1.0, (12, 1))
+    right = left + np.random.default_rng(1).normal(0.0, 0.3, (12, 1))
+    metrics = asymmetry_study({"whole": {"left": left, "right": right}}, draws=20)[2]
+    assert metrics["least p elsewhere, whole"] == 1.0 and 0.0 < metrics["p, whole"] <= 1.0
