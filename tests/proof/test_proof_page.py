@@ -396,3 +396,9 @@ def test_a_map_of_a_path_says_what_it_lacks() -> None:
     path = sx.denoise_path(*noisy(), weights=(0.5, 2.0), tolerance=1e-2)
     with pytest.raises(ValueError, match=r"^the map after rof has no dual field.*method='rof', weight=0\.9\)$"):
         sx.proof_page(path.at(0.9))
+
+
+def test_a_map_that_no_gap_was_proved_of_is_named() -> None:
+    surface, values = noisy()
+    with pytest.raises(ValueError, match="a map after heat has no duality gap: choose method rof or tgv"):
+        sx.proof_page(sx.smooth(surface, values, 0.2, method="heat"))

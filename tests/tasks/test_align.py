@@ -40,6 +40,11 @@ def test_modes_of_a_copy_come_back_mode_by_mode() -> None:
     assert np.allclose(again.basis, np.diag(np.diag(again.basis)), atol=1e-6)
 
 
+def test_one_mode_has_one_sign() -> None:
+    found = sx.align(BODY, renumbered(BODY, 2.0)[0], 1)
+    assert found.optimal and np.abs(found.basis) == pytest.approx(np.ones((1, 1)), abs=1e-6)
+
+
 def bent(mirror: bool) -> sx.Surface:
     """A body that is its own mirror image in z, or in nothing."""
     x, y, z = BODY.mesh.vertices.T
