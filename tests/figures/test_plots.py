@@ -162,6 +162,8 @@ def test_the_range_of_seconds_is_a_band_of_the_colour_of_its_line(monkeypatch: p
     seen = []
     monkeypatch.setattr(cost_module, "drawn", lambda figure: seen.append(figure.axes[0]) or drawn(figure))
     seconds = np.array([[1.0, 0.5, 2.0], [3.0, 2.0, 5.0]])
+    with pytest.raises(ValueError, match="cost plot has 0 methods"):
+        cost_module.cost_plot({}, title="", caption="", size=SMALL)
     cost_module.cost_plot({"a": (np.array([1e-2, 1e-4]), seconds)}, title="", caption="", size=SMALL)
     (axes,) = seen
     (band,), (line, *_) = axes.collections, axes.lines

@@ -208,3 +208,13 @@ def test_bounds_are_named() -> None:
     ]:
         with pytest.raises(ValueError, match="^.*" + words.replace("(", r"\(").replace(")", r"\)")):
             make()
+
+
+def test_normals_at_vertices_are_those_of_sphere_and_plane() -> None:
+    balls = [icosphere(levels).mesh for levels in (2, 3, 4)]
+    errors = [np.abs(ball.vertex_normals - ball.vertices).max() for ball in balls]
+    assert errors[2] < 0.6 * errors[1] < 0.36 * errors[0]
+    ball = balls[0]
+    np.testing.assert_allclose(disk(4).mesh.vertex_normals, np.tile([0.0, 0.0, 1.0], (len(disk(4).mesh.vertices), 1)))
+    with_one_more = TriangleMesh(np.vstack([ball.vertices, np.zeros((1, 3))]), ball.faces)
+    assert not with_one_more.vertex_normals[-1].any()

@@ -100,3 +100,8 @@ def test_a_map_in_the_place_of_the_surface_is_told(working_folder: Path) -> None
         ValueError, match=f"lh.thickness .* it is a map of FreeSurfer's for {COUNT} vertices: give the surface"
     ):
         sx.read("lh.thickness")
+
+
+def test_a_name_of_two_labels_is_refused() -> None:
+    with pytest.raises(ValueError, match="the name 'a' stands for two labels, each needs its own"):
+        LabelMap(np.arange(COUNT) % 3, {0: "a", 1: "b", 2: "a"})

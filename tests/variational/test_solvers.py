@@ -145,6 +145,16 @@ def test_what_a_solver_cannot_solve_is_refused(surface: Surface, image: Image) -
 
 
 @pytest.mark.optional
+def test_conic_names_how_it_ended_without_a_solution(
+    surface: Surface, image: Image, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    programme = pytest.importorskip("cvxpy").Problem
+    monkeypatch.setattr(programme, "solve", lambda *_, **__: None)
+    operator = fem(surface.mesh)
+    with pytest.raises(ValueError, match="CLARABEL ended with status None and no solution"):
+        conic(rof(operator.mass, image.values, 1.0), operator)
+
+
 def test_conic_agrees_or_names_what_is_missing(surface: Surface, image: Image) -> None:
     operator = fem(surface.mesh)
     if importlib.util.find_spec("cvxpy") is None or importlib.util.find_spec("clarabel") is None:
