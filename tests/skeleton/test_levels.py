@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from surfexp.skeleton.level_contours import level_contours
 from surfexp.skeleton.level_selection import area_below, choose_levels
 from surfexp.skeleton.polyline import trunk
 from surfexp.skeleton.reeb_graph import reeb_graph
+from surfexp.skeleton.skeleton import chain_order
 from surfexp.skeleton.skeleton_length import skeleton_lengths
 
 FLAT = rectangle(121, 25, 5.0, 1.0).mesh
@@ -75,6 +77,16 @@ def test_areas_on_both_sides_and_of_plateaus_are_the_whole(seed: int) -> None:
     plateau = [FLAT.areas[(corners == level).all(axis=1)].sum() for level in levels]
     above = area_below(FLAT, -values, -levels[::-1])[::-1]
     assert area_below(FLAT, values, levels) + above + plateau == pytest.approx(FLAT.area, rel=1e-13)
+
+
+def test_a_chain_is_followed_whatever_the_numbers_of_its_nodes() -> None:
+    chain = reeb_graph(FLAT, FLAT.vertices[:, 0], np.linspace(0.5, 4.5, 5))
+    count = len(chain.values)
+    for shift in range(count):
+        number = (np.arange(count) + shift) % count
+        old = np.argsort(number)
+        moved = replace(chain, arcs=number[chain.arcs], values=chain.values[old], positions=chain.positions[old])
+        assert np.array_equal(moved.values[chain_order(moved)], np.sort(chain.values))
 
 
 def test_the_trunk_of_a_graph_with_a_loop_goes_from_lowest_to_highest() -> None:
