@@ -31,9 +31,9 @@ Made by `python -m audits.mutation random --count {count} --seed {seed}`: {total
 - **Killed** means that a test fails, takes five times as long or more, or that the process ends.
 - **Explained** survivors change nothing that could be wrong. The reasons stand below; they are not counted in the rate.
 
-The rate is that of a sample which the tests have seen: 246 of 271 fell on the first whole run, and tests were written for
-survivors after it. *Not shown*: faults of several lines, of a wrong idea, and those of code that was written since; lines
-are quoted as they were on the day of the run.
+The rate is that of a sample which the tests have seen. On the first run of this sample 225 of 300 fell, 75 %; then tests
+were written for survivors, and those that change nothing that could be wrong were explained. *Not shown*: faults of several
+lines, of a wrong idea, and those of code that was written since; lines are quoted as they were on the day of the run.
 
 {summary}
 """
