@@ -16,10 +16,12 @@ child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
 pathlib.Path("child").write_text(str(child.pid))
 child.wait()
 """
-# tests may have been started to outlive their terminal, and then hand down that SIGHUP is ignored
+# tests may have been started to outlive their terminal, or behind other work of a script, and then hand down that SIGHUP
+# or SIGINT is ignored
 UI = """
 import signal, sys
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
+signal.signal(signal.SIGINT, signal.default_int_handler)
 from surfexp.commands import processes
 processes.end_on_signals()
 from surfexp.commands.ui import served
