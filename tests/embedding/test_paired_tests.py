@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from surfexp.statistics.paired_tests import paired_tests
+from surfexp.statistics.paired_tests import paired_tests, power_by_subjects
 
 
 def test_holm_corrects_each_kind_of_p_by_itself() -> None:
@@ -55,3 +55,11 @@ def test_equal_differences_have_no_deviation_and_their_own_p() -> None:
     tests = paired_tests({"none": np.ones(4), "all": np.ones(4)}, {"none": np.ones(4), "all": np.zeros(4)})
     assert list(tests.p_wilcoxon) == [1.0, 2.0**-4] and tests.p_t[0] == 1.0 and tests.p_t[1] < 1e-299
     assert list(tests.effect) == [0.0, np.inf]
+
+
+def test_power_is_the_level_where_nothing_differs_and_grows_with_the_difference() -> None:
+    values = np.random.default_rng(0).standard_normal(500)
+    values -= values.mean()
+    nothing, some, much = (power_by_subjects(values + shift, [20], 1000)[0] for shift in (0.0, 0.5, 1.0))
+    assert stats.binom.ppf(0.001, 1000, 0.05) <= 1000 * nothing <= stats.binom.ppf(0.999, 1000, 0.05)
+    assert nothing < some < much and much > 0.95
