@@ -14,7 +14,7 @@ import surfexp as sx
 from surfexp.commands.command_line import main
 from surfexp.io.label_files import read_label_map
 from surfexp.io.map_files import read_maps
-from surfexp.mesh.both_hemispheres import joined, joined_labels
+from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import SpatialFrame
 from surfexp.mesh.surface import Surface
@@ -135,6 +135,11 @@ def test_one_column_of_a_side_does_not_stand_for_all_subjects(folder: Path) -> N
     np.save("rh.all.npy", right[:, :1])
     with pytest.raises(ValueError, match=f"map 'all' {told}"):
         sx.permutation_test(BRAIN, {"left": "lh.all.npy", "right": "rh.all.npy"})
+
+
+def test_maps_of_two_sides_need_a_surface_of_both() -> None:
+    with pytest.raises(ValueError, match="thickness has two hemispheres, 'ball' is not both"):
+        of_both(Surface(sx.shape("icosphere", levels=1).mesh, "ball"), np.zeros(42), np.zeros(42), "thickness")
 
 
 def test_eigenvalues_are_the_sorted_union_of_those_of_each_side() -> None:
