@@ -14,6 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
+
+from surfexp.lab.experiment.former_spelling import present
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 TUTORIALS = sorted(path for path in (DOCS / "tutorials").glob("*.md") if path.stem != "index")
@@ -87,6 +90,14 @@ def run(page: Path) -> Iterator[str]:
 @pytest.mark.parametrize("page", RUN, ids=lambda page: page.stem)
 def test_every_line_of_a_tutorial_does_what_the_page_says(page: Path, working_folder: Path) -> None:
     assert list(run(page)) == []
+
+
+@pytest.mark.parametrize("page", RUN, ids=lambda page: page.stem)
+def test_experiments_of_a_page_have_the_present_spelling(page: Path) -> None:
+    """In every run of the tests, where the pages themselves take minutes."""
+    experiments = [block.text for block in blocks(page) if block.file.startswith("conf/experiment/")]
+    documents = [yaml.safe_load(text) for text in experiments]
+    assert [present(document) for document in documents] == documents
 
 
 def test_pages_have_blocks_and_their_files_are_told_from_commands() -> None:
