@@ -73,7 +73,7 @@ class ColorScale:
         """The same scale with limits: its own, or the percentiles of the finite values, symmetric if diverging.
 
         Of values with one sign no colour may mean zero: they get a sequential map in place of a diverging one. Values that
-        are all the same, or none at all, get limits 0.5 to either side.
+        are all the same, or none at all, get limits 0.5 to either side, or as far as their digits need.
 
         Parameters
         ----------
@@ -92,7 +92,8 @@ class ColorScale:
             high = max(abs(low), abs(high))
             low = -high
         if not low < high:
-            low, high = low - 0.5, high + 0.5
+            half = max(0.5, float(np.spacing(abs(low))))  # less would be lost in the digits of a large value
+            low, high = low - half, high + half
         return replace(self, colormap=colormap, limits=(float(low), float(high)))
 
     def position(self, values: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from surfexp.figures.labelling import legend_of
@@ -9,16 +10,28 @@ from surfexp.figures.panel_layout import LETTER, Layout
 from surfexp.figures.render import SurfaceView
 from surfexp.figures.typography import QUIET, points
 
-# of a legend; a map with more labels says their number instead
+# of a legend; where there are more labels their number is said instead
 MOST_NAMES = 48
 # in multiples of the text's size: height of a line, and width of a swatch with its gaps
 LINE_BAND, SWATCH = 1.7, 3.0
 
 
-def names_of(views: list[SurfaceView]) -> list[tuple[str, Any]]:
+def names_of(views: Sequence[SurfaceView]) -> list[tuple[str, Any]]:
     """Return name and colour of each label that the views show, none where they are too many to be told apart."""
-    found = legend_of([view.labels for view in views if view.labels is not None])
+    found = _found(views)
     return found if len(found) <= MOST_NAMES else []
+
+
+def without_names(views: Sequence[SurfaceView]) -> tuple[str, ...]:
+    """Say why a figure of labels has no legend; nothing where it has one, or no labels."""
+    count = len(_found(views))
+    return (
+        (f"{count} labels are drawn without their names, a legend holds {MOST_NAMES}.",) if count > MOST_NAMES else ()
+    )
+
+
+def _found(views: Sequence[SurfaceView]) -> list[tuple[str, Any]]:
+    return legend_of([view.labels for view in views if view.labels is not None])
 
 
 def legend_columns(names: list[tuple[str, Any]], width: float, em: float) -> int:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import Scales, bars_height, draw_bars, fitted_scales, values_on
 from surfexp.figures.figure import Figure
-from surfexp.figures.legend import draw_legend, legend_height, names_of
+from surfexp.figures.legend import draw_legend, legend_height, names_of, without_names
 from surfexp.figures.panel_layout import MARGIN, Grid, Layout, arrange, text_size
 from surfexp.figures.render import SurfaceView, draw
 from surfexp.figures.typography import canvas, drawn, points, saved
@@ -155,4 +155,4 @@ def _notes(views: Sequence[SurfaceView]) -> tuple[str, ...]:
             lacking = "value; their faces are" if view.labels is None else "label; they are"
             notes.append(f"{view.missing} vertices{where} have no {lacking} drawn grey.")
     # two views of one surface say the same
-    return tuple(dict.fromkeys(notes))
+    return (*dict.fromkeys(notes), *without_names(views))

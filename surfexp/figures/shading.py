@@ -150,7 +150,7 @@ def _shade(
             x, y, z = (x / length, y / length, z / length) if length != 0.0 else (0.0, 0.0, 1.0)
             missing = np.isnan(red + green + blue)
             if missing or by_table:
-                place = last + 1 if missing else min(max(int(np.floor(red * (last + 1))), 0), last)
+                place = last + 1 if missing else int(min(max(red * (last + 1), 0.0), float(last)))
                 red, green, blue = table[place, 0], table[place, 1], table[place, 2]
             received = share * (1.0 + strength * (illumination(x, y, z) - 1.0))
             tint = BACK_SHARE if turn[t] < 0.0 else 0.0

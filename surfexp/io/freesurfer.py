@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,7 +18,8 @@ from surfexp.mesh.triangle_mesh import TriangleMesh
 GEOMETRY_MAGIC = (b"\xff\xff\xfe", b"\xff\xff\xff", b"\xff\xff\xfd")
 TRIANGLES = b"\xff\xff\xfe"
 # what may follow the faces: an older record, surface and command-line tags, the geometry of the volume
-TAGS = (1, 2, 3, 20)
+OLD_SPACE, VOLUME = 2, 20
+TAGS = (1, OLD_SPACE, 3, VOLUME)
 HEMISPHERES = {"lh": "left", "rh": "right"}
 
 
@@ -56,7 +58,10 @@ def read_geometry(path: Path) -> tuple[Floats, Integers]:
 
 
 def read_volume_geometry(path: Path) -> dict[str, Any]:
-    """Return the geometry of the volume behind the faces, as nibabel names it; empty where there is none that it reads."""
+    """Return the geometry of the volume behind the faces, as nibabel names it; empty where there is none that it reads.
+
+    `head` is how it begins: 20, or 2, whether the coordinates are the scanner's (useRealRAS), and 20.
+    """
     from nibabel.freesurfer import read_geometry as read
 
     data = path.read_bytes()
@@ -64,15 +69,22 @@ def read_volume_geometry(path: Path) -> dict[str, Any]:
         return {}
     head = _end_of_stamp(data)
     vertices, faces = np.frombuffer(data, ">i4", 2, head).tolist()
+    end = head + 8 + 12 * (vertices + faces)
+    words = np.frombuffer(data[end : end + 12], ">i4").tolist() if len(data) >= end + 12 else []
     # nibabel knows the geometry of the volume alone among what may follow
-    if int.from_bytes(data[(end := head + 8 + 12 * (vertices + faces)) : end + 4], "big") not in (2, 20):
+    if words[:1] not in ([OLD_SPACE], [VOLUME]):
         return {}
-    with warnings.catch_warnings():
+    said = words if words[0] == OLD_SPACE else words[:1]
+    with warnings.catch_warnings(), tempfile.TemporaryDirectory() as folder:
         warnings.simplefilter("ignore")
+        # and knows coordinates of the surface alone
+        known = Path(folder) / "geometry"
+        known.write_bytes(data[:head] + bytes(8) + np.array([VOLUME], ">i4").tobytes() + data[end + 4 * len(said) :])
         try:
-            return dict(read(path, read_metadata=True)[2])
+            found = read(known, read_metadata=True)[2]
         except (OSError, ValueError, IndexError):
             return {}
+    return {**found, "head": np.array(said)} if found else {}
 
 
 def _check_length(data: bytes) -> None:
@@ -108,9 +120,15 @@ def write_freesurfer_geometry(path: Path, mesh: TriangleMesh, volume: Mapping[st
     """Write geometry in single precision, as the format has it, with the geometry of the volume as nibabel names it."""
     from nibabel.freesurfer import write_geometry
 
-    write_geometry(
-        path, mesh.vertices, mesh.faces, create_stamp="created by surfexp", volume_info=dict(volume) if volume else None
-    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of the scanner's coordinates, which nibabel writes all the same
+        write_geometry(
+            path,
+            mesh.vertices,
+            mesh.faces,
+            create_stamp="created by surfexp",
+            volume_info=dict(volume) if volume else None,
+        )
 
 
 def read_map(path: Path) -> Floats:

@@ -95,7 +95,10 @@ def hemisphere_of_npz(path: Path) -> str:
 def write_arrays(
     path: Path, arrays: Mapping[str, NDArray[np.generic]], hemisphere: str | NDArray[np.str_] = ""
 ) -> None:
-    """Write arrays under their names, compressed, and the hemisphere, or that of each row, as the array of that name.
+    """Write arrays under their names, and the hemisphere, or that of each row, as the array of that name.
+
+    Whole numbers and words are compressed. Floating-point numbers are not: of 50 eigenfunctions zlib saves a tenth, for a
+    quarter of the time of computing them.
 
     Raises
     ------
@@ -108,7 +111,9 @@ def write_arrays(
     if reserved := [name for name in kept if name.endswith(".npy")]:
         raise ValueError(f"map name {reserved[0]!r} ends as the files in an archive do: rename the map")
     # numpy's own function has parameters that could be names of maps
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(path, "w") as archive:
         for name, array in kept.items():
-            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+            file = zipfile.ZipInfo(f"{name}.npy")
+            file.compress_type = zipfile.ZIP_STORED if np.asanyarray(array).dtype.kind in "fc" else zipfile.ZIP_DEFLATED
+            with archive.open(file, "w", force_zip64=True) as member:
                 np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)

@@ -22,6 +22,7 @@ from surfexp.io.off import read_off
 from surfexp.io.open3d_files import MESH_SUFFIXES, POINT_SUFFIXES, read_with_open3d
 from surfexp.io.ply import read_ply
 from surfexp.io.polygons import triangulate
+from surfexp.io.space_notes import space_notes
 from surfexp.io.stl import read_stl
 from surfexp.io.surface_archive import read_surface_archive
 from surfexp.io.tosca import read_vert_tri
@@ -76,7 +77,9 @@ def read_mesh_file(path: Path | str) -> MeshFile:
         for name, values in found.scalars.items():
             if len(values) != len(points):
                 raise ValueError(f"map {name!r} has {len(values)} values for {len(points)} vertices")
-    return MeshFile(points, corners, found.scalars, (*found.notes, *notes), found.frame, found.facts)
+    return MeshFile(
+        points, corners, found.scalars, (*found.notes, *notes, *space_notes(path)), found.frame, found.facts
+    )
 
 
 def _read(path: Path) -> Decoded:

@@ -16,7 +16,7 @@ from surfexp.io.legacy_vtk import LegacyVtk, name_to_word, word_to_name
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import polygons_between
-from surfexp.io.vtk_cells import passed_over, polygons_of_cells, triangles
+from surfexp.io.vtk_cells import maps_passed_over, passed_over, polygons_of_cells, triangles
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
 # numbers a point of the attributes that have a fixed width; they are no maps
@@ -48,7 +48,7 @@ def write_vtk(path: Path, mesh: TriangleMesh, scalars: dict[str, Floats] | None 
 def read_vtk(path: Path) -> Decoded:
     """Points, polygons, strips and the maps among point data (SCALARS, VECTORS and FIELD arrays) of a legacy VTK file.
 
-    Normals, colours, texture coordinates, identities and data of cells are passed over by their length.
+    Normals, colours, texture coordinates, identities and data of cells are passed over by their length; maps of cells are named.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def read_vtk(path: Path) -> Decoded:
         raise ValueError(
             f"it holds {' '.join(kind)[:40]!r}, polygons are needed: DATASET POLYDATA or UNSTRUCTURED_GRID"
         )
-    points, maps = np.zeros((0, 3)), dict[str, Floats]()
+    points, maps, of_cells = np.zeros((0, 3)), dict[str, Floats](), dict[str, Floats]()
     cells: dict[str, list[Sequence[int]]] = {}
     types: list[int] = []
     rows, at_points = 0, False
@@ -83,14 +83,13 @@ def read_vtk(path: Path) -> Decoded:
             words.skip_metadata()
         else:
             found = _attribute(words, line, rows)
-            if at_points:
-                maps |= found
+            (maps if at_points else of_cells).update(found)
     if types or "CELLS" in cells:
         polygons, notes = polygons_of_cells(cells.get("CELLS", []), types)
     else:
         polygons = [*cells.get("POLYGONS", []), *triangles(cells.get("TRIANGLE_STRIPS", []))]
         notes = passed_over({"vertices": len(cells.get("VERTICES", [])), "lines": len(cells.get("LINES", []))})
-    return Decoded(points, polygons, maps, notes)
+    return Decoded(points, polygons, maps, (*notes, *maps_passed_over(of_cells)))
 
 
 def _attribute(words: LegacyVtk, line: list[str], rows: int) -> dict[str, Floats]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -54,6 +54,12 @@ def passed_over(counts: dict[str, int]) -> tuple[str, ...]:
     """Say which cells are no surface."""
     named = " and ".join(f"{count} {name}" for name, count in counts.items() if count)
     return (f"{named} are passed over.",) if named else ()
+
+
+def maps_passed_over(names: Iterable[str]) -> tuple[str, ...]:
+    """Say which maps are of cells, where a map of a surface has a row for each vertex."""
+    listed = ", ".join(names)
+    return (f"Maps of cells are passed over: {listed}.",) if listed else ()
 
 
 def triangles(strips: Sequence[Sequence[int]]) -> list[list[int]]:

@@ -84,6 +84,11 @@ class VtkXml:
         """Of the numbers of bytes before an array."""
         return np.dtype(self.order + ("u8" if self.head.get("header_type") == "UInt64" else "u4"))
 
+    def names(self, section: str) -> list[str]:
+        """Names of the arrays of the first element of a name; their numbers are not looked at."""
+        tags = (_attributes(tag) for _, _, tag, _ in _elements(self._inside(section), "DataArray"))
+        return [told.get("Name", f"array {number}") for number, told in enumerate(tags)]
+
     def arrays(self, section: str) -> dict[str, NDArray[np.generic]]:
         """(t, c) numbers of each array of the first element of a name, such as `Points`, by the names of the arrays.
 

@@ -15,7 +15,7 @@ from surfexp.contract.arrays import Floats
 from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.mesh_file import Decoded
 from surfexp.io.polygons import polygons_between
-from surfexp.io.vtk_cells import polygons_of_cells, triangles
+from surfexp.io.vtk_cells import maps_passed_over, polygons_of_cells, triangles
 from surfexp.io.vtk_xml import VtkXml
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -62,7 +62,7 @@ def read_vtp(path: Path) -> Decoded:
         announced = re.search(rf'<Piece\b[^>]*\bNumberOf{what}="\s*(\d+)', file.text)
         if announced and int(announced[1]) != len(found):
             raise ValueError(f"it announces {announced[1]} {what.lower()} and has {len(found)}")
-    return Decoded(points, [*polygons, *triangles(strips)], maps)
+    return Decoded(points, [*polygons, *triangles(strips)], maps, maps_passed_over(file.names("CellData")))
 
 
 def read_vtu(path: Path) -> Decoded:
@@ -79,7 +79,7 @@ def read_vtu(path: Path) -> Decoded:
     polygons, notes = polygons_of_cells(_cells(file, "Cells"), kinds.astype(np.int64).ravel().tolist())
     if not polygons:
         raise ValueError("it has no points or no polygons")
-    return Decoded(points, polygons, maps, notes)
+    return Decoded(points, polygons, maps, (*notes, *maps_passed_over(file.names("CellData"))))
 
 
 def _points_and_maps(file: VtkXml) -> tuple[Floats, dict[str, Floats]]:

@@ -16,7 +16,8 @@ def mean_curvature(mesh: TriangleMesh) -> Floats:
     From Q x = 2 H n M, area-normalised with the lumped mass. With faces counter-clockwise seen from outside H is
     positive where the surface bulges outward (1/r on a sphere), so on a cortex gyri are positive and sulci negative:
     the opposite sign of FreeSurfer's `curv` map, which is positive in sulci. On a boundary vertex, where the formula also
-    contains the curvature of the boundary, the value is the mean of its interior neighbours.
+    contains the curvature of the boundary, the value is the mean of its interior neighbours; where it has none, as at a
+    corner of a patch, of the neighbours that have such a mean. NaN where a component has no vertex inside.
 
     Parameters
     ----------
@@ -37,11 +38,14 @@ def mean_curvature(mesh: TriangleMesh) -> Floats:
 
 
 def _fill_boundary(mesh: TriangleMesh, curvature: Floats) -> Floats:
-    boundary = np.zeros(len(mesh.vertices), dtype=bool)
-    boundary[mesh.edges[mesh.edge_face_counts == 1]] = True
-    total, count = np.zeros(len(boundary)), np.zeros(len(boundary))
-    for here, there in (mesh.edges.T, mesh.edges.T[::-1]):
-        inside = boundary[here] & ~boundary[there]
-        np.add.at(total, here[inside], curvature[there[inside]])
-        np.add.at(count, here[inside], 1.0)
-    return np.where(boundary, np.divide(total, count, out=np.zeros_like(total), where=count > 0), curvature)
+    """Give a vertex of the boundary the mean of its neighbours that have a value, from the inner ones outward."""
+    known = np.ones(len(curvature), dtype=bool)
+    known[mesh.edges[mesh.edge_face_counts == 1]] = False
+    values = np.where(known, curvature, np.nan)
+    here, there = np.concatenate([mesh.edges, mesh.edges[:, ::-1]]).T
+    while (reached := ~known[here] & known[there]).any():
+        count = np.bincount(here[reached], minlength=len(known))
+        total = np.bincount(here[reached], values[there[reached]], len(known))
+        values[count > 0] = total[count > 0] / count[count > 0]
+        known |= count > 0
+    return values

@@ -12,10 +12,12 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.io.hemisphere import check_given_side, common_name, holds_both, without_side
 from surfexp.io.label_colours import read_coloured_labels
-from surfexp.io.map_files import name_of_map, read_maps
+from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask
+from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.npz import says_sides
 from surfexp.mesh.both_hemispheres import joined, joined_labels, of_both
 from surfexp.mesh.coloured_labels import coloured_as
+from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.tasks.surface_file import PathLike, read_surface
@@ -56,6 +58,34 @@ def read_both(
         for name, table in both.labels.items()
     }
     return replace(both, labels=tables)
+
+
+def with_files_of_both(surface: Surface, maps: Any, labels: Any, mask: Any) -> Surface:
+    """Return a surface that is both hemispheres with what stands in other files; arguments as those of `surfexp.read`.
+
+    Raises
+    ------
+    ValueError
+        As `surfexp.read`.
+    """
+    scalars, tables = dict(surface.scalars), dict(surface.labels)
+    for name, pair in _by_name(maps, "maps").items():
+        found = maps_of_both(surface, pair)
+        alone = len(found) == 1
+        scalars |= scalar_channels({name if alone else f"{name} {key}": values for key, values in found.items()})
+    for name, pair in _by_name(labels, "labels").items():
+        tables[name] = labels_of_both(surface, pair)
+    changed = replace(surface, scalars=scalars, labels=tables)
+    if mask is None:
+        return changed
+    if not isinstance(mask, str | Path | Mapping):
+        return replace(changed, mask=mask_array(mask, len(surface.mesh.vertices)))
+    files = {side: of_side(mask, side, "mask") for side in HEMISPHERES}
+    counts = {side: len(part.mesh.vertices) for side, part in surface.hemispheres().items()}
+    left, right = (read_mask(file, counts[side], side) for side, file in files.items())
+    inside = of_both(surface, left, right, "mask")
+    said = dict.fromkeys(note for side, file in files.items() for note in mask_notes(file, side))
+    return replace(changed, mask=inside.astype(bool), notes=(*surface.notes, *said))
 
 
 def of_side(given: Pair, side: str, what: str) -> Any:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from surfexp.mesh.surface import Surface
-from surfexp.tasks.both_files import read_both
+from surfexp.mesh.surface import BOTH, Surface
+from surfexp.tasks.both_files import read_both, with_files_of_both
 from surfexp.tasks.surface_file import PathLike, read_surface
 
 
@@ -27,8 +27,9 @@ def read(
 ) -> Surface:
     """Read a surface, or both hemispheres as one surface, with its maps, labels and mask.
 
-    With `left` and `right`, each map, the labels and the mask are a pair {"left": file, "right": file}, or one file that holds
-    both: .dscalar.nii, .dlabel.nii, .npz. The left vertices stand first, and what has one name has one label.
+    With `left` and `right`, or an .npz of both, each map, the labels and the mask are a pair {"left": file, "right": file}, or
+    one file that holds both: .dscalar.nii, .dlabel.nii, .npz. The left vertices stand first, and what has one name has one
+    label.
 
     Parameters
     ----------
@@ -81,4 +82,8 @@ def read(
         return read_both(left, right, maps, labels, mask, unit, repair)
     if not isinstance(path, str | Path):
         raise ValueError(f"path is a {type(path).__name__}, one file is needed; both hemispheres are left= and right=")
+    if Path(path).suffix.lower() == ".npz" and not hemisphere:
+        surface = read_surface(path, maps=None, labels=None, mask=None, unit=unit, hemisphere="", repair=repair)
+        if surface.hemisphere == BOTH:
+            return with_files_of_both(surface, maps, labels, mask)
     return read_surface(path, maps=maps, labels=labels, mask=mask, unit=unit, hemisphere=hemisphere, repair=repair)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.anatomy.aseg import LabelledStructure, structures_in
-from surfexp.io.mesh_patterns import MESH_PATTERNS
+from surfexp.io.mesh_patterns import MESH_PATTERNS, files_called
 from surfexp.tasks.surface_file import PathLike
 
 CORTEX = ("lh.white", "lh.pial", "rh.white", "rh.pial")
@@ -75,7 +75,7 @@ def _structures_of(source: Path) -> dict[str, Source]:
         return _subject(source, "")
     if subjects := sorted(filter(_is_subject, source.iterdir())):
         return {name: found for one in subjects for name, found in _subject(one, f"{one.name} ").items()}
-    files = sorted({file for pattern in MESH_PATTERNS for file in source.rglob(pattern) if file.is_file()})
+    files = files_called(source)
     short = [str(file.relative_to(source).with_name(_stem(file))) for file in files]
     whole = [str(file.relative_to(source)) for file in files]
     names = [long if short.count(name) > 1 else name for name, long in zip(short, whole, strict=True)]

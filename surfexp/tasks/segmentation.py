@@ -158,6 +158,9 @@ def segment(
     given = () if values is None else (as_single_map(owner, values),)
     part = part_for(owner, *given)
     inside = np.asarray(part.restrict(given[0]), dtype=np.float64) if given else _curvature(owner, part)
+    if np.isnan(inside).any():
+        part = part_for(owner, mean_curvature(owner))
+        inside = _curvature(owner, part)
     if given:
         refuse_absurd_values(inside, part.vertices)
     if np.ptp(inside) == 0:

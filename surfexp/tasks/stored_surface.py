@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from surfexp.io.hemisphere import hemisphere_of_file
-from surfexp.io.map_shapes import scalar_channels
 from surfexp.io.reading import read_mesh_file
 from surfexp.mesh.surface import BOTH, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
-from surfexp.tasks.surface_file import PathLike, _unit_of
+from surfexp.tasks.surface_file import PathLike, _unit_of, maps_of_file
 
 
 def stored_surface(path: PathLike, hemisphere: str = "") -> Surface:
@@ -32,17 +29,16 @@ def stored_surface(path: PathLike, hemisphere: str = "") -> Surface:
     facts = file.facts
     if facts.right is not None and hemisphere:
         raise ValueError(f"hemisphere {hemisphere} names one side, {path} is both: leave it out")
-    maps = scalar_channels(file.scalars)
-    infinite = [name for name, values in maps.items() if np.isinf(values).any()]
+    maps, left_out = maps_of_file(file, path)
     return Surface(
         TriangleMesh(file.vertices, file.faces),
         Path(path).stem,
         facts.unit or _unit_of(file.frame),
-        {name: values for name, values in maps.items() if name not in infinite},
+        maps,
         mask=facts.mask,
         hemisphere=BOTH if facts.right is not None else hemisphere or hemisphere_of_file(path),
         labels=dict(facts.labels),
-        notes=(*file.notes, *(f"{path}: map {name!r} has infinite values: it is left out." for name in infinite)),
+        notes=(*file.notes, *left_out),
         frame=file.frame,
         right=facts.right,
     )

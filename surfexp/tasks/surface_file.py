@@ -6,12 +6,15 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from surfexp.contract.arrays import Floats
 from surfexp.io.gifti import is_gifti
 from surfexp.io.hemisphere import common_hemisphere, hemisphere_of_file
 from surfexp.io.label_colours import passed_over, read_coloured_labels
 from surfexp.io.map_files import mask_notes, name_of_map, read_maps, read_mask
 from surfexp.io.map_shapes import scalar_channels
+from surfexp.io.mesh_file import MeshFile
 from surfexp.io.reading import READERS, read_mesh_file
 from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
@@ -40,7 +43,8 @@ def read_surface(
     if Path(path).is_dir():
         raise ValueError(f"{path} is a folder: give one file of it{_surface_in(Path(path))}")
     file_read = read_mesh_file(Path(path))
-    vertices, faces, scalars = file_read.vertices, file_read.faces, scalar_channels(file_read.scalars)
+    vertices, faces = file_read.vertices, file_read.faces
+    scalars, left_out = maps_of_file(file_read, path)
     if isinstance(mask, Mapping):
         raise ValueError("mask is a pair, path is one surface: give left= and right=, or one mask")
     count = len(vertices)
@@ -57,7 +61,7 @@ def read_surface(
                 f"{path} holds both hemispheres, one file or hemisphere= says {side}: give what is of both"
             )
         side = BOTH
-    notes = (*file_read.notes, *_overridden(hemisphere, path))
+    notes = (*file_read.notes, *left_out, *_overridden(hemisphere, path))
     for name, file in map_files.items():
         scalars |= _named(name, read_maps(file, side, count), count, file)
     tables: dict[str, LabelMap] = {name: read_coloured_labels(file, side, count) for name, file in label_files.items()}
@@ -88,6 +92,18 @@ def read_surface(
         if not repair:
             raise
     return sound_part(repaired(surface), str(path), repair="")
+
+
+def maps_of_file(file: MeshFile, path: PathLike) -> tuple[dict[str, Floats], tuple[str, ...]]:
+    """Return the maps beside a geometry, a channel each, and say which are left out because a value is infinite."""
+    maps = scalar_channels(file.scalars)
+    counts = {name: int(np.isinf(values).sum()) for name, values in maps.items()}
+    left_out = tuple(
+        f"{path}: map {name!r} has {count} infinite values of {len(maps[name])}: it is left out; NaN stands for what is not known."
+        for name, count in counts.items()
+        if count
+    )
+    return {name: values for name, values in maps.items() if not counts[name]}, left_out
 
 
 def _surface_in(folder: Path) -> str:

@@ -85,6 +85,8 @@ def written(path: Path | str, what: Any, surface: SurfaceLike | None = None) -> 
     ValueError
         As `write`.
     """
+    if not isinstance(path, str | Path):
+        raise ValueError(f"the target is a {type(path).__name__}, a path is needed first: sx.write(path, what)")
     target = Path(path)
     if isinstance(what, Skeleton):
         unit = surface.unit if isinstance(surface, Surface) else ""

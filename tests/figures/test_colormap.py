@@ -81,3 +81,10 @@ def test_mistakes_are_named() -> None:
         ColorScale(percentiles=(5, 101))
     with pytest.raises(ValueError, match="'depth' has no limits yet"):
         ColorScale("depth").rgb(VALUES)
+
+
+@pytest.mark.parametrize("value", [0.0, 1e7, -1e15, 1e16, -1e300])
+def test_a_constant_lies_in_the_middle_of_limits_that_differ(value: float) -> None:
+    scale = ColorScale().fitted(np.full(5, value))
+    assert scale.limits is not None and scale.limits[0] < value < scale.limits[1]
+    assert scale.position(np.array([value])) == pytest.approx(0.5)

@@ -13,6 +13,7 @@ import pytest
 from surfexp.figures.camera import fit_camera
 from surfexp.figures.color_bar import bars_height, draw_bars, fitted_scales
 from surfexp.figures.colormap import ColorScale
+from surfexp.figures.labelling import labelling
 from surfexp.figures.panel import surface_panel
 from surfexp.figures.panel_layout import BAR_BAND, arrange, text_size
 from surfexp.figures.render import SurfaceView, draw
@@ -138,6 +139,13 @@ def test_clipping_and_missing_values_are_said() -> None:
     )
     assert figure.notes[0] == "5 vertices of 'noisy' have no value; their faces are drawn grey."
     assert surface_panel([SurfaceView(SPHERE)], width=300).notes == ()
+
+
+@pytest.mark.parametrize("count", [48, 49])
+def test_labels_without_a_legend_are_counted(count: int) -> None:
+    keys = np.arange(len(SPHERE.vertices)) % count
+    notes = surface_panel([SurfaceView(SPHERE, labels=labelling(keys))] * 2, width=300).notes
+    assert notes == (() if count <= 48 else ("49 labels are drawn without their names, a legend holds 48.",))
 
 
 def test_a_bar_says_that_values_were_clipped_before() -> None:

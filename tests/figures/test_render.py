@@ -51,6 +51,9 @@ def test_colours_without_light_are_those_given() -> None:
     assert np.allclose(unshaded(np.full((n, 1), 0.6)), [0, 1, 0])
     assert np.allclose(unshaded(np.full((n, 1), -7.0)), [0, 0, 1])
     assert np.allclose(unshaded(np.full((n, 1), 1.0)), [0, 1, 0])
+    # no whole number holds these
+    assert np.allclose(unshaded(np.full((n, 1), 1e25)), [0, 1, 0])
+    assert np.allclose(unshaded(np.full((n, 1), -1e25)), [0, 0, 1])
     assert np.allclose(unshaded(np.full((n, 1), np.nan)), 0.5)
 
 

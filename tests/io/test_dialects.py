@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 
 from surfexp.io import polygons
+from surfexp.io.ply import write_ply
 from surfexp.io.polygons import triangulate
 from surfexp.io.reading import read_mesh, read_mesh_file
+from surfexp.io.vtp import write_vtp
 from surfexp.mesh.shapes.icosphere import icosphere
 from surfexp.mesh.triangle_mesh import TriangleMesh
 
@@ -308,3 +310,30 @@ def test_a_surface_in_four_dimensions_is_refused(tmp_path: Path, last: str) -> N
     path.write_text(f"4OFF\n3 1 3\n0 0 0 1\n1 0 0 2\n0 1 0 {last}\n3 0 1 2\n")
     with pytest.raises(ValueError, match=rf"numbers from {last} to 2, positive ones are needed"):
         read_mesh(path)
+
+
+def test_maps_of_cells_are_named_where_they_are_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "a.vtk").write_text(POINTS + POLYGONS + SECTIONS["cells first"])
+    assert read_mesh_file(tmp_path / "a.vtk").notes == ("Maps of cells are passed over: c.",)
+    (tmp_path / "a.vtk").write_text(POINTS + POLYGONS + SECTIONS["text"])
+    assert read_mesh_file(tmp_path / "a.vtk").notes == ()
+    write_vtp(tmp_path / "a.vtp", MESH, {"depth": V[:, 2]})
+    text = (tmp_path / "a.vtp").read_text()
+    array = '<DataArray type="Float64" Name="c" NumberOfComponents="1" format="ascii">what is not looked at</DataArray>'
+    (tmp_path / "a.vtp").write_text(text.replace("</PointData>", f"</PointData><CellData>{array}</CellData>"))
+    found = read_mesh_file(tmp_path / "a.vtp")
+    assert found.notes == ("Maps of cells are passed over: c.",) and list(found.scalars) == ["depth"]
+
+
+@pytest.mark.parametrize("space", ["LPS", "RAS"])
+def test_coordinates_that_point_left_and_back_are_named(tmp_path: Path, space: str) -> None:
+    (tmp_path / "a.vtk").write_text((POINTS + POLYGONS).replace("\nx\n", f"\n3D Slicer output. SPACE={space}\n", 1))
+    write_ply(tmp_path / "a.ply", MESH)
+    data = (tmp_path / "a.ply").read_bytes()
+    (tmp_path / "a.ply").write_bytes(
+        data.replace(b"\nelement vertex", f"\ncomment SPACE={space}\nelement vertex".encode(), 1)
+    )
+    for name in ("a.vtk", "a.ply"):
+        found = read_mesh_file(tmp_path / name)
+        assert np.array_equal(found.vertices, V), "nothing is turned"
+        assert [("SPACE=LPS" in note) for note in found.notes] == ([True] if space == "LPS" else [])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import gzip
+import zipfile
 from itertools import product
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from nibabel import cifti2
 from surfexp.io.freesurfer_sizes import check_volume
 from surfexp.io.hemisphere import hemisphere_of_file
 from surfexp.io.map_files import read_maps, read_mask, read_scalars
+from surfexp.io.npz import write_arrays
 from surfexp.io.reading import read_mesh
 from surfexp.io.text_tables import read_table, write_table
 from surfexp.io.writing import write_mesh
@@ -465,3 +467,19 @@ def test_gzip_that_is_none_is_refused(tmp_path: Path) -> None:
         (tmp_path / "a.mgz").write_bytes(data)
         with pytest.raises(ValueError, match=r"a\.mgz"):
             read_scalars(tmp_path / "a.mgz")
+
+
+def test_an_archive_packs_whole_numbers_alone(tmp_path: Path) -> None:
+    arrays = {"vectors": np.random.default_rng(0).normal(size=(500, 4)), "labels": np.zeros(4000, dtype=np.int64)}
+    for name in ("a.npz", "b.npz"):
+        write_arrays(tmp_path / name, arrays, "left")
+    with zipfile.ZipFile(tmp_path / "a.npz") as archive:
+        sizes = {item.filename: (item.compress_size, item.file_size) for item in archive.infolist()}
+    assert sizes["vectors.npy"][0] == sizes["vectors.npy"][1] == 128 + 8 * 2000
+    assert sizes["labels.npy"][0] < sizes["labels.npy"][1] / 50
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+    with np.load(tmp_path / "a.npz") as loaded:
+        assert (
+            all(np.array_equal(loaded[name], array) for name, array in arrays.items())
+            and loaded["hemisphere"] == "left"
+        )

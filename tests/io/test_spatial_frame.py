@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gzip
+import warnings
 from pathlib import Path
 
 import nibabel
@@ -25,6 +27,37 @@ VOLUME = {
     "zras": np.array([0.0, 1, 0]),
     "cras": np.array([5.4, 18.0, -2.5]),
 }
+
+
+@pytest.mark.parametrize("head", [[20], [2, 0, 20], [2, 1, 20]])
+def test_coordinates_of_the_scanner_stay_such_byte_for_byte(tmp_path: Path, head: list[int]) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # nibabel does not know the third
+        write_geometry(tmp_path / "lh.white", MESH.vertices, MESH.faces, volume_info={**VOLUME, "head": np.array(head)})
+    surface = sx.read(tmp_path / "lh.white")
+    assert surface.frame.volume["head"].tolist() == head
+    assert surface.frame.volume["cras"].tolist() == [5.4, 18.0, -2.5] and surface.unit == "mm"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sx.write(tmp_path / "lh.copy", surface)
+    before, after = ((tmp_path / name).read_bytes() for name in ("lh.white", "lh.copy"))
+    faces = MESH.faces.astype(">i4").tobytes()
+    assert before.partition(faces)[2] == after.partition(faces)[2] != b""
+
+
+def test_of_several_transforms_one_is_kept_which_is_said(tmp_path: Path) -> None:
+    file, packed = tmp_path / "a.surf.gii", tmp_path / "b.surf.gii.gz"
+    sx.write(file, MESH)
+    assert sx.read(file).notes == ()
+    text = file.read_text()
+    begin, end = text.index("<CoordinateSystemTransformMatrix"), text.index("</CoordinateSystemTransformMatrix>")
+    block = text[begin : end + len("</CoordinateSystemTransformMatrix>")]
+    file.write_text(text.replace(block, block + block.replace("1.000000", "3.000000"), 1))
+    packed.write_bytes(gzip.compress(file.read_bytes()))
+    for path in (file, packed):
+        found = sx.read(path)
+        assert found.notes == ("Its points have 2 coordinate transforms: the last is kept.",)
+        assert [transform.matrix[0, 0] for transform in found.frame.transforms] == [3.0]
 
 
 @pytest.mark.parametrize("volume", [VOLUME, None])

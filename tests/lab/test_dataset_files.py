@@ -44,6 +44,14 @@ def test_folder_pattern_and_table_are_one_dataset(bodies: Path, monkeypatch: pyt
     assert items_of_files(bodies.parent / "bodies.csv") == folder
 
 
+def test_capitals_in_names_are_no_other_files(bodies: Path) -> None:
+    (bodies / "ball0.off").rename(bodies / "ball0.OFF")
+    (bodies / "ring1.off").rename(bodies / "Ring1.Off")
+    assert len(items_of_files(bodies)) == len(items_of_files(bodies, ["*.off"])) == 4
+    assert len(items_of_files(bodies.parent, ["bodies/r*.off"])) == 2
+    assert len(items_of_files(bodies, ["[b]*.off"])) == 1, "who chooses among letters is taken at that word"
+
+
 @pytest.mark.parametrize("source", ["bodies", "bodies/", "bodies.csv", "bodies/*.off"])
 def test_each_stands_behind_datasets_as_it_is(bodies: Path, source: str) -> None:
     plans: list[Plan] = []

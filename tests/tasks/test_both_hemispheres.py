@@ -46,6 +46,27 @@ def pair(name: str) -> dict[str, str]:
     return {"left": f"lh.{name}", "right": f"rh.{name}"}
 
 
+def test_files_of_both_go_with_one_file_as_with_two(folder: Path) -> None:
+    sx.write("brain.npz", BRAIN)
+    values = np.concatenate(list(NOISY.values()))
+    sx.write("map.npz", {"a": values, "b": values > 0}, BRAIN)
+    sx.write("one.dscalar.nii", {"a": values}, BRAIN)
+    for maps in ("map.npz", "one.dscalar.nii", {"x": "map.npz"}, pair("thickness.mgh")):
+        for mask in ("one.dscalar.nii", pair("mask.csv"), pair("parts.label.gii"), None):
+            given = {"maps": maps, "mask": mask, "labels": pair("parts.label.gii")}
+            one, two = sx.read("brain.npz", **given), sx.read(**pair("white.ply"), **given)
+            assert list(one.scalars) == list(two.scalars) and one.notes == two.notes
+            for name in two.scalars:
+                np.testing.assert_array_equal(one.scalars[name], two.scalars[name])
+            np.testing.assert_array_equal(one.labels["parts"].keys, two.labels["parts"].keys)
+            assert (one.mask is None) == (two.mask is None)
+            assert one.mask is None or np.array_equal(one.mask, two.mask)
+    inside = values > 0
+    assert np.array_equal(sx.read("brain.npz", mask=inside).mask, inside)
+    with pytest.raises(ValueError, match=r"for two hemispheres: give \{'left': file, 'right': file\}"):
+        sx.read("brain.npz", maps="lh.thickness.mgh")
+
+
 def test_a_surface_of_both_is_each_side_again(folder: Path) -> None:
     brain = sx.read(
         **pair("white.ply"),

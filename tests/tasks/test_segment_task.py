@@ -233,3 +233,14 @@ def test_the_note_states_the_weight_that_was_solved(tried: int, monkeypatch: pyt
     assert len(mus) == tried and len(notes) == (tried > 1)
     assert all(f"weighs {mus[0] / mus[-1]:g} of" in note for note in notes)
     assert all(("is empty" in note) == (tried == 8) for note in notes)
+
+
+def test_where_curvature_is_not_known_nothing_is_divided() -> None:
+    torus = sx.shape("torus")
+    strip = np.array([[9.0, 0.0, 0.0], [10.0, 0.0, 0.0], [9.0, 1.0, 0.0], [10.0, 1.0, 0.5]])
+    vertices = np.concatenate([torus.vertices, strip])
+    faces = np.concatenate([torus.faces, np.array([[0, 1, 2], [1, 3, 2]]) + len(torus.vertices)])
+    parts = sx.segment((vertices, faces))
+    assert (parts.labels[-4:] == -1).all()
+    assert np.isin(parts.labels[:-4], (0, 1)).all()
+    assert any("finite at" in note for note in parts.notes)

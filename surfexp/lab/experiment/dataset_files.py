@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from surfexp.io.csv_cells import separator_of
-from surfexp.io.mesh_patterns import MESH_PATTERNS
+from surfexp.io.mesh_patterns import MESH_PATTERNS, files_called
 from surfexp.lab.errors import UserError
 
 # maps among GIFTI files are refused with the reason when they are read
@@ -67,7 +67,7 @@ def items_of_files(
     if source.suffix.lower() in TABLES:
         return _unlike(_rows(source, plugin))
     if source.is_dir():
-        files = [file for pattern in patterns for file in source.rglob(pattern)]
+        files = files_called(source, patterns)
         nothing = f"no file in {str(source)!r} is called {' or '.join(patterns)}; set --pattern"
     elif any(mark in str(source) for mark in PATTERN_MARKS):
         source, pattern = _parted(source)
