@@ -45,6 +45,9 @@ def main() -> None:
         action="store_true",
         help="verdicts without a fault are those of docs/reproduction.md where true",
     )
+    turning.add_argument(
+        "--stages", type=Path, metavar="RESULTS", help="take stages that a fault does not reach from here"
+    )
     turning.set_defaults(run=run_claims)
     for command in (planted, drawn, turning):
         command.add_argument("--workers", type=int, default=1, help="faults tried at a time (default 1)")
@@ -116,7 +119,7 @@ def run_claims(options: argparse.Namespace) -> list[str]:
     problems = []
     wanted = claims_page.open_faults(options.words) if options.open else claims.faults(options.words)
     before = claims.reproduced_verdicts(wanted) if options.reproduced else {}
-    for trial in claims.try_all(wanted, options.workers, before):
+    for trial in claims.try_all(wanted, options.workers, before, options.stages):
         counts = Counter(trial.outcome(claim) for claim in trial.before)
         told = ", ".join(f"{counts[outcome]} {outcome}" for outcome in claims.OUTCOMES if counts[outcome])
         print(f"{trial.fault.experiment}: {trial.fault.path}: {told}", flush=True)

@@ -9,7 +9,6 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -131,23 +130,32 @@ def reproduced_verdicts(wanted: Sequence[ClaimFault]) -> dict[str, Verdicts]:
 
 
 def try_all(
-    wanted: Sequence[ClaimFault], workers: int, known_before: Mapping[str, Verdicts] | None = None
+    wanted: Sequence[ClaimFault],
+    workers: int,
+    known_before: Mapping[str, Verdicts] | None = None,
+    stages: Path | None = None,
 ) -> Iterator[Trial]:
     """Run what has no record yet and give the trials of all, an experiment at a time.
 
-    Verdicts without a fault are those of `known_before`, or else of a run.
+    Verdicts without a fault are those of `known_before`, or else of a run. Stages that the fault does not reach are taken
+    from `stages`, a folder of results.
     """
     before = known_before or {}
     by_experiment: dict[str, list[ClaimFault]] = {}
     for fault in wanted:
         by_experiment.setdefault(fault.experiment, []).append(fault)
+
+    def tried(experiment: str) -> list[Trial]:
+        return _try(experiment, by_experiment[experiment], before.get(experiment), stages)
+
     with ThreadPoolExecutor(workers) as pool:
-        yield from chain.from_iterable(
-            pool.map(_try, by_experiment, by_experiment.values(), map(before.get, by_experiment))
-        )
+        yield from chain.from_iterable(pool.map(tried, by_experiment))
 
 
-def _try(experiment: str, wanted: list[ClaimFault], before: Verdicts | None) -> list[Trial]:
+def _try(experiment: str, wanted: list[ClaimFault], before: Verdicts | None, stages: Path | None) -> list[Trial]:
+    shutil.rmtree(RESULTS / experiment / "code", ignore_errors=True)
+    if stages is not None:
+        _begin_with(stages, RESULTS / experiment)
     known = _recorded(experiment)
     missing = {fault.identity: fault for fault in wanted if fault.identity not in known}
     sound = before or (_verdicts(experiment, None) if missing else {})
@@ -162,6 +170,13 @@ def _try(experiment: str, wanted: list[ClaimFault], before: Verdicts | None) -> 
     return [Trial(fault, **known[fault.identity]) for fault in wanted if fault.identity in known]
 
 
+def _begin_with(stages: Path, folder: Path) -> None:
+    """Link the stored stages of a folder of results into another, unless it holds some; a stored file is never written to."""
+    if not (folder / "store").exists():
+        shutil.copytree(stages / "store", folder / "store", copy_function=os.link)
+        shutil.copytree(stages / "events", folder / "events", dirs_exist_ok=True)
+
+
 def _record(experiment: str) -> Path:
     return RESULTS / f"{experiment}.json"
 
@@ -172,24 +187,26 @@ def _recorded(experiment: str) -> dict[str, dict[str, Verdicts]]:
 
 
 def _verdicts(experiment: str, fault: ClaimFault | None) -> Verdicts:
-    """Run an experiment on a copy of the code, with a fault in it where one is given, and judge its claims."""
+    """Run an experiment without figures on a copy of the code, with a fault in it where one is given; judge its claims."""
     folder = RESULTS / experiment
-    with tempfile.TemporaryDirectory() as copy:
-        for source, target in PARTS.items():
-            shutil.copytree(ROOT / source, Path(copy) / target, ignore=shutil.ignore_patterns("__pycache__"))
-        if fault is not None:
-            _plant(fault, Path(copy))
-        environment = {**os.environ, "PYTHONPATH": copy}
+    copy = (
+        folder / "code"
+    )  # always the same place: what Python and numba have compiled is found by the path of its source
+    for source, target in PARTS.items():
+        shutil.copytree(ROOT / source, copy / target, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
+    if fault is not None:
+        _plant(fault, copy)
+    environment = {**os.environ, "PYTHONPATH": str(copy)}
 
-        def python(*arguments: str) -> str:
-            command = [sys.executable, *arguments]
-            return subprocess.run(
-                command, cwd=copy, env=environment, capture_output=True, text=True, check=False, timeout=LIMIT
-            ).stdout
+    def python(*arguments: str) -> str:
+        command = [sys.executable, *arguments]
+        return subprocess.run(
+            command, cwd=copy, env=environment, capture_output=True, text=True, check=False, timeout=LIMIT
+        ).stdout
 
-        options = [f"experiment={experiment}", f"results={folder}", "cores=1"]
-        python("-m", "surfexp.commands.command_line", "run", *options)
-        answer = python("-c", JUDGE, str(folder), experiment).strip()
+    options = [f"experiment={experiment}", f"results={folder}", "cores=1", "figures=[]"]
+    python("-m", "surfexp.commands.command_line", "run", *options)
+    answer = python("-c", JUDGE, str(folder), experiment).strip()
     return json.loads(answer.splitlines()[-1]) if answer else {}
 
 
