@@ -37,3 +37,17 @@ def test_titles_take_room_only_where_there_are_some() -> None:
     rows_with_ink = np.flatnonzero((cell < 255).any(axis=(1, 2)))
     above, below = rows_with_ink[0], len(cell) - 1 - rows_with_ink[-1]
     assert two - one == one - 8 and below - above == 16  # two gaps of eight pixels below, no room for titles above
+
+
+def test_a_title_stands_in_the_band_above_its_picture() -> None:
+    plain, named, empty = (
+        skeleton_panel(
+            [SkeletonView(MESH, title=title), SkeletonView(MESH, title="right")], columns=2, width=400
+        ).pixels
+        for title in ("", "left one", " ")
+    )
+    assert plain.shape == named.shape and np.array_equal(plain, empty)
+    changed = np.argwhere((plain != named).any(axis=2))
+    picture = np.flatnonzero((plain[:, :200] < 255).any(axis=(1, 2)))[0]
+    assert len(changed) > 50
+    assert changed[:, 0].max() < picture and changed[:, 1].max() < 200
