@@ -17,7 +17,7 @@ def mean_curvature(mesh: TriangleMesh) -> Floats:
     positive where the surface bulges outward (1/r on a sphere), so on a cortex gyri are positive and sulci negative:
     the opposite sign of FreeSurfer's `curv` map, which is positive in sulci. On a boundary vertex, where the formula also
     contains the curvature of the boundary, the value is the mean of its interior neighbours; where it has none, as at a
-    corner of a patch, of the neighbours that have such a mean. NaN where a component has no vertex inside.
+    corner of a patch, of the neighbours that have such a mean; and NaN where there are none either, as on strips one face wide.
 
     Parameters
     ----------
@@ -38,12 +38,13 @@ def mean_curvature(mesh: TriangleMesh) -> Floats:
 
 
 def _fill_boundary(mesh: TriangleMesh, curvature: Floats) -> Floats:
-    """Give a vertex of the boundary the mean of its neighbours that have a value, from the inner ones outward."""
+    """Give a vertex of the boundary the mean of its neighbours inside, or else of those that were given one."""
     known = np.ones(len(curvature), dtype=bool)
     known[mesh.edges[mesh.edge_face_counts == 1]] = False
     values = np.where(known, curvature, np.nan)
     here, there = np.concatenate([mesh.edges, mesh.edges[:, ::-1]]).T
-    while (reached := ~known[here] & known[there]).any():
+    for _ in ("beside the inside", "beside these"):
+        reached = ~known[here] & known[there]
         count = np.bincount(here[reached], minlength=len(known))
         total = np.bincount(here[reached], values[there[reached]], len(known))
         values[count > 0] = total[count > 0] / count[count > 0]

@@ -216,7 +216,7 @@ def mean_curvature(surface: SurfaceLike) -> Floats:
     -------
     (n,) float64
         In 1 / unit; NaN outside the mask. FreeSurfer's `curv` has the opposite sign. At a boundary the mean of the neighbours
-        inside, or of those that have such a mean; NaN where a component has no vertex inside, as a strip one face wide.
+        inside, or of those that have such a mean; NaN where there are none either, as on a strip one face wide.
 
     Raises
     ------

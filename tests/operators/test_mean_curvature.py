@@ -49,6 +49,11 @@ def test_a_strip_one_face_wide_has_no_curvature_and_leaves_that_of_others() -> N
     found = mean_curvature(both)
     assert np.isnan(found[-4:]).all()
     assert np.array_equal(found[:-4], mean_curvature(cylinder))
+    # joined at a corner of the patch, it knows no more than two rings
+    corner = np.flatnonzero(np.bincount(cylinder.edges.ravel()) == 2)[0]
+    hung = np.where(faces == len(found) - 4, corner, faces - (faces > len(found) - 4))
+    joined = TriangleMesh(np.delete(both.vertices, -4, axis=0), np.concatenate([cylinder.faces, hung]))
+    assert np.array_equal(mean_curvature(joined)[:-3], found[:-4]) and np.isnan(mean_curvature(joined)[-3:]).all()
 
 
 def patch_of_cylinder(radius: float, count: int) -> TriangleMesh:
