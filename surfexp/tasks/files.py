@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 
 from surfexp.mesh.surface import BOTH, Surface
 from surfexp.tasks.both_files import read_both, with_files_of_both
-from surfexp.tasks.surface_file import PathLike, read_surface
+from surfexp.tasks.stored_surface import stored_surface
+from surfexp.tasks.surface_file import PathLike, read_surface, sound_or_repaired
 
 
 def read(
@@ -82,8 +84,9 @@ def read(
         return read_both(left, right, maps, labels, mask, unit, repair)
     if not isinstance(path, str | Path):
         raise ValueError(f"path is a {type(path).__name__}, one file is needed; both hemispheres are left= and right=")
-    if Path(path).suffix.lower() == ".npz" and not hemisphere:
-        surface = read_surface(path, maps=None, labels=None, mask=None, unit=unit, hemisphere="", repair=repair)
-        if surface.hemisphere == BOTH:
-            return with_files_of_both(surface, maps, labels, mask)
+    if Path(path).suffix.lower() == ".npz" and not hemisphere and Path(path).is_file():
+        both = stored_surface(path)
+        if both.hemisphere == BOTH:
+            both = with_files_of_both(replace(both, unit=unit or both.unit), maps, labels, mask)
+            return sound_or_repaired(both, path, repair)
     return read_surface(path, maps=maps, labels=labels, mask=mask, unit=unit, hemisphere=hemisphere, repair=repair)

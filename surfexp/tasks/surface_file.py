@@ -86,6 +86,17 @@ def read_surface(
         frame=file_read.frame,
         right=facts.right,
     )
+    return sound_or_repaired(surface, path, repair)
+
+
+def sound_or_repaired(surface: Surface, path: PathLike, repair: bool) -> Surface:
+    """Return the part of a surface inside its mask if it is sound, and else the repaired one where that is asked for.
+
+    Raises
+    ------
+    ValueError
+        If it has a defect that is not to be repaired, or cannot be.
+    """
     try:
         return sound_part(surface, str(path), repair="")
     except ValueError:

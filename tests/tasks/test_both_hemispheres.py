@@ -67,6 +67,21 @@ def test_files_of_both_go_with_one_file_as_with_two(folder: Path) -> None:
         sx.read("brain.npz", maps="lh.thickness.mgh")
 
 
+def test_both_in_one_file_have_to_be_sound_inside_their_mask_alone(folder: Path) -> None:
+    flipped = BRAIN.mesh.faces.copy()
+    flipped[:3] = flipped[:3, ::-1]
+    sx.write("brain.npz", replace(BRAIN, mesh=TriangleMesh(BRAIN.mesh.vertices, flipped)))
+    values = np.concatenate(list(NOISY.values()))
+    sx.write("map.npz", {"a": values}, BRAIN)
+    with pytest.raises(ValueError, match="repair"):
+        sx.read("brain.npz", maps="map.npz")
+    repaired = sx.read("brain.npz", maps="map.npz", unit="mm", repair=True)
+    assert repaired.hemisphere == "both" and repaired.unit == "mm"
+    np.testing.assert_array_equal(repaired.scalars["map"], values)
+    inside = ~np.isin(np.arange(len(values)), BRAIN.mesh.faces[:3])
+    assert np.array_equal(sx.read("brain.npz", mask=inside).mask, inside)
+
+
 def test_a_surface_of_both_is_each_side_again(folder: Path) -> None:
     brain = sx.read(
         **pair("white.ply"),
