@@ -189,9 +189,8 @@ def _recorded(experiment: str) -> dict[str, dict[str, Verdicts]]:
 def _verdicts(experiment: str, fault: ClaimFault | None) -> Verdicts:
     """Run an experiment without figures on a copy of the code, with a fault in it where one is given; judge its claims."""
     folder = RESULTS / experiment
-    copy = (
-        folder / "code"
-    )  # always the same place: what Python and numba have compiled is found by the path of its source
+    # always the same place: what Python and numba have compiled is found by the path of its source
+    copy = folder / "code"
     for source, target in PARTS.items():
         shutil.copytree(ROOT / source, copy / target, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
     if fault is not None:

@@ -20,7 +20,7 @@ from surfexp.mesh.given_arrays import mask_array
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.label_map import LabelMap
 from surfexp.mesh.spatial_frame import SpatialFrame
-from surfexp.mesh.surface import BOTH, HEMISPHERES, Surface
+from surfexp.mesh.surface import HEMISPHERES, Surface
 from surfexp.mesh.triangle_mesh import TriangleMesh
 from surfexp.tasks.repaired_surface import repaired
 from surfexp.tasks.soundness import sound_part
@@ -56,11 +56,7 @@ def read_surface(
     facts = file_read.facts
     side = hemisphere or common_hemisphere(files)
     if facts.right is not None:
-        if side:
-            raise ValueError(
-                f"{path} holds both hemispheres, one file or hemisphere= says {side}: give what is of both"
-            )
-        side = BOTH
+        raise ValueError(f"{path} holds both hemispheres, one file or hemisphere= says {side}: give what is of both")
     notes = (*file_read.notes, *left_out, *_overridden(hemisphere, path))
     for name, file in map_files.items():
         scalars |= _named(name, read_maps(file, side, count), count, file)
@@ -84,7 +80,6 @@ def read_surface(
         labels=tables,
         notes=notes,
         frame=file_read.frame,
-        right=facts.right,
     )
     return sound_or_repaired(surface, path, repair)
 
