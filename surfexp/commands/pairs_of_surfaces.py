@@ -26,11 +26,19 @@ EXAMPLES = {
 @click.argument("second", type=click.Path())
 @click.option("-n", "count", default=20, help="number of eigenfunctions")
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
+@click.option("--points", type=int, help="vertices that stand for the others; by default 7,000 above 14,142, else all")
 @repair_option
 @proof_option
 @result_option(required=False)
 def distance(
-    first: str, second: str, count: int, limit: int | None, repair: bool, target: Path | None, proof: Path | None
+    first: str,
+    second: str,
+    count: int,
+    limit: int | None,
+    points: int | None,
+    repair: bool,
+    target: Path | None,
+    proof: Path | None,
 ) -> None:
     """Measure the spectral distance of two surfaces, with a proved lower bound.
 
@@ -49,7 +57,7 @@ def distance(
         ready(target, files, check_map_target, hemisphere=other.hemisphere)
     started = time.perf_counter()
     with progress_line("distance") as progress:
-        found = task(one, other, count, limit=limit, progress=progress)
+        found = task(one, other, count, limit=limit, points=points, progress=progress)
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
@@ -66,7 +74,8 @@ def distance(
             partner = np.where(partner < 0, partner, one.file.origin[partner])
         read = notes_of(first, second, one.notes, other.notes)
         maps = {"correspondence": partner.astype(float)}
-        finish(target, maps, other, found.method, {"n": count, "repair": repair}, files, facts, found.notes, read)
+        options = {"n": count, "limit": limit, "points": points, "repair": repair}
+        finish(target, maps, other, found.method, options, files, facts, found.notes, read)
     save_proof(proof, found, one, other)
 
 

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import get_args
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import eigenvalue_blocks
 from surfexp.embedding.mean_hausdorff import HausdorffObjective
+from surfexp.embedding.representatives import Represented, distance_by_representatives, represented
 from surfexp.embedding.rival_maps import competing_signs
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
 from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting
 from surfexp.mesh.given_numbers import one_of, whole_number
+from surfexp.mesh.surface_part import SurfacePart
 from surfexp.spectrum.eigensystem import SMALLEST_GAP
 from surfexp.tasks.embedded_surface import embedded
 from surfexp.tasks.given_surface import SurfaceLike
 
 # pairs of points that a search compares at most where no limit is given: about a minute
 LARGEST_SEARCH, FEWEST, MOST = 2e10, 100, 2000
+# points that stand for all of a surface where the fewest evaluations would compare more pairs
+REPRESENTATIVES = 7000
 # distances that differ by less, of themselves or of the mean length of a point, are the same up to rounding
 SAME_DISTANCE, OF_A_POINT = 1e-5, 1e-6
 
@@ -32,6 +38,7 @@ def distance(
     *,
     weighting: Weighting = "biharmonic",
     limit: int | None = None,
+    points: int | None = None,
     progress: Progress | None = None,
 ) -> Distance:
     """Return the spectral distance of two surfaces, minimised over the signs of their eigenfunctions, with the proof.
@@ -51,6 +58,11 @@ def distance(
     limit : int, optional
         Most evaluations of the search. Where the proof needs more, `lower_bound` is below `value`. The default compares 2e10
         pairs of points, in 100 to 2,000 evaluations: 400 for two surfaces of 7,000 vertices.
+    points : int, optional
+        How many vertices of each surface stand for the others in the search; with as many or fewer all are compared. The
+        default is 7,000 for two surfaces with more than 2e8 pairs of vertices (14,142 each), else all. `value` is that of all
+        vertices, each matched from the match of its representative on, and `lower_bound` holds for all, but is lower by what
+        the representatives leave out, so that nothing is proved least; a note says how much.
     progress : callable, optional
         Called with the number of evaluations and the relative gap that is left.
 
@@ -76,16 +88,49 @@ def distance(
     n = whole_number(n, "n", 1)
     limit = None if limit is None else whole_number(limit, "limit", 1)
     one_of(weighting, "weighting", get_args(Weighting))
+    points = None if points is None else whole_number(points, "points", 1)
     (first, first_part), (second, second_part) = embedded(source, n, weighting), embedded(target, n, weighting)
-    most = search_limit(first, second) if limit is None else limit
-    found = spectral_distance(first, second, limit=most, progress=progress)
-    found = replace(found, notes=found.notes + _clusters(first, second) + mirror_images(first, second, found))
+    pair = represented_pair(first, second, points)
+
+    def search(one: SpectralEmbedding, other: SpectralEmbedding) -> Distance:
+        most = search_limit(one, other) if limit is None else limit
+        found = spectral_distance(one, other, limit=most, progress=progress)
+        return replace(found, notes=found.notes + _clusters(one, other) + mirror_images(one, other, found))
+
+    found = distance_of_pair(pair, (first_part, second_part), search)
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)
     correspondence[second_part.vertices] = first_part.vertices[found.correspondence]
     moved = second_part.extend(found.target_points)
     return replace(
         found, source_points=first_part.extend(found.source_points), target_points=moved, correspondence=correspondence
     )
+
+
+def represented_pair(
+    first: SpectralEmbedding, second: SpectralEmbedding, points: int | None = None
+) -> tuple[Represented, Represented]:
+    """Return two embeddings with the points that stand for them; all do where there are few."""
+    if points is None:
+        few = FEWEST * len(first.points) * len(second.points) <= LARGEST_SEARCH
+        points = max(len(first.points), len(second.points)) if few else REPRESENTATIVES
+    return represented(first, points), represented(second, points)
+
+
+def distance_of_pair(
+    pair: tuple[Represented, Represented],
+    parts: tuple[SurfacePart, SurfacePart],
+    search: Callable[[SpectralEmbedding, SpectralEmbedding], Distance],
+) -> Distance:
+    """Return the distance that a search on representatives finds, of all vertices."""
+    if all(len(one.rows) == len(one.whole.points) for one in pair):
+        return search(pair[0].whole, pair[1].whole)
+    return distance_by_representatives(*pair, (_edges(parts[0]), _edges(parts[1])), search)
+
+
+def _edges(part: SurfacePart) -> csr_array:
+    edges, count = part.mesh.edges, len(part.vertices)
+    ones = np.ones(2 * len(edges), np.int8)
+    return csr_array((ones, np.concatenate([edges, edges[:, ::-1]]).T), shape=(count, count))
 
 
 def _clusters(first: SpectralEmbedding, second: SpectralEmbedding) -> tuple[str, ...]:

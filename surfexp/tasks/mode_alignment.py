@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import get_args
 
 import numpy as np
@@ -11,12 +11,13 @@ from surfexp.contract.arrays import Floats
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
 from surfexp.embedding.block_alignment import block_distance
+from surfexp.embedding.distance import Distance
 from surfexp.embedding.eigenvalue_blocks import RELATIVE_GAP, Blocks, eigenvalue_blocks
 from surfexp.embedding.sign_search import Progress
 from surfexp.embedding.spectral_distance import spectral_distance
-from surfexp.embedding.spectral_embedding import Weighting, mode_weights
+from surfexp.embedding.spectral_embedding import SpectralEmbedding, Weighting, mode_weights
 from surfexp.mesh.given_numbers import one_of, real_number, whole_number
-from surfexp.tasks.distances import mirror_images, search_limit
+from surfexp.tasks.distances import distance_of_pair, mirror_images, represented_pair, search_limit
 from surfexp.tasks.embedded_surface import embedded
 from surfexp.tasks.given_surface import SurfaceLike
 
@@ -67,6 +68,7 @@ def align(
     weighting: Weighting = "biharmonic",
     relative_gap: float = RELATIVE_GAP,
     limit: int | None = None,
+    points: int | None = None,
     progress: Progress | None = None,
 ) -> ModeAlignment:
     """Bring the modes of one surface into correspondence with those of another: signs, order and rotations in clusters.
@@ -83,6 +85,8 @@ def align(
     relative_gap : float
     limit : int, optional
         Most evaluations of the search over signs; default as in `distance`.
+    points : int, optional
+        How many vertices of each surface stand for the others; default as in `distance`.
     progress : callable, optional
         Called with the number of evaluations and the relative gap that is left, where all blocks are single.
 
@@ -106,23 +110,25 @@ def align(
     limit = None if limit is None else whole_number(limit, "limit", 1)
     relative_gap = real_number(relative_gap, "relative_gap")
     one_of(weighting, "weighting", get_args(Weighting))
-    (longer, _), (other, part) = (embedded(one, count, weighting, name="count", more=1) for one in (source, target))
+    points = None if points is None else whole_number(points, "points", 1)
+    (longer, whole), (other, part) = (embedded(one, count, weighting, name="count", more=1) for one in (source, target))
     notes = _cut_block(eigenvalue_blocks(longer.values, other.values, gap=relative_gap))
     first, second = longer.truncated(count), other.truncated(count)
     blocks = eigenvalue_blocks(first.values, second.values, gap=relative_gap)
-    single = len(blocks) == count
-    most = search_limit(first, second) if limit is None else limit
-    found = (
-        spectral_distance(first, second, limit=most, progress=progress)
-        if single
-        else block_distance(first, second, blocks)
-    )
+
+    def search(one: SpectralEmbedding, another: SpectralEmbedding) -> Distance:
+        if len(blocks) < count:
+            return block_distance(one, another, blocks)
+        most = search_limit(one, another) if limit is None else limit
+        found = spectral_distance(one, another, limit=most, progress=progress)
+        return replace(found, notes=found.notes + mirror_images(one, another, found))
+
+    found = distance_of_pair(represented_pair(first, second, points), (whole, part), search)
     lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))
     vectors = part.extend(second.points / lengths @ found.basis)
     numbered = tuple((start + 1, stop) for start, stop in blocks)
-    notes += mirror_images(first, second, found) if single else ()
     return ModeAlignment(
-        found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, found.notes + notes
+        found.basis, numbered, found.value, found.lower_bound, found.optimal, vectors, notes + found.notes
     )
 
 
