@@ -13,7 +13,7 @@ from surfexp.commands.given_maps import map_of
 from surfexp.commands.given_surfaces import opened
 from surfexp.commands.surface_options import result_option, surface_options
 from surfexp.commands.surface_results import finish, ready_map
-from surfexp.commands.terminal import echo
+from surfexp.commands.terminal import echo, progress_line
 
 EXAMPLES = ("lh.white lh.thickness lh.sulc", "lh.white lh.thickness --count 100 --to nulls.npz")
 
@@ -60,11 +60,16 @@ def nulls(
         ready_map(target, files, surface, values, *([] if other is None else [other]), channels=count)
     options: dict[str, Any] = {"method": method, "count": count, "modes": modes, "seed": seed}
     started = time.perf_counter()
-    if other is None:
-        made, reason = chosen_null_maps(surface, values, **options)
+    with progress_line("nulls") as progress:
+        found = (
+            chosen_null_maps(surface, values, **options, progress=progress)
+            if other is None
+            else compare_maps(surface, values, other, **options, progress=progress)
+        )
+    if isinstance(found, tuple):
+        made, reason = found
         facts, notes = made.certificate, (reason, *made.notes)
     else:
-        found = compare_maps(surface, values, other, **options)
         made, facts, notes = found.surrogates, found.facts, (found.reason, *found.notes)
         low, high = found.interval
         echo(

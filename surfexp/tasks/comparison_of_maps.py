@@ -13,6 +13,7 @@ from surfexp.contract.summary import Summary
 from surfexp.mesh.given_numbers import one_of
 from surfexp.mesh.surface_part import finite_mask
 from surfexp.nulls.rejection import correlations, effective_interval, p_values
+from surfexp.spectrum.single_slice import Progress
 from surfexp.tasks.given_map import MapLike, as_single_map
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.null_maps import NullMaps, null_maps
@@ -82,6 +83,8 @@ def compare_maps(
     count: int = 1000,
     modes: int = 400,
     seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> MapComparison:
     """Correlate two maps of a surface, and tell the correlation from chance by null maps.
 
@@ -102,6 +105,8 @@ def compare_maps(
     modes : int
         Of "eigenstrapping".
     seed : int
+    threads, progress : optional
+        As in `null_maps`.
 
     Returns
     -------
@@ -135,7 +140,9 @@ def compare_maps(
     within = other[part.vertices]
     if within.min() == within.max():
         raise ValueError(f"the second map is constant at {within[0]:g}: a correlation needs one that varies")
-    surrogates, reason = chosen_null_maps(inside, rough, method=method, count=count, modes=modes, seed=seed)
+    surrogates, reason = chosen_null_maps(
+        inside, rough, method=method, count=count, modes=modes, seed=seed, threads=threads, progress=progress
+    )
     held = np.asarray(np.isfinite(surrogates.values).all(axis=1))
     weights = (part.mesh.vertex_areas / part.mesh.area)[held[part.vertices]]
     own, others = own_unit(rough[held]), own_unit(other[held])
@@ -157,6 +164,8 @@ def chosen_null_maps(
     count: int = 1000,
     modes: int = 400,
     seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> tuple[NullMaps, str]:
     """Return null maps by a model, or by the one that a map calls for, and why.
 
@@ -164,7 +173,7 @@ def chosen_null_maps(
     ----------
     surface : Surface, path, or (vertices, faces)
     values : str or (n,) float64
-    method, count, modes, seed
+    method, count, modes, seed, threads, progress
         As `compare_maps`.
 
     Returns
@@ -174,7 +183,7 @@ def chosen_null_maps(
     """
     if method == "variogram":
         return null_maps(surface, values, count, method="variogram", seed=seed), "Variograms were asked for."
-    made = null_maps(surface, values, count, modes=modes, seed=seed)
+    made = null_maps(surface, values, count, modes=modes, seed=seed, threads=threads, progress=progress)
     lost, share = made.certificate["rest_correlation"], made.certificate["share_in_modes"]
     said = (
         f"{made.certificate['modes']} modes hold {share:.0%} of the map's variance, and permuting the rest loses {lost:.2f} "

@@ -10,8 +10,9 @@ import numpy as np
 from surfexp.contract.arrays import Floats
 from surfexp.contract.drawable import Drawable
 from surfexp.contract.summary import Summary
-from surfexp.mesh.given_numbers import one_of, whole_number
+from surfexp.mesh.given_numbers import given_threads, one_of, whole_number
 from surfexp.mesh.surface_part import SurfacePart, surface_part
+from surfexp.spectrum.single_slice import Progress
 from surfexp.tasks.given_map import MapLike, as_single_map
 from surfexp.tasks.given_surface import SurfaceLike, as_surface
 from surfexp.tasks.nulls_of_components import FEWEST_MODES, by_modes, by_variogram
@@ -60,6 +61,8 @@ def null_maps(
     method: Literal["eigenstrapping", "variogram"] = "eigenstrapping",
     modes: int = 400,
     seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> NullMaps:
     """Make surrogate maps with the same spatial autocorrelation as a map, to test its correlation with another map.
 
@@ -81,6 +84,10 @@ def null_maps(
     modes : int
         Of "eigenstrapping", at most half as many as a component has vertices; they are proved complete.
     seed : int
+    threads : int, optional
+        For modes, as in `eigenpairs`.
+    progress : callable, optional
+        Receives the number of modes found and the share that is missing.
 
     Returns
     -------
@@ -112,8 +119,8 @@ def null_maps(
     """
     count, modes = whole_number(count, "count", 1), whole_number(modes, "modes", FEWEST_MODES)
     seed = whole_number(seed, "seed", 0, LARGEST_SEED)
-    makers = {"eigenstrapping": by_modes, "variogram": by_variogram}
-    chosen = makers[one_of(method, "method", makers)]
+    one_of(method, "method", ("eigenstrapping", "variogram"))
+    threads = given_threads(threads)
     owner = as_surface(surface)
     count = whole_number(count, "count", 1, LARGEST_RESULT // len(owner.mesh.vertices))
     rough = as_single_map(owner, values)
@@ -122,7 +129,12 @@ def null_maps(
     if inside.min() == inside.max():
         raise ValueError(f"the map is constant at {inside[0]:g}: null models need one that varies")
     own = own_unit(inside)
-    made, certificate, notes = chosen(owner, part.mesh, own.normalised(inside), count, modes, seed)
+    scaled = own.normalised(inside)
+    made, certificate, notes = (
+        by_variogram(part.mesh, scaled, count, seed)
+        if method == "variogram"
+        else by_modes(owner, part.mesh, scaled, count, modes, seed, threads, progress)
+    )
     notes += (APART,) if owner.right is not None else ()
     return NullMaps(part.extend(own.restored(made)), method, certificate, part.notes + islands + notes)
 

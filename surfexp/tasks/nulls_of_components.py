@@ -18,6 +18,7 @@ from surfexp.nulls.variogram import variogram_pairs
 from surfexp.nulls.variogram_matching import VariogramMatching
 from surfexp.operators.assembly import mass_matrix
 from surfexp.spectrum.lowest_pairs import lowest_pairs
+from surfexp.spectrum.single_slice import Progress
 
 NEIGHBOURS = 1000
 # narrow enough for maps that change within ten vertices; see docs/null_models.md
@@ -52,7 +53,16 @@ class _Turned(NamedTuple):
     notes: tuple[str, ...]
 
 
-def by_modes(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int) -> Drawn:
+def by_modes(
+    owner: Surface,
+    mesh: TriangleMesh,
+    inside: Floats,
+    count: int,
+    modes: int,
+    seed: int,
+    threads: int = 1,
+    progress: Progress | None = None,
+) -> Drawn:
     """Return null maps by eigenstrapping, what is certified of them, and notes.
 
     Parameters
@@ -61,7 +71,9 @@ def by_modes(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, mod
         Whose name and unit messages have.
     mesh : TriangleMesh
     inside : (n,) float64
-    count, modes, seed : int
+    count, modes, seed, threads : int
+    progress : callable, optional
+        As of `eigenpairs`, for each component.
 
     Raises
     ------
@@ -75,7 +87,8 @@ def by_modes(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, mod
             raise ValueError(
                 f"the map is on {len(values)} vertices, at least {round(FEWEST_MODES / MOST_MODES)} are needed"
             )
-        operator, system = lowest_pairs(Surface(one.mesh, owner.name, owner.unit), many, tolerance=TOLERANCE)
+        cut = Surface(one.mesh, owner.name, owner.unit)
+        operator, system = lowest_pairs(cut, many, tolerance=TOLERANCE, progress=progress, threads=threads)
         mass = mass_matrix(operator)
         nulls = eigenstrapped(system.vectors, mass, values, count, rest="permute", seed=seed)
         centred = values - operator.mass @ values / operator.mass.sum()
@@ -111,7 +124,7 @@ def by_modes(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, mod
     return nulls, certificate, notes
 
 
-def by_variogram(owner: Surface, mesh: TriangleMesh, inside: Floats, count: int, modes: int, seed: int) -> Drawn:
+def by_variogram(mesh: TriangleMesh, inside: Floats, count: int, seed: int) -> Drawn:
     """Return null maps whose variograms are that of the map, as `by_modes` does.
 
     Raises

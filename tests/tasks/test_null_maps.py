@@ -191,3 +191,14 @@ def test_a_small_surface_has_fewer_modes_than_the_default_asks_for() -> None:
         sx.null_maps(ball, height, 5, modes=1)
     with pytest.raises(ValueError, match="the map is on 3 vertices, at least 4 are needed"):
         sx.null_maps((np.eye(3), [[0, 1, 2]]), [0.0, 1.0, 2.0], 5)
+
+
+def test_threads_change_no_byte_and_modes_are_reported() -> None:
+    fine = sx.shape("ellipsoid", levels=4)
+    values = fine.mesh.vertices[:, 2] + fine.mesh.vertices[:, 0] ** 2
+    seen: list[tuple[int, float]] = []
+    one = sx.null_maps(fine, values, 5, modes=250, threads=1, progress=lambda *step: seen.append(step))
+    assert seen and all(0.0 <= rest <= 1.0 for _, rest in seen) and seen[-1][0] >= 200
+    assert np.array_equal(one.values, sx.null_maps(fine, values, 5, modes=250, threads=2).values)
+    with pytest.raises(ValueError, match="threads"):
+        sx.compare_maps(fine, values, fine.mesh.vertices[:, 1], count=5, modes=50, threads=0)
