@@ -26,7 +26,7 @@ EXAMPLES = {
 @click.argument("second", type=click.Path())
 @click.option("-n", "count", default=20, help="number of eigenfunctions")
 @click.option("--limit", type=int, help="most evaluations of the search; by default about a minute of them")
-@click.option("--points", type=int, help="vertices that stand for the others; by default 7,000 above 14,142, else all")
+@click.option("--points", type=int, help="vertices that stand for the others; by default 7,000 above 44,721, else all")
 @repair_option
 @proof_option
 @result_option(required=False)

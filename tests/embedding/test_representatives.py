@@ -121,10 +121,10 @@ def test_many_points_are_represented_unless_all_are_asked_for() -> None:
     def line(count: int) -> SpectralEmbedding:
         return SpectralEmbedding(np.linspace(0.0, 1.0, count)[:, None], np.full(count, 1.0 / count), np.ones(1))
 
-    assert [len(one.rows) for one in represented_pair(line(14_142), line(14_142))] == [14_142, 14_142]
-    few = represented_pair(line(14_143), line(14_143))
+    assert [len(one.rows) for one in represented_pair(line(44_721), line(44_721))] == [44_721, 44_721]
+    few = represented_pair(line(44_722), line(44_722))
     assert all(0.5 * REPRESENTATIVES < len(one.rows) < 1.5 * REPRESENTATIVES for one in few)
-    assert [len(one.rows) for one in represented_pair(line(14_143), line(14_143), 20_000)] == [14_143, 14_143]
+    assert [len(one.rows) for one in represented_pair(line(44_722), line(44_722), 50_000)] == [44_722, 44_722]
 
 
 def test_modes_in_clusters_are_aligned_on_representatives_too() -> None:

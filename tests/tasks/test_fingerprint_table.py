@@ -207,3 +207,10 @@ def test_a_file_of_both_hemispheres_has_a_column_for_each(working_folder: Path) 
     for name, numbers in rows.items():
         assert name == "residual" or numbers[:2] == numbers[2:]
     assert set(json.loads(Path("table.csv.json").read_text())["inputs"]) == {"both.npz", "lh.ply", "rh.ply"}
+
+
+def test_one_value_is_enough(working_folder: Path) -> None:
+    sx.write("body.ply", BODY)
+    assert sx.fingerprint(["body.ply"], count=1).columns["body"].shape == (3,)
+    with pytest.raises(ValueError, match="count = 0"):
+        sx.fingerprint(["body.ply"], count=0)

@@ -24,3 +24,12 @@ def test_loops_of_an_open_surface_are_those_of_the_exact_graph(height: float, co
         assert found.metrics["b1"] + found.metrics["hidden_handles"] == loops
         assert any("critical levels" in note for note in found.notes) == (found.metrics["hidden_handles"] > 0)
     assert loops or height == 0.0
+
+
+def test_a_distance_takes_graphs_and_no_surfaces() -> None:
+    torus = sx.shape("torus", n_u=20, n_v=10)
+    with pytest.raises(TypeError, match=r"reeb_distance takes results of sx.reeb_graph, not Surface"):
+        sx.reeb_distance(torus, torus)
+    graph = sx.reeb_graph(torus, torus.vertices[:, 0])
+    with pytest.raises(TypeError, match=r"check_reeb_distance takes a result of sx.reeb_distance, not Skeleton"):
+        sx.check_reeb_distance(graph, graph, graph)
