@@ -61,7 +61,10 @@ def distance(
     signs = "".join("+" if sign > 0 else "-" for sign in np.diag(found.basis))
     bound = "proved least" if found.optimal else f"not proved, at least {found.lower_bound:.6g}"
     echo(f"distance {found.value:.6g} ({bound}), signs {signs}")
-    if target is not None:
+    if target is None:
+        for note in found.notes:
+            echo(note, err=True)
+    else:
         facts = {
             "value": found.value,
             "lower_bound": found.lower_bound,

@@ -128,7 +128,10 @@ def distance_by_representatives(
     lower = min(max(found.lower_bound - lost, 0.0), value)
     optimal = lower >= value
     few = " and ".join(f"{len(one.rows):,} of {len(one.whole.points):,}" for one in (source, target))
-    note = f"In the search {few} vertices stand for the others: the lower bound is {lost:.3g} less for it."
+    note = (
+        f"In the search {few} vertices stand for the others: the lower bound is {lost:.3g} less for it, and "
+        "symmetries were not looked for."
+    )
     figures |= {"distance": value, "lower_bound": lower, "gap": value - lower, "optimal": float(optimal)}
     return replace(
         found,

@@ -62,8 +62,9 @@ def distance(
     points : int, optional
         How many vertices of each surface stand for the others in the search; with as many or fewer all are compared. The
         default is 7,000 for two surfaces with more than 2e9 pairs of vertices (44,721 each), else all. `value` is that of all
-        vertices, each matched from the match of its representative on, and `lower_bound` holds for all, but is lower by what
-        the representatives leave out, so that nothing is proved least; a note says how much.
+        vertices, each matched with one that is at most twice as far as the nearest, and mostly with that. `lower_bound` holds
+        for all, but is lower by what the representatives leave out, so that nothing above 0 is proved least; a note says how
+        much. Symmetries are not looked for.
     progress : callable, optional
         Called with the number of evaluations and the relative gap that is left.
 
@@ -96,7 +97,8 @@ def distance(
     def search(one: SpectralEmbedding, other: SpectralEmbedding) -> Distance:
         most = search_limit(one, other) if limit is None else limit
         found = spectral_distance(one, other, limit=most, progress=progress)
-        return replace(found, notes=found.notes + _clusters(one, other) + mirror_images(one, other, found))
+        alike = mirror_images(one, other, found) if one is first and other is second else ()
+        return replace(found, notes=found.notes + _clusters(one, other) + alike)
 
     found = distance_of_pair(pair, (first_part, second_part), search)
     correspondence = np.full(second_part.whole_count, -1, dtype=np.int64)

@@ -121,7 +121,8 @@ def align(
             return block_distance(one, another, blocks)
         most = search_limit(one, another) if limit is None else limit
         found = spectral_distance(one, another, limit=most, progress=progress)
-        return replace(found, notes=found.notes + mirror_images(one, another, found))
+        alike = mirror_images(one, another, found) if one is first and another is second else ()
+        return replace(found, notes=found.notes + alike)
 
     found = distance_of_pair(represented_pair(first, second, points), (whole, part), search)
     lengths = np.sqrt(part.mesh.area) * np.asarray(mode_weights(second.values, weighting))

@@ -47,6 +47,18 @@ def test_rows_of_a_map_are_those_of_the_file(folder: Path) -> None:
     assert said["options"]["repair"] and any(note.startswith("cut.npz: merged") for note in said["notes"])
 
 
+def test_few_vertices_stand_for_the_others_and_it_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sx.write("long.npz", sx.shape("ellipsoid", levels=2, semiaxes=(1.0, 1.3, 2.5)))
+    assert main(["distance", "good.npz", "long.npz", "-n", "3", "--points", "60"]) == 0
+    said = capsys.readouterr()
+    assert "(not proved, at least " in said.out
+    assert f"of {N} vertices stand for the others" in said.err and "symmetries were not looked for" in said.err
+    assert main(["distance", "good.npz", "good.npz", "-n", "3", "--points", "60", "--to", "map.npz"]) == 0
+    kept = json.loads(Path("map.npz.json").read_text())
+    assert kept["options"]["points"] == 60 and kept["value"] < 1e-9
+    assert np.array_equal(np.load("map.npz")["correspondence"], np.arange(N))
+
+
 def test_aligned_modes_have_a_row_for_each_vertex_of_the_file(folder: Path) -> None:
     assert main(["align", "good.npz", "cut.npz", "-k", "3", "--repair", "--to", "modes.npz"]) == 0
     kept, said = np.load("modes.npz"), json.loads(Path("modes.npz.json").read_text())
