@@ -138,3 +138,14 @@ def test_columns_have_names_in_a_table(transformer) -> None:
     )
     assert list(table.columns) == [f"{type(transformer).__name__.lower()}{k}" for k in range(rows.shape[1])]
     np.testing.assert_allclose(table.to_numpy(), rows, atol=1e-12)
+
+
+def test_points_stand_for_large_surfaces(monkeypatch: pytest.MonkeyPatch) -> None:
+    bodies = [sx.shape("ellipsoid", levels=3, semiaxes=(1.0, 1.3, 1.0 + size)) for size in (0.7, 1.5)]
+    whole = sx.SpectralDistance(n=4).fit_transform(bodies)
+    monkeypatch.setattr("surfexp.tasks.distances.LARGEST_PAIR", 1e5)
+    monkeypatch.setattr("surfexp.tasks.distances.REPRESENTATIVES", 200)
+    transformer = sx.SpectralDistance(n=4)
+    few = transformer.fit_transform(bodies)
+    assert transformer.proved_ == 0.0 and 0.0 < whole[0, 1] <= few[0, 1] <= 1.001 * whole[0, 1]
+    assert transformer.transform(bodies).shape == (2, 2)
