@@ -48,6 +48,7 @@ print(json.dumps({item.claim.claim: [item.verdict, item.number, item.why] for it
 
 
 Verdicts = dict[str, list[str]]
+OTHER_MACHINE = "kinds of machine do not compare"
 OUTCOMES = ("turned", "stopped", "untouched", "not computed")
 
 
@@ -95,7 +96,11 @@ class Trial:
 
     def outcome(self, claim: str) -> str:
         """Return what the fault did to a claim, one of OUTCOMES."""
-        before, after = self.before[claim][0], self.of(claim)[0]
+        before, (after, *said) = self.before[claim][0], self.of(claim)
+        if any(
+            OTHER_MACHINE in text for text in said
+        ):  # stored stages were timed elsewhere: nothing that the fault did
+            return "untouched"
         if "not computed" in (before, after):
             return "not computed" if before == after or before == "not computed" else "stopped"
         return "untouched" if before == after else "turned"

@@ -147,6 +147,10 @@ def test_what_a_fault_did_to_each_claim(tmp_path: Path, monkeypatch: pytest.Monk
     after = {"equal": ["does not hold", "9"], "steady": ["holds", "5"], "fast": ["not computed", "–"]}
     trial = claims.Trial(fault, before, after)
     assert [trial.outcome(claim) for claim in before] == ["turned", "untouched", "stopped", "not computed"]
+    timed = dataclasses.replace(
+        trial, after={"fast": ["not computed", "–", "seconds of 2 kinds of machine do not compare: new, old"]}
+    )
+    assert timed.outcome("fast") == "untouched" and timed.outcome("steady") == "stopped"
     assert trial.named == "steady" and trial.of("late")[0] == "not computed"
     other = dataclasses.replace(fault, claim="", new="3.0 * twice_area")
     again = {"before": before, "after": before | {"fast": ["does not hold", "4"]}}
