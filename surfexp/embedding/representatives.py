@@ -67,8 +67,9 @@ def represented(whole: SpectralEmbedding, count: int, seed: int = 0) -> Represen
     order = np.random.default_rng(seed).permutation(size)
     to_random = cKDTree(whole.points[order[:count]]).query(whole.points)[0]
     radius = RADIUS_OF_COVER * float(to_random @ whole.weights)
+    tree = cKDTree(whole.points, balanced_tree=False, compact_nodes=False)
     for _ in range(COVERS):
-        rows = _cover(whole.points, order, radius)
+        rows = _cover(tree, order, radius)
         if len(rows) > FEWER * count:
             break
         radius *= np.sqrt(len(rows) / count)
@@ -79,13 +80,12 @@ def represented(whole: SpectralEmbedding, count: int, seed: int = 0) -> Represen
     return Represented(whole, few, rows, float(distances @ whole.weights), float(distances.max()))
 
 
-def _cover(points: Floats, order: Integers, radius: float) -> Integers:
-    tree = cKDTree(points, balanced_tree=False, compact_nodes=False)
-    covered, chosen = np.zeros(len(points), bool), []
+def _cover(tree: cKDTree, order: Integers, radius: float) -> Integers:
+    covered, chosen = np.zeros(tree.n, bool), []
     for row in order:
         if not covered[row]:
             chosen.append(row)
-            covered[tree.query_ball_point(points[row], radius)] = True
+            covered[tree.query_ball_point(tree.data[row], radius)] = True
     return np.sort(np.array(chosen, dtype=np.int64))
 
 
